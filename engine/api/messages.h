@@ -1,0 +1,208 @@
+#pragma once
+/// The types of signals. Plain structs in SI units; each lists its fields once (`fields`), which
+/// serves the digest, saving and restoring. engine/record maps each to a ROS 2 message.
+///
+/// Frames: W world (East-North-Up at the scenario's origin), B body (x forward, y left, z up), S
+/// sensor.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/math/pose.h"
+
+namespace vinerow {
+
+/// Pose and twist of a body; truth or estimate. ROS 2: nav_msgs/msg/Odometry.
+struct Odometry {
+  static constexpr const char* kType = "Odometry";
+  Pose X_WB;
+  Eigen::Vector3d v_WB_B = Eigen::Vector3d::Zero();  ///< velocity of B's origin, m/s, in B
+  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< angular velocity, rad/s, in B
+  Eigen::Vector3d position_std_m =
+      Eigen::Vector3d::Zero();  ///< 1 sigma of the position in W; zero for truth
+  double yaw_std_rad = 0.0;
+
+  template <class F>
+  void fields(F&& f) {
+    f(X_WB.p), f(X_WB.q), f(v_WB_B), f(w_WB_B), f(position_std_m), f(yaw_std_rad);
+  }
+};
+
+/// Inertial measurement. ROS 2: sensor_msgs/msg/Imu.
+struct ImuSample {
+  static constexpr const char* kType = "ImuSample";
+  Eigen::Vector3d w_WS_S = Eigen::Vector3d::Zero();  ///< rate gyro, rad/s
+  Eigen::Vector3d f_WS_S =
+      Eigen::Vector3d::Zero();  ///< specific force (at rest on level ground: +g along z), m/s2
+
+  template <class F>
+  void fields(F&& f) {
+    f(w_WS_S), f(f_WS_S);
+  }
+};
+
+/// Satellite position fix, both in WGS84 and in W. ROS 2: sensor_msgs/msg/NavSatFix.
+struct GnssFix {
+  static constexpr const char* kType = "GnssFix";
+  bool valid = false;
+  double latitude_rad = 0.0;
+  double longitude_rad = 0.0;
+  double altitude_m = 0.0;                          ///< above the ellipsoid
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();    ///< antenna, m
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();    ///< m/s
+  Eigen::Vector3d std_m = Eigen::Vector3d::Zero();  ///< 1 sigma east, north, up
+
+  template <class F>
+  void fields(F&& f) {
+    f(valid), f(latitude_rad), f(longitude_rad), f(altitude_m), f(p_W), f(v_W), f(std_m);
+  }
+};
+
+/// One range reading along x of S. ROS 2: sensor_msgs/msg/Range.
+struct RangeSample {
+  static constexpr const char* kType = "RangeSample";
+  double range_m = 0.0;  ///< +infinity if nothing was seen
+  double min_range_m = 0.0;
+  double max_range_m = 0.0;
+  double half_angle_rad = 0.0;
+  Pose X_WS;  ///< true pose of the sensor at the reading, for pictures and checks
+
+  template <class F>
+  void fields(F&& f) {
+    f(range_m), f(min_range_m), f(max_range_m), f(half_angle_rad), f(X_WS.p), f(X_WS.q);
+  }
+};
+
+/// Wanted forward and turning speed of a ground vehicle. ROS 2: geometry_msgs/msg/TwistStamped.
+struct VelocityCommand {
+  static constexpr const char* kType = "VelocityCommand";
+  double v_mps = 0.0;
+  double yaw_rate_radps = 0.0;
+
+  template <class F>
+  void fields(F&& f) {
+    f(v_mps), f(yaw_rate_radps);
+  }
+};
+
+/// Named numbers of one kind: actuator commands, wheel states. Names are fixed when the writer
+/// connects. ROS 2: sensor_msgs/msg/JointState (names, `value` as position, see record/).
+struct NamedValues {
+  static constexpr const char* kType = "NamedValues";
+  std::vector<std::string> names;
+  std::vector<double> values;
+
+  template <class F>
+  void fields(F&& f) {
+    f(names), f(values);
+  }
+};
+
+/// Poses of the moving links of a vehicle in W, for pictures and /tf. ROS 2:
+/// tf2_msgs/msg/TFMessage.
+struct LinkPoses {
+  static constexpr const char* kType = "LinkPoses";
+  std::vector<std::string> names;
+  std::vector<Pose> X_WL;
+
+  template <class F>
+  void fields(F&& f) {
+    f(names);
+    for (Pose& pose : X_WL) f(pose.p), f(pose.q);
+  }
+};
+
+/// What a stretch of path is for. Metrics judge legs and turns apart.
+enum class PathKind : std::uint8_t { kLeg = 0, kTurn = 1, kTransit = 2 };
+
+/// One point of a path; the stretch from this point to the next has `kind`.
+struct PathPoint {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+  double yaw_rad = 0.0;          ///< direction of travel
+  double curvature_per_m = 0.0;  ///< of the stretch that starts here, positive to the left
+  double speed_mps = 0.0;        ///< wanted speed; 0 = the follower's own
+  PathKind kind = PathKind::kLeg;
+  std::int32_t alley = -1;  ///< index of the alley a leg runs in, -1 elsewhere
+};
+
+/// What a follower is to drive. ROS 2: nav_msgs/msg/Path.
+struct PlannedPath {
+  static constexpr const char* kType = "PlannedPath";
+  std::vector<PathPoint> points;
+  double length_m = 0.0;  ///< of the exact curve, not of the polyline
+
+  template <class F>
+  void fields(F&& f) {
+    for (PathPoint& point : points) {
+      f(point.p_W), f(point.yaw_rad), f(point.curvature_per_m), f(point.speed_mps);
+      f(point.kind), f(point.alley);
+    }
+    f(length_m);
+  }
+};
+
+/// How a follower sees itself on its path (from its estimate, not from truth).
+struct FollowerState {
+  static constexpr const char* kType = "FollowerState";
+  double lateral_error_m = 0.0;  ///< positive: left of the path
+  double heading_error_rad = 0.0;
+  double distance_m = 0.0;  ///< along the path
+  double remaining_m = 0.0;
+  std::int32_t waypoint = 0;  ///< current index
+  bool finished = false;
+
+  template <class F>
+  void fields(F&& f) {
+    f(lateral_error_m), f(heading_error_rad), f(distance_m), f(remaining_m), f(waypoint),
+        f(finished);
+  }
+};
+
+/// Electric energy. ROS 2: sensor_msgs/msg/BatteryState.
+struct BatteryState {
+  static constexpr const char* kType = "BatteryState";
+  double power_W = 0.0;        ///< drawn now, positive when discharging
+  double energy_used_J = 0.0;  ///< since the start
+  double charge = 1.0;         ///< remaining share of the capacity
+
+  template <class F>
+  void fields(F&& f) {
+    f(power_W), f(energy_used_J), f(charge);
+  }
+};
+
+/// What happened, for people: phase changes, contacts, warnings. ROS 2: rcl_interfaces/msg/Log.
+struct Event {
+  static constexpr const char* kType = "Event";
+  enum class Level : std::uint8_t { kInfo = 20, kWarning = 30, kError = 40 };
+  Level level = Level::kInfo;
+  std::string source;  ///< "rover.controller"
+  std::string text;
+
+  template <class F>
+  void fields(F&& f) {
+    f(level), f(source), f(text);
+  }
+};
+
+/// Calls `f` once per message type with a null pointer of that type: the closed list of signal
+/// types.
+template <class F>
+void for_each_message_type(F&& f) {
+  f(static_cast<Odometry*>(nullptr));
+  f(static_cast<ImuSample*>(nullptr));
+  f(static_cast<GnssFix*>(nullptr));
+  f(static_cast<RangeSample*>(nullptr));
+  f(static_cast<VelocityCommand*>(nullptr));
+  f(static_cast<NamedValues*>(nullptr));
+  f(static_cast<LinkPoses*>(nullptr));
+  f(static_cast<PlannedPath*>(nullptr));
+  f(static_cast<FollowerState*>(nullptr));
+  f(static_cast<BatteryState*>(nullptr));
+  f(static_cast<Event*>(nullptr));
+}
+
+}  // namespace vinerow

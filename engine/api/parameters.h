@@ -1,0 +1,131 @@
+#pragma once
+/// Parameters of parts: specified once (name, unit, range, default), validated on every way in.
+///
+/// The same spec gives the JSON Schema, `vinerow list`, the loader's checks and the values a part
+/// reads. File keys carry their unit as suffix (`lookahead_m`, `slope_deg`); a part converts to SI
+/// and radians when it reads them.
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace vinerow {
+
+enum class ParameterKind {
+  kNumber,      ///< double
+  kInteger,     ///< int64
+  kBoolean,     ///< bool
+  kText,        ///< string, free or one of `choices`
+  kPath,        ///< file or folder; relative to the file that names it, absolute after loading
+  kNumberList,  ///< list of double, `size` entries if size > 0
+  kTextList,    ///< list of string
+  kGroup,       ///< one mapping with its own `fields`
+  kGroupList,   ///< list of mappings with their own `fields`
+};
+
+/// What a parameter is allowed to be.
+struct ParameterSpec {
+  std::string name;  ///< key in files, unit as suffix
+  ParameterKind kind = ParameterKind::kNumber;
+  std::string unit;         ///< "m", "m/s", "deg", "Hz", "" for dimensionless and non-numbers
+  std::string description;  ///< one sentence
+  bool required = false;    ///< no default: the user must say it
+  double min = -std::numeric_limits<double>::infinity();  ///< for numbers, integers, each entry of
+                                                          ///< a number list
+  double max = std::numeric_limits<double>::infinity();
+  bool min_exclusive = false;  ///< value > min instead of >=
+  std::variant<std::monostate, double, std::int64_t, bool, std::string, std::vector<double>,
+               std::vector<std::string>>
+      default_value;                  ///< monostate: absent unless given (ask has())
+  std::vector<std::string> choices;   ///< for texts: allowed values; empty = any
+  int size = 0;                       ///< for number lists: required length; 0 = any
+  std::vector<ParameterSpec> fields;  ///< for groups
+};
+
+// Short makers, so that a spec reads like a table.
+ParameterSpec number_parameter(std::string name, std::string unit, double default_value, double min,
+                               double max, std::string description);
+/// Like number_parameter, but the value must be > 0.
+ParameterSpec positive_parameter(std::string name, std::string unit, double default_value,
+                                 std::string description);
+ParameterSpec integer_parameter(std::string name, std::int64_t default_value, double min,
+                                double max, std::string description);
+ParameterSpec boolean_parameter(std::string name, bool default_value, std::string description);
+ParameterSpec text_parameter(std::string name, std::string default_value, std::string description);
+ParameterSpec choice_parameter(std::string name, std::string default_value,
+                               std::vector<std::string> choices, std::string description);
+/// Absent unless given.
+ParameterSpec path_parameter(std::string name, std::string description);
+ParameterSpec number_list_parameter(std::string name, std::string unit,
+                                    std::vector<double> default_value, std::string description,
+                                    int size = 0);
+ParameterSpec text_list_parameter(std::string name, std::vector<std::string> default_value,
+                                  std::string description);
+ParameterSpec group_list_parameter(std::string name, std::vector<ParameterSpec> fields,
+                                   std::string description);
+ParameterSpec group_parameter(std::string name, std::vector<ParameterSpec> fields,
+                              std::string description);
+/// The same parameter without default, required (`must be given`).
+ParameterSpec required(ParameterSpec spec);
+/// The same parameter without default, absent unless given (a part asks has()).
+ParameterSpec optional(ParameterSpec spec);
+
+/// Values that passed the checks of their specs. Reading a name or type that the spec does not have
+/// is our bug (VINEROW_DEMAND); writing a wrong value is the user's (ConfigError).
+class ParameterSet {
+ public:
+  ParameterSet() = default;
+  /// All defaults. @param owner  who the parameters belong to, named in errors, e.g. "pure_pursuit"
+  explicit ParameterSet(std::vector<ParameterSpec> specs, std::string owner = "");
+
+  using Value = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
+                             std::vector<std::string>, std::vector<ParameterSet>>;
+
+  /// Sets one value. Integers are accepted where numbers are asked.
+  /// @throws ConfigError "lookahead_m = -1 m, must be > 0 m" | "unknown parameter 'lookahed_m' of
+  /// pure_pursuit;
+  ///         did you mean 'lookahead_m'?" | "... must be a number, not a text" | "... is not
+  ///         finite"
+  /// @param source  where the value comes from ("data sheet p. 2", "file.yaml:12"), kept for
+  /// reports
+  ParameterSet& set(std::string_view name, Value value, std::string source = "");
+
+  /// @throws ConfigError naming the first required parameter that was not given.
+  void require_complete() const;
+
+  bool has(std::string_view name) const;
+  double number(std::string_view name) const;
+  std::int64_t integer(std::string_view name) const;
+  bool boolean(std::string_view name) const;
+  const std::string& text(std::string_view name) const;  ///< also paths
+  const std::vector<double>& numbers(std::string_view name) const;
+  const std::vector<std::string>& texts(std::string_view name) const;
+  const std::vector<ParameterSet>& groups(std::string_view name) const;
+  const ParameterSet& group(std::string_view name) const;  ///< @pre has(name)
+  std::string source(std::string_view name) const;
+
+  /// A fresh set for an entry of a group or group list, to be filled and passed to set().
+  ParameterSet make_group(std::string_view name) const;
+
+  const std::vector<ParameterSpec>& specs() const { return specs_; }
+  const std::string& owner() const { return owner_; }
+
+ private:
+  struct Entry {
+    Value value;
+    std::string source;
+  };
+  const ParameterSpec& spec(std::string_view name) const;
+  template <class T>
+  const T& get(std::string_view name) const;
+
+  std::vector<ParameterSpec> specs_;
+  std::string owner_;
+  std::map<std::string, Entry, std::less<>> values_;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,56 @@
+#pragma once
+/// What every exchangeable part has in common: its spec, and how it is built.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/api/parameters.h"
+#include "engine/api/signal.h"
+#include "engine/core/random.h"
+#include "engine/core/time.h"
+
+namespace vinerow {
+
+/// How a part presents itself to `vinerow list`, the JSON Schema and the loader.
+struct PartSpec {
+  std::string name;         ///< the `type` in scenario files, snake_case
+  std::string description;  ///< one sentence, with the paper and equations it implements
+  std::vector<ParameterSpec> parameters;
+  double default_rate_Hz = 0.0;    ///< of stepped parts; 0 = every physics step or not stepped
+  std::vector<std::string> reads;  ///< local signal names, for documentation
+  std::vector<std::string> writes;
+  std::string version = "1";
+};
+
+struct WorldModel;
+class SceneQuery;
+struct VehicleDescription;
+
+/// What a part may know when it is built. References live as long as the run.
+struct PartContext {
+  std::string vehicle;     ///< name of its vehicle, "" for worlds and run-wide metrics
+  std::string part;        ///< full name, e.g. "rover.controller", for errors
+  std::uint64_t seed = 0;  ///< of the run
+  Duration period;         ///< of the part; 0 where it is not stepped
+  Duration physics_step;
+  double gravity_mps2 = 9.80665;
+  /// A fresh random stream of this part; `component` distinguishes several streams of one part.
+  RandomStream random(const std::string& component = "") const {
+    return RandomStream(seed, vehicle, component.empty() ? part : part + "." + component);
+  }
+};
+
+/// A part that runs at its own rate between physics steps: estimator, guidance, controller, sensor,
+/// metric.
+class SteppedPart {
+ public:
+  virtual ~SteppedPart() = default;
+  /// Declares the signals it reads and writes. Called once, before the first step.
+  virtual void connect(Ports& ports) = 0;
+  /// One tick. Neither throws, allocates nor logs in a normal step. @param now  simulated time of
+  /// the tick
+  virtual void step(Time now) = 0;
+};
+
+}  // namespace vinerow

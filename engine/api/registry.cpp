@@ -1,0 +1,160 @@
+#include "engine/api/registry.h"
+
+#include <fmt/format.h>
+
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+
+namespace vinerow {
+
+const char* to_string(PartKind kind) {
+  switch (kind) {
+    case PartKind::kWorld:
+      return "world";
+    case PartKind::kVehicle:
+      return "vehicle";
+    case PartKind::kSensor:
+      return "sensor";
+    case PartKind::kEstimator:
+      return "estimator";
+    case PartKind::kPlanner:
+      return "planner";
+    case PartKind::kGuidance:
+      return "guidance";
+    case PartKind::kController:
+      return "controller";
+    case PartKind::kMetric:
+      return "metric";
+  }
+  return "?";
+}
+
+template <class Product, class Context>
+void Registry::add(PartKind kind, Table<Product, Context>& table, PartSpec spec,
+                   PartFactory<Product, Context> make) {
+  const std::string name = spec.name;
+  const auto existing = table.find(name);
+  if (existing != table.end()) {
+    throw ConfigError(fmt::format("{} '{}' is registered twice ({}, {})", to_string(kind), name,
+                                  existing->second.origin, current_origin_));
+  }
+  table.emplace(name, Entry<Product, Context>{std::move(spec), current_origin_, std::move(make)});
+}
+
+template <class Visitor>
+auto Registry::visit(PartKind kind, Visitor&& visitor) const {
+  switch (kind) {
+    case PartKind::kWorld:
+      return visitor(worlds_);
+    case PartKind::kVehicle:
+      return visitor(vehicles_);
+    case PartKind::kSensor:
+      return visitor(sensors_);
+    case PartKind::kEstimator:
+      return visitor(estimators_);
+    case PartKind::kPlanner:
+      return visitor(planners_);
+    case PartKind::kGuidance:
+      return visitor(guidances_);
+    case PartKind::kController:
+      return visitor(controllers_);
+    case PartKind::kMetric:
+      break;
+  }
+  return visitor(metrics_);
+}
+
+template <class Product, class Context>
+const Registry::Entry<Product, Context>& Registry::find(PartKind kind,
+                                                        const Table<Product, Context>& table,
+                                                        const std::string& name) const {
+  const auto found = table.find(name);
+  if (found != table.end()) return found->second;
+  const std::vector<std::string> known = names(kind);
+  throw ConfigError(fmt::format("unknown {} '{}'{} (known: {})", to_string(kind), name,
+                                did_you_mean(name, known), known.empty() ? "none" : join(known)));
+}
+
+void Registry::add_world(PartSpec spec, PartFactory<WorldModel, WorldContext> make) {
+  add(PartKind::kWorld, worlds_, std::move(spec), std::move(make));
+}
+void Registry::add_vehicle(PartSpec spec, PartFactory<Vehicle, VehicleContext> make) {
+  add(PartKind::kVehicle, vehicles_, std::move(spec), std::move(make));
+}
+void Registry::add_sensor(PartSpec spec, PartFactory<Sensor, SensorContext> make) {
+  add(PartKind::kSensor, sensors_, std::move(spec), std::move(make));
+}
+void Registry::add_estimator(PartSpec spec, PartFactory<Estimator, EstimatorContext> make) {
+  add(PartKind::kEstimator, estimators_, std::move(spec), std::move(make));
+}
+void Registry::add_planner(PartSpec spec, PartFactory<Planner, PlannerContext> make) {
+  add(PartKind::kPlanner, planners_, std::move(spec), std::move(make));
+}
+void Registry::add_guidance(PartSpec spec, PartFactory<Guidance, ControllerContext> make) {
+  add(PartKind::kGuidance, guidances_, std::move(spec), std::move(make));
+}
+void Registry::add_controller(PartSpec spec, PartFactory<Controller, ControllerContext> make) {
+  add(PartKind::kController, controllers_, std::move(spec), std::move(make));
+}
+void Registry::add_metric(PartSpec spec, PartFactory<Metric, MetricContext> make) {
+  add(PartKind::kMetric, metrics_, std::move(spec), std::move(make));
+}
+
+std::vector<std::string> Registry::names(PartKind kind) const {
+  return visit(kind, [](const auto& table) {
+    std::vector<std::string> result;
+    for (const auto& [name, entry] : table) result.push_back(name);
+    return result;
+  });
+}
+
+const PartSpec& Registry::spec(PartKind kind, const std::string& name) const {
+  return *visit(kind, [&](const auto& table) { return &find(kind, table, name).spec; });
+}
+
+const std::string& Registry::origin(PartKind kind, const std::string& name) const {
+  return *visit(kind, [&](const auto& table) { return &find(kind, table, name).origin; });
+}
+
+std::unique_ptr<WorldModel> Registry::make_world(const std::string& name,
+                                                 const ParameterSet& parameters,
+                                                 const WorldContext& context) const {
+  return find(PartKind::kWorld, worlds_, name).make(parameters, context);
+}
+std::unique_ptr<Vehicle> Registry::make_vehicle(const std::string& name,
+                                                const ParameterSet& parameters,
+                                                const VehicleContext& context) const {
+  return find(PartKind::kVehicle, vehicles_, name).make(parameters, context);
+}
+std::unique_ptr<Sensor> Registry::make_sensor(const std::string& name,
+                                              const ParameterSet& parameters,
+                                              const SensorContext& context) const {
+  return find(PartKind::kSensor, sensors_, name).make(parameters, context);
+}
+std::unique_ptr<Estimator> Registry::make_estimator(const std::string& name,
+                                                    const ParameterSet& parameters,
+                                                    const EstimatorContext& context) const {
+  return find(PartKind::kEstimator, estimators_, name).make(parameters, context);
+}
+std::unique_ptr<Planner> Registry::make_planner(const std::string& name,
+                                                const ParameterSet& parameters,
+                                                const PlannerContext& context) const {
+  return find(PartKind::kPlanner, planners_, name).make(parameters, context);
+}
+std::unique_ptr<Guidance> Registry::make_guidance(const std::string& name,
+                                                  const ParameterSet& parameters,
+                                                  const ControllerContext& context) const {
+  return find(PartKind::kGuidance, guidances_, name).make(parameters, context);
+}
+std::unique_ptr<Controller> Registry::make_controller(const std::string& name,
+                                                      const ParameterSet& parameters,
+                                                      const ControllerContext& context) const {
+  return find(PartKind::kController, controllers_, name).make(parameters, context);
+}
+std::unique_ptr<Metric> Registry::make_metric(const std::string& name,
+                                              const ParameterSet& parameters,
+                                              const MetricContext& context) const {
+  return find(PartKind::kMetric, metrics_, name).make(parameters, context);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,55 @@
+#pragma once
+/// Questions about the geometry of the world: rays, distances, ground. Asked by sensors, metrics
+/// and wheels.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+
+#include "engine/api/mesh.h"
+#include "engine/math/pose.h"
+
+namespace vinerow {
+
+/// Bit set of surface classes.
+using SurfaceMask = std::uint32_t;
+constexpr SurfaceMask mask_of(SurfaceClass surface) {
+  return 1u << static_cast<int>(surface);
+}
+constexpr SurfaceMask kGroundMask =
+    mask_of(SurfaceClass::kTerrain) | mask_of(SurfaceClass::kObstacle);
+constexpr SurfaceMask kPlantMask =
+    mask_of(SurfaceClass::kCanopy) | mask_of(SurfaceClass::kPost) | mask_of(SurfaceClass::kTrunk);
+constexpr SurfaceMask kAllSurfaces = 0xffffffffu;
+
+struct RayHit {
+  double distance_m = 0.0;
+  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();  ///< unit, towards the ray's origin
+  SurfaceClass surface = SurfaceClass::kTerrain;
+  int mesh = -1;  ///< index into WorldModel::meshes, -1 for the height field
+};
+
+class SceneQuery {
+ public:
+  virtual ~SceneQuery() = default;
+
+  /// First hit along a ray. Vehicles are not seen. @param dir_W unit. No heap, thread safe.
+  virtual std::optional<RayHit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
+                                         double max_distance_m,
+                                         SurfaceMask mask = kAllSurfaces) const = 0;
+
+  /// Height of the highest ground at (x, y) at or below z_from. @returns nullopt where there is
+  /// none.
+  virtual std::optional<double> ground_height_m(double x, double y, double z_from) const = 0;
+
+  /// True distance from a box to the nearest mesh triangle of the masked classes; 0 if they
+  /// overlap.
+  /// @param half_extents_m  of the box, axes of X_WBox
+  /// @param max_distance_m  search radius; farther triangles are not looked for
+  /// @returns distance, or max_distance_m if nothing is nearer
+  virtual double distance_to_box_m(const Pose& X_WBox, const Eigen::Vector3d& half_extents_m,
+                                   double max_distance_m, SurfaceMask mask = kPlantMask) const = 0;
+};
+
+}  // namespace vinerow

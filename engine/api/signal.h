@@ -1,0 +1,190 @@
+#pragma once
+/// Typed, time-stamped signals and the bus that owns them.
+///
+/// A signal has one writer and any number of readers. Its name is "<vehicle>/<what>" ("rover/gps")
+/// or "run/<what>". Readers see the last value written (zero-order hold) with its time. Connecting
+/// checks names and types, so a wrong wire is an error while loading.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/api/messages.h"
+#include "engine/core/check.h"
+#include "engine/core/hash.h"
+#include "engine/core/time.h"
+
+namespace vinerow {
+
+class SignalBase {
+ public:
+  SignalBase(std::string name, const char* type) : name_(std::move(name)), type_(type) {}
+  virtual ~SignalBase() = default;
+  SignalBase(const SignalBase&) = delete;
+  SignalBase& operator=(const SignalBase&) = delete;
+
+  const std::string& name() const { return name_; }
+  const char* type() const { return type_; }
+  Time stamp() const { return stamp_; }
+  /// Number of writes so far; 0 = never written.
+  std::uint64_t sequence() const { return sequence_; }
+  const std::string& writer() const { return writer_; }
+  const std::string& first_reader() const { return first_reader_; }
+
+  /// Adds name, time and value to the digest of the run.
+  virtual void hash_into(Hasher& hasher) = 0;
+  /// True if any field is NaN. Infinity is allowed: it says "nothing seen".
+  virtual bool has_nan() = 0;
+
+ protected:
+  friend class SignalBus;
+  std::string name_;
+  const char* type_;
+  Time stamp_;
+  std::uint64_t sequence_ = 0;
+  std::string writer_;
+  std::string first_reader_;
+};
+
+template <class T>
+class Signal final : public SignalBase {
+ public:
+  explicit Signal(std::string name) : SignalBase(std::move(name), T::kType) {}
+
+  const T& value() const { return value_; }
+  /// Writes in place: no allocation when vectors keep their size.
+  void write(Time stamp, const T& value) {
+    value_ = value;
+    stamp_ = stamp;
+    ++sequence_;
+  }
+  void hash_into(Hasher& hasher) override;
+  bool has_nan() override;
+
+ private:
+  T value_{};
+};
+
+/// A part's end of a signal it reads. Cheap to copy; valid as long as the bus.
+template <class T>
+class SignalReader {
+ public:
+  SignalReader() = default;
+  explicit SignalReader(const Signal<T>* signal) : signal_(signal) {}
+  bool connected() const { return signal_ != nullptr; }
+  bool has_value() const { return signal_ != nullptr && signal_->sequence() > 0; }
+  const T& value() const {
+    VINEROW_ASSERT(has_value());
+    return signal_->value();
+  }
+  Time stamp() const { return signal_->stamp(); }
+  std::uint64_t sequence() const { return signal_ ? signal_->sequence() : 0; }
+  /// True once per write when called regularly: "is there something newer than I saw?"
+  bool is_newer_than(std::uint64_t& seen) const {
+    if (sequence() == seen) return false;
+    seen = sequence();
+    return true;
+  }
+
+ private:
+  const Signal<T>* signal_ = nullptr;
+};
+
+/// A part's end of the signal it writes.
+template <class T>
+class SignalWriter {
+ public:
+  SignalWriter() = default;
+  explicit SignalWriter(Signal<T>* signal) : signal_(signal) {}
+  bool connected() const { return signal_ != nullptr; }
+  void write(Time stamp, const T& value) {
+    VINEROW_ASSERT(signal_ != nullptr);
+    signal_->write(stamp, value);
+  }
+
+ private:
+  Signal<T>* signal_ = nullptr;
+};
+
+class SignalBus {
+ public:
+  /// @throws ConfigError if the name has a writer already or another type.
+  template <class T>
+  SignalWriter<T> advertise(const std::string& name, const std::string& writer);
+
+  /// The signal may be advertised later; check_connected() finds those that never were.
+  /// @throws ConfigError if the name has another type.
+  template <class T>
+  SignalReader<T> subscribe(const std::string& name, const std::string& reader);
+
+  /// @throws ConfigError "rover.controller reads 'rover/estimat' which nobody writes; did you mean
+  /// ...?"
+  void check_connected() const;
+
+  /// In order of creation, which is the same in every run.
+  const std::vector<std::unique_ptr<SignalBase>>& signals() const { return signals_; }
+  /// @returns nullptr if there is none
+  SignalBase* find(std::string_view name) const;
+
+ private:
+  SignalBase& slot(const std::string& name, const char* type, const std::string& who,
+                   std::unique_ptr<SignalBase> (*make)(const std::string&));
+  void set_writer(SignalBase& signal, const std::string& writer);
+  void set_reader(SignalBase& signal, const std::string& reader);
+
+  std::vector<std::unique_ptr<SignalBase>> signals_;
+  std::map<std::string, SignalBase*, std::less<>> by_name_;
+};
+
+template <class T>
+SignalWriter<T> SignalBus::advertise(const std::string& name, const std::string& writer) {
+  SignalBase& signal = slot(name, T::kType, writer, [](const std::string& n) {
+    return std::unique_ptr<SignalBase>(std::make_unique<Signal<T>>(n));
+  });
+  set_writer(signal, writer);
+  return SignalWriter<T>(static_cast<Signal<T>*>(&signal));
+}
+
+template <class T>
+SignalReader<T> SignalBus::subscribe(const std::string& name, const std::string& reader) {
+  SignalBase& signal = slot(name, T::kType, reader, [](const std::string& n) {
+    return std::unique_ptr<SignalBase>(std::make_unique<Signal<T>>(n));
+  });
+  set_reader(signal, reader);
+  return SignalReader<T>(static_cast<const Signal<T>*>(&signal));
+}
+
+/// The bus as one part sees it: local names inside its vehicle, e.g. "estimate" ->
+/// "rover/estimate".
+class Ports {
+ public:
+  /// @param scope  vehicle name, or "run"
+  /// @param part   who connects, for errors, e.g. "rover.controller"
+  Ports(SignalBus& bus, std::string scope, std::string part)
+      : bus_(bus), scope_(std::move(scope)), part_(std::move(part)) {}
+
+  /// @param name  local name; a name with '/' is taken as it is
+  template <class T>
+  SignalReader<T> read(const std::string& name) {
+    return bus_.subscribe<T>(full_name(name), part_);
+  }
+  template <class T>
+  SignalWriter<T> write(const std::string& name) {
+    return bus_.advertise<T>(full_name(name), part_);
+  }
+  const std::string& scope() const { return scope_; }
+  const std::string& part() const { return part_; }
+
+ private:
+  std::string full_name(const std::string& name) const {
+    return name.find('/') == std::string::npos ? scope_ + "/" + name : name;
+  }
+  SignalBus& bus_;
+  std::string scope_;
+  std::string part_;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,91 @@
+#pragma once
+/// The extension points that run between physics steps. A class sees signals only, so the same
+/// object runs in a simulation and in a unit test.
+///
+/// Order inside an instant: sensors, estimators, planners and guidance, controllers, actuators,
+/// physics, metrics. Local signal names (see Ports): "truth" (kernel), "<sensor name>" (sensors),
+/// "estimate" (estimator), "plan" (planner), "command" VelocityCommand or "actuators" NamedValues
+/// (controller), "follower" (controller).
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "engine/api/map.h"
+#include "engine/api/part.h"
+#include "engine/api/scene_query.h"
+#include "engine/api/vehicle.h"
+#include "engine/api/world_model.h"
+#include "engine/core/result.h"
+
+namespace vinerow {
+
+/// Measures. Reads "truth" and the scene, writes its own name.
+class Sensor : public SteppedPart {};
+
+/// What a sensor needs beside PartContext.
+struct SensorContext : PartContext {
+  std::string name;  ///< of the sensor, and of the signal it writes
+  const SceneQuery* scene = nullptr;
+  const WorldModel* world = nullptr;
+  const Vehicle* vehicle_truth = nullptr;  ///< for inertial sensors
+};
+
+/// Reads sensors, writes "estimate" (Odometry).
+class Estimator : public SteppedPart {};
+
+struct EstimatorContext : PartContext {
+  const VehicleDescription* vehicle_description = nullptr;
+  const RowMap* map = nullptr;
+};
+
+/// Makes a path from a map when its mission phase starts. Stops on iterations, never on seconds.
+class Planner {
+ public:
+  virtual ~Planner() = default;
+  /// @param start  pose of the vehicle (from its estimate)
+  /// @returns the path, or the reason why there is none
+  virtual Result<PlannedPath> plan(const Pose& start) = 0;
+};
+
+struct PlannerContext : PartContext {
+  const VehicleDescription* vehicle_description = nullptr;
+  const RowMap* map = nullptr;
+  /// Ground height of the map, m; used to lift planned points.
+  const SceneQuery* scene = nullptr;
+};
+
+/// Local planning: reads "estimate" and "plan", writes "reference" signals that a controller reads.
+class Guidance : public SteppedPart {};
+
+/// Reads "estimate" and "plan" (or guidance's signals), writes "actuators" (NamedValues) and
+/// "follower".
+class Controller : public SteppedPart {
+ public:
+  /// True when there is nothing left to do; the kernel ends the mission of the vehicle.
+  virtual bool finished() const { return false; }
+};
+
+struct ControllerContext : PartContext {
+  const VehicleDescription* vehicle_description = nullptr;
+  const RowMap* map = nullptr;
+};
+
+/// Judges a run. Reads signals (truth and plan), never writes any.
+class Metric : public SteppedPart {
+ public:
+  /// Called once after the last step. Names carry units: "cross_track_rms_m". Values may be NaN =
+  /// "not measured".
+  virtual std::map<std::string, double> results() const = 0;
+};
+
+struct MetricContext : PartContext {
+  const VehicleDescription* vehicle_description = nullptr;
+  const SceneQuery* scene = nullptr;
+  const WorldModel* world = nullptr;
+};
+
+/// Builds the true world. Everything is decided here; a WorldModel does not change afterwards.
+struct WorldContext : PartContext {};
+
+}  // namespace vinerow

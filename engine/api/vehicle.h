@@ -1,0 +1,90 @@
+#pragma once
+/// Extension point Vehicle: bodies, wheels or rotors in the physics world, driven by a named
+/// actuator vector.
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/api/mesh.h"
+#include "engine/api/part.h"
+
+namespace vinerow {
+
+namespace physics {
+class PhysicsWorld;
+}
+
+/// One entry of the actuator vector. Names carry their unit: "wheel_fl_speed_radps".
+struct ActuatorSpec {
+  std::string name;
+  std::string unit;
+  double min = 0.0;
+  double max = 0.0;
+};
+
+/// What a vehicle tells controllers, guidance, sensors and metrics about itself. Constant after
+/// building.
+struct VehicleDescription {
+  std::string type;
+  std::vector<ActuatorSpec> actuators;
+  double mass_kg = 0.0;
+  Eigen::Vector3d collision_centre_B = Eigen::Vector3d::Zero();  ///< of the box around the hull, m
+  Eigen::Vector3d collision_half_extents_m = {0.5, 0.5, 0.5};
+  double height_above_ground_m = 0.0;  ///< of B's origin when standing on level ground
+  /// Further numbers by name with unit suffix: "track_m", "wheel_radius_m", "max_speed_mps",
+  /// "min_turning_radius_m".
+  std::map<std::string, double> numbers;
+
+  /// @throws ConfigError "vehicle type 'x' does not tell 'track_m', which rover.controller needs"
+  double number(const std::string& name, const std::string& who) const;
+  /// Index of an actuator. @throws ConfigError naming the actuators the vehicle has and the
+  /// nearest.
+  int actuator_index(const std::string& name, const std::string& who) const;
+};
+
+/// A drawable link. Its pose comes with the LinkPoses signal, same order.
+struct VehicleLink {
+  std::string name;
+  std::shared_ptr<const TriangleMesh> mesh;
+  Material material;
+};
+
+class Vehicle {
+ public:
+  virtual ~Vehicle() = default;
+
+  virtual const VehicleDescription& description() const = 0;
+  virtual const std::vector<VehicleLink>& links() const = 0;
+
+  /// Creates the bodies, standing on the ground. @param X_WB pose of B at the start.
+  virtual void spawn(physics::PhysicsWorld& world, const Pose& X_WB) = 0;
+
+  /// Further signals of its own (wheel states, battery). The kernel itself writes "truth", "links"
+  /// and "actuators".
+  virtual void connect(Ports& ports) = 0;
+
+  /// Takes over the actuator vector; it holds until the next call. Values are already limited to
+  /// the specs.
+  /// @param values  description().actuators.size() entries
+  virtual void actuate(std::span<const double> values) = 0;
+
+  /// Forces of the coming physics step. @param now start of the step
+  virtual void before_physics(Time now, Duration dt) = 0;
+  /// After the step: reads the bodies, advances own states. @param now end of the step
+  virtual void after_physics(Time now, Duration dt) = 0;
+
+  /// True pose and twist of B.
+  virtual void read_truth(Odometry& truth) const = 0;
+  /// Specific force at B's origin in B (acceleration minus gravity), mean over the last step, m/s2.
+  virtual Eigen::Vector3d specific_force_B() const = 0;
+  /// Fills poses, same order as links(); the vectors have their size already.
+  virtual void read_links(std::vector<Pose>& X_WL) const = 0;
+  /// Writes own signals; called at the rate of the sense stage's truth.
+  virtual void publish(Time now) = 0;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,41 @@
+#include "engine/core/log.h"
+
+#include <cstdio>
+#include <mutex>
+#include <utility>
+
+namespace vinerow {
+namespace {
+
+std::mutex& sink_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+LogSink& sink() {
+  static LogSink instance = [](LogLevel level, const std::string& text) {
+    std::fprintf(stderr, "%s%s\n", level == LogLevel::kWarning ? "warning: " : "", text.c_str());
+  };
+  return instance;
+}
+
+void write(LogLevel level, const std::string& text) {
+  const std::scoped_lock lock(sink_mutex());
+  sink()(level, text);
+}
+
+}  // namespace
+
+void log_note(const std::string& text) {
+  write(LogLevel::kNote, text);
+}
+void log_warning(const std::string& text) {
+  write(LogLevel::kWarning, text);
+}
+
+LogSink set_log_sink(LogSink next) {
+  const std::scoped_lock lock(sink_mutex());
+  return std::exchange(sink(), std::move(next));
+}
+
+}  // namespace vinerow

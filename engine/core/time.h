@@ -1,0 +1,51 @@
+#pragma once
+/// Simulated time: an integer count of nanoseconds, so that rates are exact and no sum of steps
+/// drifts.
+
+#include <compare>
+#include <cstdint>
+
+namespace vinerow {
+
+/// A span of simulated time.
+struct Duration {
+  std::int64_t ns = 0;
+
+  constexpr double s() const { return static_cast<double>(ns) * 1e-9; }
+  constexpr auto operator<=>(const Duration&) const = default;
+};
+
+/// An instant of simulated time; zero is the start of the run.
+struct Time {
+  std::int64_t ns = 0;
+
+  constexpr double s() const { return static_cast<double>(ns) * 1e-9; }
+  constexpr auto operator<=>(const Time&) const = default;
+};
+
+constexpr Time operator+(Time t, Duration d) {
+  return {t.ns + d.ns};
+}
+constexpr Time operator-(Time t, Duration d) {
+  return {t.ns - d.ns};
+}
+constexpr Duration operator-(Time a, Time b) {
+  return {a.ns - b.ns};
+}
+constexpr Duration operator+(Duration a, Duration b) {
+  return {a.ns + b.ns};
+}
+constexpr Duration operator*(Duration d, std::int64_t n) {
+  return {d.ns * n};
+}
+
+/// Nearest whole nanosecond. @param seconds finite, |seconds| < 9e9.
+Duration duration_from_s(double seconds);
+
+/// Period of a rate. @param rate_Hz finite, > 0.
+/// @returns the period rounded to the nearest nanosecond; a rate such as 30 Hz has no exact period
+/// and is
+///          refused by the scheduler because no physics step divides it.
+Duration period_of_rate(double rate_Hz);
+
+}  // namespace vinerow

@@ -1,0 +1,150 @@
+#pragma once
+/// A scenario as loaded: every value checked against the specs of the parts it names, every path
+/// absolute.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/api/registry.h"
+#include "engine/core/time.h"
+
+namespace vinerow::io {
+
+/// Where in the user's files something was said: "file.yaml:12".
+struct SourceMark {
+  std::string file;
+  int line = 0;  ///< 1-based; 0 = not from a file (--set, default)
+  std::string text() const;
+};
+
+/// A part as named in a scenario: `type`, `rate_Hz`, and its parameters at the same level.
+struct PartConfig {
+  std::string type;
+  double rate_Hz = 0.0;  ///< the given one or the spec's default; 0 where the kind has none
+  ParameterSet parameters;
+  SourceMark where;
+};
+
+/// How a vehicle starts. Either a pose, a spawn point of the world, or an alley's entrance.
+struct SpawnConfig {
+  std::optional<Eigen::Vector2d> p_W;  ///< x_m, y_m
+  double yaw_rad = 0.0;                ///< yaw_deg
+  std::string point;                   ///< name of a WorldModel spawn point
+  std::optional<int>
+      alley;  ///< start on this alley's centre line, `offset_m` before its first point
+  double offset_m = 0.0;
+  bool reverse = false;  ///< start at the alley's last point, driving towards the first
+  SourceMark where;
+};
+
+struct NamedPart {
+  std::string name;
+  PartConfig part;
+};
+
+struct VehicleConfig {
+  std::string name;
+  PartConfig vehicle;
+  SpawnConfig spawn;
+  std::vector<NamedPart> sensors;       ///< in file order
+  std::optional<PartConfig> estimator;  ///< absent: estimate = truth
+  std::optional<PartConfig> planner;
+  std::optional<PartConfig> guidance;
+  std::optional<PartConfig> controller;
+  SourceMark where;
+};
+
+enum class CameraKind { kFixed, kChase, kTop, kOnBoard };
+
+struct CameraConfig {
+  std::string name;
+  CameraKind kind = CameraKind::kChase;
+  std::string vehicle;                   ///< chase, on board; top: follows it if given
+  Eigen::Vector3d p_W = {0, 0, 10};      ///< fixed: position_m; z is above the ground
+  Eigen::Vector3d target_W = {0, 0, 0};  ///< fixed: look_at_m
+  double distance_m = 6.0;               ///< chase: behind the vehicle
+  double height_m = 2.5;  ///< chase: above the vehicle; top: above the ground (0 = fits the world)
+  Eigen::Vector3d offset_B = {0.3, 0, 0.6};  ///< on board
+  double yaw_rad = 0.0;    ///< yaw_deg: chase, orbit angle from behind; on board, view direction
+  double pitch_rad = 0.0;  ///< pitch_deg: on board, positive looks down
+  double fov_rad = 0.96;   ///< fov_deg, vertical
+  bool show_sensor_rays = false;
+  bool show_trail = true;
+  bool show_plan = true;
+  SourceMark where;
+};
+
+struct PicturesConfig {
+  int width = 1280;
+  int height = 720;
+  int samples = 4;              ///< antialiasing, 1..8
+  std::vector<double> times_s;  ///< frames at these times
+  double every_s = 0.0;         ///< and every so often; 0 = not
+  std::vector<double>
+      shares;  ///< and at these shares of the run's end (0..1), e.g. 1.0 = last instant
+  std::vector<CameraConfig> cameras;
+};
+
+struct RecordConfig {
+  bool enabled = true;
+  double truth_rate_Hz = 20.0;  ///< how often truth, links and wheel states go into the log
+  double sensor_rate_limit_Hz =
+      100.0;  ///< faster sensors are thinned in the log (never in the simulation)
+  std::string compression = "zstd";  ///< zstd | lz4 | none
+};
+
+/// A limit on a metric: `rover.cross_track_rms_m` at most / at least this.
+struct Criterion {
+  std::string name;    ///< default: the metric and the limit
+  std::string metric;  ///< "<vehicle>.<metric>"
+  std::optional<double> min;
+  std::optional<double> max;
+  SourceMark where;
+};
+
+struct Scenario {
+  std::string name;
+  std::string description;
+  std::filesystem::path file;
+  std::uint64_t seed = 1;
+  double duration_s = 60.0;        ///< the run ends here at the latest
+  bool stop_when_finished = true;  ///< end when every controller has finished
+  Duration physics_step{1'000'000};
+  double gravity_mps2 = 9.80665;
+  PartConfig world;
+  std::vector<VehicleConfig> vehicles;  ///< in file order
+  std::vector<NamedPart> metrics;       ///< run for every vehicle
+  std::vector<Criterion> criteria;
+  RecordConfig record;
+  PicturesConfig pictures;
+  std::vector<std::filesystem::path> plugins;
+  std::string resolved_yaml;  ///< includes and overrides applied, defaults written out
+};
+
+/// Values from the command line, applied over the file.
+struct Overrides {
+  std::vector<std::string>
+      sets;  ///< "rover.controller.lookahead_m=0.5"; `vehicles.` may be left out
+  std::optional<std::uint64_t> seed;
+};
+
+/// Only the plug-in list, read first because plug-ins extend the registry that the rest is checked
+/// against.
+std::vector<std::filesystem::path> load_plugin_list(const std::filesystem::path& file);
+
+/// Loads, includes, overrides and checks. @throws ConfigError with "file:line: key = value, ..." in
+/// one sentence
+Scenario load_scenario(const std::filesystem::path& file, const Registry& registry,
+                       const Overrides& overrides = {});
+/// The same from text, for tests; relative paths start at `folder`.
+Scenario parse_scenario(const std::string& yaml, const std::filesystem::path& folder,
+                        const Registry& registry, const Overrides& overrides = {});
+
+/// JSON Schema (draft 2020-12) of scenario files for exactly the parts in the registry.
+std::string scenario_json_schema(const Registry& registry);
+
+}  // namespace vinerow::io

@@ -1,0 +1,23 @@
+#pragma once
+/// Where a test finds data made by others, which the repository does not hold.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace vinerow::test {
+
+/// Folder with outside data: $VINEROW_DATA, or ../shared/data beside the project.
+inline std::filesystem::path outside_data_folder() {
+  if (const char* folder = std::getenv("VINEROW_DATA")) return folder;
+  return std::filesystem::path(VINEROW_SOURCE_DIR) / ".." / "shared" / "data";
+}
+
+}  // namespace vinerow::test
+
+/// Skips the running test, by name, where the outside file or folder is absent; else sets `path`.
+#define VINEROW_OUTSIDE_DATA(path, relative)                                              \
+  const std::filesystem::path path = ::vinerow::test::outside_data_folder() / (relative); \
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "outside data absent: " << (relative)

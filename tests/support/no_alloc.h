@@ -1,0 +1,16 @@
+#pragma once
+/// Counts heap allocations of this thread while a guard lives, so that a test can say "a step
+/// allocates nothing". Link vinerow_no_alloc to use it.
+
+#include <cstddef>
+
+namespace vinerow::test {
+
+class AllocationCounter {
+ public:
+  AllocationCounter();
+  ~AllocationCounter();
+  std::size_t count() const;  ///< allocations since construction
+};
+
+}  // namespace vinerow::test

@@ -40,6 +40,9 @@ enum class SurfaceClass : std::uint8_t {
   kVehicle,
 };
 
+/// "post": for events and errors.
+const char* to_string(SurfaceClass surface);
+
 /// How to draw a surface.
 struct Material {
   std::string name;

@@ -21,7 +21,16 @@
 namespace vinerow {
 
 /// Measures. Reads "truth" and the scene, writes its own name.
-class Sensor : public SteppedPart {};
+///
+/// A sensor with a delay measures in step() and hands the reading over in deliver(), which the kernel calls
+/// `delay()` later, once per step() and in the same order. The signal's stamp is the time of the measurement.
+class Sensor : public SteppedPart {
+ public:
+  /// Time between measurement and delivery, a multiple of the physics step; constant.
+  virtual Duration delay() const { return {}; }
+  /// Only called where delay() > 0.
+  virtual void deliver(Time /*now*/) {}
+};
 
 /// What a sensor needs beside PartContext.
 struct SensorContext : PartContext {

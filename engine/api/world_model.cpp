@@ -31,6 +31,11 @@ Corners corners(const HeightField& field, const CellPoint& c) {
 
 }  // namespace
 
+const char* to_string(SurfaceClass surface) {
+  constexpr const char* kNames[] = {"terrain", "canopy", "post", "trunk", "wire", "obstacle", "vehicle"};
+  return kNames[static_cast<int>(surface)];
+}
+
 double HeightField::height_m(double x, double y) const {
   const CellPoint c = locate(*this, x, y);
   const auto [h00, h10, h01, h11] = corners(*this, c);

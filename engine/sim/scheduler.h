@@ -1,0 +1,58 @@
+#pragma once
+/// Multi-rate scheduler on integer nanoseconds: which tasks are due at an instant, and in which order.
+///
+/// Rates are exact: a task of period T and offset D runs at D, D + T, D + 2T ... and at no other time, so that an
+/// hour holds exactly 18,000 ticks of a 5 Hz task. Inside an instant tasks run by stage, then in order of adding.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/core/time.h"
+
+namespace vinerow {
+
+/// The order inside one instant. Physics then carries the state to the next instant.
+enum class Stage { kSense, kEstimate, kPlan, kGuide, kControl, kActuate, kJudge };
+
+class Scheduler {
+ public:
+  /// @param step  physics step; every period and offset must be a multiple of it
+  explicit Scheduler(Duration step) : step_(step) {}
+
+  /// @param name  who, for errors and timings, e.g. "rover.controller"
+  /// @throws ConfigError naming both numbers if the step does not divide the period or the offset
+  void add(Stage stage, std::string name, Duration period, Duration offset, std::function<void(Time)> run);
+
+  /// Runs everything that is due at `now`. Instants must be visited in rising order without gaps.
+  void run_due(Time now);
+
+  struct TaskReport {
+    std::string name;
+    Stage stage;
+    Duration period;
+    std::uint64_t ticks = 0;
+    double wall_s = 0.0;  ///< computing time of all ticks; only filled where measure() was asked
+  };
+  std::vector<TaskReport> reports() const;
+  /// Measures the computing time of each task. It never reaches a result.
+  void measure(bool on) { measure_ = on; }
+
+ private:
+  struct Task {
+    Stage stage;
+    std::string name;
+    Duration period;
+    Time next;
+    std::function<void(Time)> run;
+    std::uint64_t ticks = 0;
+    std::int64_t wall_ns = 0;
+  };
+  Duration step_;
+  std::vector<Task> tasks_;  // sorted by stage, stable
+  Time earliest_{0};
+  bool measure_ = false;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,125 @@
+#include "engine/sim/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+#include "engine/sim/vehicle_runtime.h"
+
+namespace vinerow {
+
+std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry) {
+  WorldContext context;
+  context.part = "world";
+  context.seed = scenario.seed;
+  context.physics_step = scenario.physics_step;
+  context.gravity_mps2 = scenario.gravity_mps2;
+  return registry.make_world(scenario.world.type, scenario.world.parameters, context);
+}
+
+Simulation::Simulation(const io::Scenario& scenario, const Registry& registry)
+    : scenario_(scenario), world_(build_world(scenario, registry)), scheduler_(scenario.physics_step) {
+  physics::PhysicsSettings settings;
+  settings.step = scenario_.physics_step;
+  settings.gravity_mps2 = scenario_.gravity_mps2;
+  physics_ = std::make_unique<physics::PhysicsWorld>(settings, *world_);
+
+  events_ = bus_.advertise<Event>("run/events", "run");
+  const RunContext run{scenario_,
+                       registry,
+                       *world_,
+                       *physics_,
+                       bus_,
+                       scheduler_,
+                       [this](Event::Level level, const std::string& source, const std::string& text) {
+                         emit(level, source, text);
+                       }};
+  for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
+    vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run));
+  }
+  bus_.check_connected();
+
+  hashed_sequence_.assign(bus_.signals().size(), 0);
+  hashed_.assign(bus_.signals().size(), true);
+  for (const auto& vehicle : vehicles_) {
+    for (const std::string& diagnostic : vehicle->diagnostic_signals()) {
+      for (std::size_t i = 0; i < bus_.signals().size(); ++i) {
+        if (bus_.signals()[i]->name() == diagnostic) hashed_[i] = false;
+      }
+    }
+  }
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::emit(Event::Level level, const std::string& source, const std::string& text) {
+  const Event event{level, source, text};
+  events_.write(now_, event);
+  for (RunObserver* observer : observers_) observer->on_event(now_, event);
+}
+
+bool Simulation::finished() const {
+  bool any = false;
+  for (const auto& vehicle : vehicles_) {
+    if (!vehicle->has_controller()) continue;
+    any = true;
+    if (!vehicle->finished()) return false;
+  }
+  return any;
+}
+
+void Simulation::work_instant() {
+  for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
+  scheduler_.run_due(now_);
+  hash_new_signals();
+  for (RunObserver* observer : observers_) observer->on_instant(now_);
+}
+
+void Simulation::hash_new_signals() {
+  const auto& signals = bus_.signals();
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (signals[i]->sequence() == hashed_sequence_[i]) continue;
+    hashed_sequence_[i] = signals[i]->sequence();
+    if (hashed_[i]) signals[i]->hash_into(hasher_);
+  }
+}
+
+void Simulation::step_physics() {
+  const Duration step = scenario_.physics_step;
+  for (const auto& vehicle : vehicles_) vehicle->before_physics(now_, step);
+  physics_->step(step);
+  now_ = now_ + step;
+  ++steps_;
+  for (const auto& vehicle : vehicles_) vehicle->after_physics(now_, step);
+}
+
+void Simulation::run_until(Time end) {
+  const Time last{duration_from_s(scenario_.duration_s).ns / scenario_.physics_step.ns * scenario_.physics_step.ns};
+  while (!over_ && now_ <= end) {
+    work_instant();
+    over_ = now_ >= last || (scenario_.stop_when_finished && finished());
+    if (!over_) step_physics();
+  }
+}
+
+void Simulation::run() { run_until(Time{duration_from_s(scenario_.duration_s).ns}); }
+
+std::map<std::string, std::map<std::string, double>> Simulation::metrics() const {
+  std::map<std::string, std::map<std::string, double>> all;
+  for (const auto& vehicle : vehicles_) all[vehicle->name()] = vehicle->metric_results();
+  return all;
+}
+
+const Odometry& Simulation::truth(const std::string& name) const {
+  std::vector<std::string> known;
+  for (const auto& vehicle : vehicles_) {
+    if (vehicle->name() == name) return vehicle->truth();
+    known.push_back(vehicle->name());
+  }
+  throw ConfigError(fmt::format("no vehicle '{}' in this run{} (known: {})", name, did_you_mean(name, known),
+                                join(known)));
+}
+
+}  // namespace vinerow

@@ -1,0 +1,97 @@
+#pragma once
+/// One run of one scenario: builds the parts, wires the signals, steps. No files are written here.
+///
+/// At each instant t = k * physics step: truth is published, then sense, estimate, plan, guide, control, actuate,
+/// judge (metrics); observers see the instant and the digest takes in every signal written; then physics carries
+/// the state to t + step and is checked.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/api/registry.h"
+#include "engine/core/hash.h"
+#include "engine/io/scenario.h"
+#include "engine/physics/physics_world.h"
+#include "engine/sim/scheduler.h"
+
+namespace vinerow {
+
+class VehicleRuntime;
+
+/// Looks at a run without changing it.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  /// Everything of this instant is written, physics has not yet moved on.
+  virtual void on_instant(Time /*now*/) {}
+  /// The signal "run/events" has just been written.
+  virtual void on_event(Time /*now*/, const Event& /*event*/) {}
+};
+
+class Simulation {
+ public:
+  /// Builds everything. @param registry must outlive the simulation
+  /// @throws ConfigError
+  Simulation(const io::Scenario& scenario, const Registry& registry);
+  ~Simulation();
+
+  const io::Scenario& scenario() const { return scenario_; }
+  const WorldModel& world() const { return *world_; }
+  const SignalBus& bus() const { return bus_; }
+  physics::PhysicsWorld& physics() { return *physics_; }
+  Scheduler& scheduler() { return scheduler_; }
+
+  /// Called at every instant from now on; not owned.
+  void add_observer(RunObserver* observer) { observers_.push_back(observer); }
+
+  /// Runs until the mission is over, or `end` is reached; can be called again to go on.
+  /// @throws SimulationError
+  void run_until(Time end);
+  /// Runs to the scenario's end.
+  void run();
+  /// No further step will be made: the duration is over or every controller has finished.
+  bool over() const { return over_; }
+  /// Every controller said that it has finished.
+  bool finished() const;
+  /// The next instant to be worked on.
+  Time now() const { return now_; }
+  std::uint64_t steps() const { return steps_; }
+
+  /// Digest over every signal written so far (diagnostics such as link poses excepted: they follow from truth).
+  std::string digest() const { return hasher_.hex(); }
+
+  /// metrics[vehicle][metric]. Call when over().
+  std::map<std::string, std::map<std::string, double>> metrics() const;
+  /// True pose and twist of a vehicle now. @throws ConfigError for an unknown name
+  const Odometry& truth(const std::string& vehicle) const;
+  const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles() const { return vehicles_; }
+
+  /// Writes to "run/events" and tells the observers.
+  void emit(Event::Level level, const std::string& source, const std::string& text);
+
+ private:
+  void work_instant();
+  void hash_new_signals();
+  void step_physics();
+
+  io::Scenario scenario_;
+  std::unique_ptr<WorldModel> world_;
+  std::unique_ptr<physics::PhysicsWorld> physics_;
+  SignalBus bus_;
+  Scheduler scheduler_;
+  std::vector<std::unique_ptr<VehicleRuntime>> vehicles_;
+  SignalWriter<Event> events_;
+  std::vector<RunObserver*> observers_;
+  std::vector<std::uint64_t> hashed_sequence_;  // per signal of the bus
+  std::vector<bool> hashed_;                    // per signal: part of the digest
+  Hasher hasher_;
+  Time now_;
+  std::uint64_t steps_ = 0;
+  bool over_ = false;
+};
+
+/// The world of a scenario. @throws ConfigError
+std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry);
+
+}  // namespace vinerow

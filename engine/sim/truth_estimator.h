@@ -1,0 +1,21 @@
+#pragma once
+/// The estimator of a vehicle that has none: its estimate is the truth.
+
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+class TruthEstimator final : public Estimator {
+ public:
+  void connect(Ports& ports) override {
+    truth_ = ports.read<Odometry>("truth");
+    estimate_ = ports.write<Odometry>("estimate");
+  }
+  void step(Time now) override { estimate_.write(now, truth_.value()); }
+
+ private:
+  SignalReader<Odometry> truth_;
+  SignalWriter<Odometry> estimate_;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,306 @@
+#include "engine/sim/vehicle_runtime.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/sim/truth_estimator.h"
+
+namespace vinerow {
+namespace {
+
+/// Contacts closer than this in time are one touch.
+constexpr Duration kContactGap{500'000'000};
+/// Envelope of a sane state; beyond it the run has come apart.
+constexpr double kMaxDistance_m = 1e6;
+constexpr double kMaxSpeed_mps = 1e3;
+/// Diagnostics need no more than a picture does; the recorder thins further.
+constexpr double kDefaultControlRate_Hz = 20.0;
+
+/// Smallest multiple of the physics step that is not shorter than 1 / rate.
+Duration diagnostics_period(double rate_Hz, Duration step) {
+  const double wanted_ns = 1e9 / rate_Hz;
+  return {static_cast<std::int64_t>(std::ceil(wanted_ns / static_cast<double>(step.ns) - 1e-9)) * step.ns};
+}
+
+bool is_finite(const Odometry& state) {
+  return state.X_WB.p.allFinite() && state.X_WB.q.coeffs().allFinite() && state.v_WB_B.allFinite() &&
+         state.w_WB_B.allFinite();
+}
+
+}  // namespace
+
+template <class Context>
+Context VehicleRuntime::context(const std::string& part, double rate_Hz) const {
+  Context result;
+  result.vehicle = config_.name;
+  result.part = part;
+  result.seed = run_.scenario.seed;
+  result.period = rate_Hz > 0.0 ? period_of_rate(rate_Hz) : Duration{};
+  result.physics_step = run_.scenario.physics_step;
+  result.gravity_mps2 = run_.scenario.gravity_mps2;
+  return result;
+}
+
+std::function<void(Time)> VehicleRuntime::guarded(const std::string& part, const std::string& type,
+                                                  std::function<void(Time)> step) {
+  const std::string culprit = fmt::format("{} ({})", part, type);
+  // The signals this part writes are known after it has connected.
+  std::vector<SignalBase*> written;
+  for (const auto& signal : run_.bus.signals()) {
+    if (signal->writer() == part) written.push_back(signal.get());
+  }
+  return [culprit, written = std::move(written), step = std::move(step)](Time now) {
+    try {
+      step(now);
+    } catch (const SimulationError&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw SimulationError(culprit, now, fmt::format("threw an exception: {}", error.what()));
+    } catch (...) {
+      throw SimulationError(culprit, now, "threw an exception of unknown type");
+    }
+    for (SignalBase* signal : written) {
+      if (signal->has_nan()) {
+        throw SimulationError(culprit, now, fmt::format("wrote NaN into signal '{}'", signal->name()));
+      }
+    }
+  };
+}
+
+void VehicleRuntime::add_stepped(Stage stage, const std::string& part, const std::string& type, double rate_Hz,
+                                 SteppedPart& stepped) {
+  Ports ports(run_.bus, config_.name, part);
+  stepped.connect(ports);
+  run_.scheduler.add(stage, part, period_of_rate(rate_Hz), {},
+                     guarded(part, type, [&stepped](Time now) { stepped.step(now); }));
+}
+
+VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext& run) : config_(config), run_(run) {
+  const std::string& name = config_.name;
+  vehicle_ = run_.registry.make_vehicle(config_.vehicle.type, config_.vehicle.parameters,
+                                        context<VehicleContext>(name, 0.0));
+  const VehicleDescription& description = vehicle_->description();
+  const Pose X_WB = find_spawn_pose(config_.spawn, run_.world, run_.physics.scene(), name,
+                                    description.height_above_ground_m);
+  first_body_ = run_.physics.body_count();
+  vehicle_->spawn(run_.physics, X_WB);
+  end_body_ = run_.physics.body_count();
+
+  Ports ports(run_.bus, name, name);
+  truth_writer_ = ports.write<Odometry>("truth");
+  const std::size_t own_signals_begin = run_.bus.signals().size();
+  links_writer_ = ports.write<LinkPoses>("links");
+  vehicle_->connect(ports);
+  for (std::size_t i = own_signals_begin; i < run_.bus.signals().size(); ++i) {
+    diagnostic_signals_.push_back(run_.bus.signals()[i]->name());
+  }
+  for (const VehicleLink& link : vehicle_->links()) links_.names.push_back(link.name);
+  links_.X_WL.resize(links_.names.size());
+  contacts_writer_ = ports.write<NamedValues>("contacts");
+  contacts_.names = {"touches", "touching"};
+  contacts_.values = {0.0, 0.0};
+
+  run_.scheduler.add(Stage::kSense, name + ".diagnostics",
+                     diagnostics_period(run_.scenario.record.truth_rate_Hz, run_.scenario.physics_step), {},
+                     [this](Time now) { publish_diagnostics(now); });
+  add_sensors();
+  add_estimator();
+  add_planner();
+  add_controller();
+  add_metrics();
+}
+
+double VehicleRuntime::control_rate_Hz() const {
+  return config_.controller ? config_.controller->rate_Hz : kDefaultControlRate_Hz;
+}
+
+void VehicleRuntime::add_sensors() {
+  for (const io::NamedPart& sensor : config_.sensors) {
+    const std::string part = fmt::format("{}.sensors.{}", config_.name, sensor.name);
+    auto sensor_context = context<SensorContext>(part, sensor.part.rate_Hz);
+    sensor_context.name = sensor.name;
+    sensor_context.scene = &run_.physics.scene();
+    sensor_context.world = &run_.world;
+    sensor_context.vehicle_truth = vehicle_.get();
+    sensors_.push_back(run_.registry.make_sensor(sensor.part.type, sensor.part.parameters, sensor_context));
+    Sensor& built = *sensors_.back();
+    add_stepped(Stage::kSense, part, sensor.part.type, sensor.part.rate_Hz, built);
+    if (built.delay().ns > 0) {
+      run_.scheduler.add(Stage::kSense, part + ".delivery", sensor_context.period, built.delay(),
+                         guarded(part, sensor.part.type, [&built](Time now) { built.deliver(now); }));
+    }
+  }
+}
+
+void VehicleRuntime::add_estimator() {
+  const std::string part = config_.name + ".estimator";
+  const bool given = config_.estimator.has_value();
+  const std::string type = given ? config_.estimator->type : "truth";
+  const double rate_Hz = given && config_.estimator->rate_Hz > 0.0 ? config_.estimator->rate_Hz : control_rate_Hz();
+  auto estimator_context = context<EstimatorContext>(part, rate_Hz);
+  estimator_context.vehicle_description = &vehicle_->description();
+  estimator_context.map = &run_.world.rows;
+  estimator_ = given ? run_.registry.make_estimator(type, config_.estimator->parameters, estimator_context)
+                     : std::make_unique<TruthEstimator>();
+  add_stepped(Stage::kEstimate, part, type, rate_Hz, *estimator_);
+}
+
+void VehicleRuntime::add_planner() {
+  if (!config_.planner) return;
+  const std::string part = config_.name + ".planner";
+  auto planner_context = context<PlannerContext>(part, control_rate_Hz());
+  planner_context.vehicle_description = &vehicle_->description();
+  planner_context.map = &run_.world.rows;
+  planner_context.scene = &run_.physics.scene();
+  planner_ = run_.registry.make_planner(config_.planner->type, config_.planner->parameters, planner_context);
+  Ports ports(run_.bus, config_.name, part);
+  estimate_ = ports.read<Odometry>("estimate");
+  plan_writer_ = ports.write<PlannedPath>("plan");
+  run_.scheduler.add(Stage::kPlan, part, planner_context.period, {},
+                     guarded(part, config_.planner->type, [this](Time now) { try_to_plan(now); }));
+}
+
+void VehicleRuntime::try_to_plan(Time now) {
+  if (planned_ || !estimate_.has_value()) return;
+  const Result<PlannedPath> plan = planner_->plan(estimate_.value().X_WB);
+  if (!plan) {
+    throw ConfigError(fmt::format("{}: {}.planner ({}): {}", config_.planner->where.text(), config_.name,
+                                  config_.planner->type, plan.reason()));
+  }
+  planned_ = true;
+  plan_writer_.write(now, *plan);
+  run_.emit(Event::Level::kInfo, config_.name + ".planner",
+            fmt::format("planned {:.2f} m with {} points", plan->length_m, plan->points.size()));
+}
+
+void VehicleRuntime::add_controller() {
+  if (!config_.controller) return;
+  const auto controller_context_of = [&](const std::string& part, double rate_Hz) {
+    auto result = context<ControllerContext>(part, rate_Hz);
+    result.vehicle_description = &vehicle_->description();
+    result.map = &run_.world.rows;
+    return result;
+  };
+  if (config_.guidance) {
+    const std::string part = config_.name + ".guidance";
+    const double rate_Hz = config_.guidance->rate_Hz > 0.0 ? config_.guidance->rate_Hz : control_rate_Hz();
+    guidance_ = run_.registry.make_guidance(config_.guidance->type, config_.guidance->parameters,
+                                            controller_context_of(part, rate_Hz));
+    add_stepped(Stage::kGuide, part, config_.guidance->type, rate_Hz, *guidance_);
+  }
+  const std::string part = config_.name + ".controller";
+  controller_ = run_.registry.make_controller(config_.controller->type, config_.controller->parameters,
+                                              controller_context_of(part, control_rate_Hz()));
+  add_stepped(Stage::kControl, part, config_.controller->type, control_rate_Hz(), *controller_);
+  Ports ports(run_.bus, config_.name, config_.name);
+  actuators_ = ports.read<NamedValues>("actuators");
+  actuator_values_.assign(vehicle_->description().actuators.size(), 0.0);
+  run_.scheduler.add(Stage::kActuate, config_.name + ".actuators", period_of_rate(control_rate_Hz()), {},
+                     [this](Time now) { actuate(now); });
+}
+
+void VehicleRuntime::actuate(Time now) {
+  if (!said_finished_ && controller_->finished()) {
+    said_finished_ = true;
+    run_.emit(Event::Level::kInfo, config_.name + ".controller", "finished its path");
+  }
+  if (!actuators_.has_value() || !actuators_.is_newer_than(actuators_seen_)) return;
+  const NamedValues& wanted = actuators_.value();
+  const VehicleDescription& description = vehicle_->description();
+  if (actuator_index_.size() != wanted.names.size()) {
+    actuator_index_.clear();
+    for (const std::string& actuator : wanted.names) {
+      actuator_index_.push_back(description.actuator_index(actuator, config_.name + ".controller"));
+    }
+  }
+  if (wanted.values.size() != wanted.names.size()) {
+    throw SimulationError(config_.name + ".controller", now,
+                          fmt::format("wrote {} actuator values for {} names", wanted.values.size(),
+                                      wanted.names.size()));
+  }
+  for (std::size_t i = 0; i < wanted.values.size(); ++i) {
+    const ActuatorSpec& spec = description.actuators[actuator_index_[i]];
+    actuator_values_[actuator_index_[i]] = std::clamp(wanted.values[i], spec.min, spec.max);
+  }
+  vehicle_->actuate(actuator_values_);
+}
+
+void VehicleRuntime::add_metrics() {
+  for (const io::NamedPart& metric : run_.scenario.metrics) {
+    const std::string part = fmt::format("{}.metrics.{}", config_.name, metric.name);
+    // Metrics look as often as the controller acts: the paper's samples are the poses of its cycles.
+    const double rate_Hz = metric.part.rate_Hz > 0.0 ? metric.part.rate_Hz : control_rate_Hz();
+    auto metric_context = context<MetricContext>(part, rate_Hz);
+    metric_context.vehicle_description = &vehicle_->description();
+    metric_context.scene = &run_.physics.scene();
+    metric_context.world = &run_.world;
+    metrics_.push_back(
+        {metric.name, run_.registry.make_metric(metric.part.type, metric.part.parameters, metric_context)});
+    // A metric that judges plans has nothing to read where the vehicle has no planner.
+    add_stepped(Stage::kJudge, part, metric.part.type, rate_Hz, *metrics_.back().metric);
+  }
+}
+
+void VehicleRuntime::publish_truth(Time now) {
+  vehicle_->read_truth(truth_);
+  truth_writer_.write(now, truth_);
+}
+
+void VehicleRuntime::publish_diagnostics(Time now) {
+  vehicle_->read_links(links_.X_WL);
+  links_writer_.write(now, links_);
+  vehicle_->publish(now);
+  if (now.ns == 0) contacts_writer_.write(now, contacts_);
+}
+
+void VehicleRuntime::after_physics(Time now, Duration step) {
+  vehicle_->after_physics(now, step);
+  Odometry state;
+  vehicle_->read_truth(state);
+  const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
+  if (!is_finite(state)) throw SimulationError(culprit, now, "its state is not finite any more");
+  if (state.X_WB.p.cwiseAbs().maxCoeff() > kMaxDistance_m) {
+    throw SimulationError(culprit, now, fmt::format("it is farther than {:g} m from the origin", kMaxDistance_m));
+  }
+  if (state.v_WB_B.norm() > kMaxSpeed_mps) {
+    throw SimulationError(culprit, now, fmt::format("its speed of {:g} m/s is beyond {:g} m/s",
+                                                    state.v_WB_B.norm(), kMaxSpeed_mps));
+  }
+  watch_contacts(now);
+}
+
+void VehicleRuntime::watch_contacts(Time now) {
+  const physics::Contact* touched = nullptr;
+  for (const physics::Contact& contact : run_.physics.contacts()) {
+    const bool ours = contact.body.index >= first_body_ && contact.body.index < end_body_;
+    if (ours && contact.surface != SurfaceClass::kTerrain && contact.depth_m >= 0.0) touched = &contact;
+  }
+  const bool was_touching = contacts_.values[1] != 0.0;
+  if (!touched && !was_touching) return;
+  if (touched) {
+    if (now - last_contact_ > kContactGap) {
+      contacts_.values[0] += 1.0;
+      run_.emit(Event::Level::kWarning, config_.name,
+                fmt::format("touches a {} at x = {:.2f} m, y = {:.2f} m",
+                            to_string(touched->surface), touched->p_W.x(), touched->p_W.y()));
+    }
+    last_contact_ = now;
+  }
+  if (touched != nullptr || was_touching) {
+    contacts_.values[1] = touched ? 1.0 : 0.0;
+    contacts_writer_.write(now, contacts_);
+  }
+}
+
+std::map<std::string, double> VehicleRuntime::metric_results() const {
+  std::map<std::string, double> all;
+  for (const NamedMetric& metric : metrics_) {
+    for (const auto& [name, value] : metric.metric->results()) all[name] = value;
+  }
+  return all;
+}
+
+}  // namespace vinerow

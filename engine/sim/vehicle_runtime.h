@@ -1,0 +1,107 @@
+#pragma once
+/// One vehicle of a run with its sensors, estimator, planner, guidance, controller and metrics, wired and scheduled.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/api/registry.h"
+#include "engine/io/scenario.h"
+#include "engine/physics/physics_world.h"
+#include "engine/sim/scheduler.h"
+
+namespace vinerow {
+
+/// What the vehicle's assembly needs from the run.
+struct RunContext {
+  const io::Scenario& scenario;
+  const Registry& registry;
+  const WorldModel& world;
+  physics::PhysicsWorld& physics;
+  SignalBus& bus;
+  Scheduler& scheduler;
+  std::function<void(Event::Level, const std::string& source, const std::string& text)> emit;
+};
+
+class VehicleRuntime {
+ public:
+  /// Builds the vehicle, puts it into the physics world, connects and schedules its parts. @throws ConfigError
+  VehicleRuntime(const io::VehicleConfig& config, const RunContext& run);
+
+  const std::string& name() const { return config_.name; }
+  const Vehicle& vehicle() const { return *vehicle_; }
+  const Odometry& truth() const { return truth_; }
+  bool finished() const { return controller_ == nullptr || controller_->finished(); }
+  bool has_controller() const { return controller_ != nullptr; }
+
+  /// Reads the bodies and writes "truth". Called at every instant.
+  void publish_truth(Time now);
+  void before_physics(Time now, Duration step) { vehicle_->before_physics(now, step); }
+  /// Advances the vehicle and checks that its state is finite and inside the envelope. @throws SimulationError
+  void after_physics(Time now, Duration step);
+
+  std::map<std::string, double> metric_results() const;
+  /// Names of the signals that are diagnostics: recorded, but not part of the digest.
+  const std::vector<std::string>& diagnostic_signals() const { return diagnostic_signals_; }
+
+ private:
+  struct NamedMetric {
+    std::string name;
+    std::unique_ptr<Metric> metric;
+  };
+
+  template <class Context>
+  Context context(const std::string& part, double rate_Hz) const;
+  void add_stepped(Stage stage, const std::string& part, const std::string& type, double rate_Hz,
+                   SteppedPart& stepped);
+  void add_sensors();
+  void add_estimator();
+  void add_planner();
+  void add_controller();
+  void add_metrics();
+  void publish_diagnostics(Time now);
+  void try_to_plan(Time now);
+  void actuate(Time now);
+  void watch_contacts(Time now);
+  double control_rate_Hz() const;
+  /// Runs a part's tick; turns what it throws and the NaN it writes into a SimulationError with a name.
+  std::function<void(Time)> guarded(const std::string& part, const std::string& type,
+                                    std::function<void(Time)> step);
+
+  io::VehicleConfig config_;
+  RunContext run_;
+  std::unique_ptr<Vehicle> vehicle_;
+  std::vector<std::unique_ptr<Sensor>> sensors_;
+  std::unique_ptr<Estimator> estimator_;
+  std::unique_ptr<Planner> planner_;
+  std::unique_ptr<Guidance> guidance_;
+  std::unique_ptr<Controller> controller_;
+  std::vector<NamedMetric> metrics_;
+
+  SignalWriter<Odometry> truth_writer_;
+  SignalWriter<LinkPoses> links_writer_;
+  SignalWriter<NamedValues> contacts_writer_;
+  SignalWriter<PlannedPath> plan_writer_;
+  SignalReader<Odometry> estimate_;
+  SignalReader<NamedValues> actuators_;
+  std::uint64_t actuators_seen_ = 0;
+  std::vector<int> actuator_index_;   // of each name the controller writes
+  std::vector<double> actuator_values_;
+  Odometry truth_;
+  LinkPoses links_;
+  NamedValues contacts_;
+  Time last_contact_{-1'000'000'000};
+  int first_body_ = 0;
+  int end_body_ = 0;
+  bool planned_ = false;
+  bool said_finished_ = false;
+  std::vector<std::string> diagnostic_signals_;
+};
+
+/// Pose of a vehicle at the start, standing on the ground.
+/// @throws ConfigError naming what the world has, if the alley or spawn point is unknown
+Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, const SceneQuery& scene,
+                     const std::string& vehicle, double height_above_ground_m);
+
+}  // namespace vinerow

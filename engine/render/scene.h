@@ -1,6 +1,24 @@
 #pragma once
 /// What a picture shows, as plain data: the world, the vehicles' links, and lines drawn over it.
+///
+/// How meshes become pictures (the agreement with worlds/ and vehicles/):
+/// - Names that differ only in a suffix "#lod0", "#lod1", "#lod2" are alternatives of one thing; the
+///   nearest gets #lod0. kWire, kTrunk and kPost are left out one after the other with distance.
+/// - Instances that share a TriangleMesh pointer share one vertex buffer. Keep canopy chunks at about
+///   4-8 m of row, so that culling and levels of detail can do their work.
+/// - A mesh without normals gets them with a crease angle of 40 deg. Closed meshes are drawn
+///   one-sided, open ones two-sided.
+/// - Material.leaf_cards: quads (or any pieces that share vertices), uv 0..1 over each card, normals
+///   of the canopy's volume rather than of the card (soft shading), vertex colours as tint and inner
+///   shade around 0.6-1.2 x the leaf's own green. The renderer chooses a picture by the card's edge
+///   length: one leaf below 0.22 m, a spray of a dozen leaves up to 0.7 m, a clump above; 0.3-0.45 m is
+///   best for near cards. Material.colour multiplies; leave it at white for the texture's own green,
+///   or give about {0.1, 0.2, 0.04} and no texture for plain cards.
+/// - Material.texture: "builtin:vine_leaf", "builtin:tree_leaf" (both need leaf_cards),
+///   "builtin:wood", "builtin:bark" (grain along the mesh's z axis, no uvs needed), or a PNG file
+///   with uvs (row 0 of the image at v = 1). What cannot be read is drawn in Material.colour.
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,18 +35,20 @@ struct VehicleDrawing {
   std::vector<Pose> X_WL;  ///< same order
 };
 
-/// A line over the ground or in the air (trail, plan, sensor ray), drawn as a ribbon of constant pixel width.
+/// A line over the ground or in the air (trail, plan, sensor ray), drawn as a ribbon of constant
+/// pixel width. Where the terrain is a height field, no part of it is drawn lower than 4 cm above
+/// the ground.
 struct Polyline {
   std::vector<Eigen::Vector3d> points_W;
-  Eigen::Vector3f colour = {1, 1, 0};
+  Eigen::Vector3f colour = {1, 1, 0};  ///< as seen on the screen (sRGB), not lit
   float width_px = 3.0f;
   float alpha = 1.0f;
   bool dashed = false;
 };
 
 struct Camera {
-  Pose X_WC;               ///< x right, y down, z forward (optical frame)
-  double fov_rad = 0.96;   ///< vertical
+  Pose X_WC;              ///< x right, y down, z forward (optical frame)
+  double fov_rad = 0.96;  ///< vertical
   bool orthographic = false;
   double ortho_height_m = 50.0;  ///< of the picture, for orthographic cameras
 };
@@ -40,7 +60,7 @@ struct Frame {
   std::vector<std::string> caption;  ///< lower left, first line larger
   int width = 1280;
   int height = 720;
-  int samples = 4;
+  int samples = 4;  ///< per pixel: 1, or 4 for smooth edges
 };
 
 struct Image {
@@ -49,20 +69,38 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< top row first
 };
 
-/// Draws frames of one world. Geometry is uploaded once.
+struct RendererSettings {
+  bool cull = true;           ///< off: everything is sent to the rasterizer (tests compare)
+  bool shadows = true;
+  bool grass_tufts = true;    ///< cards of grass near the camera
+  bool distant_hills = true;  ///< ground continues beyond the terrain to the horizon
+};
+
+/// What the last frame cost.
+struct FrameStatistics {
+  int draw_calls = 0;
+  std::int64_t triangles = 0;
+};
+
+/// Draws frames of one world. Geometry is uploaded once. The picture is a function of world and
+/// frame alone, whatever was drawn before. Not thread safe; several renderers may exist.
 class Renderer {
  public:
   virtual ~Renderer() = default;
+  /// @throws std::runtime_error when GL reports an error or the size is not in [1, 8192]
   virtual Image draw(const Frame& frame) = 0;
+  virtual FrameStatistics statistics() const = 0;
 };
 
 /// @returns the renderer, or why there is none ("libOSMesa.so.8 cannot be loaded: ...")
-Result<std::unique_ptr<Renderer>> make_renderer(const WorldModel& world);
+Result<std::unique_ptr<Renderer>> make_renderer(const WorldModel& world,
+                                                const RendererSettings& settings = {});
 
+/// Fast compression, no time stamps: the same image gives the same file.
 /// @throws std::runtime_error when the file cannot be written
 void write_png(const std::string& file, const Image& image);
 
-/// Digest of the pixels.
+/// Digest of size and pixels.
 std::string image_digest(const Image& image);
 
 }  // namespace vinerow::render

@@ -44,6 +44,7 @@ struct ParameterSpec {
   std::vector<std::string> choices;   ///< for texts: allowed values; empty = any
   int size = 0;                       ///< for number lists: required length; 0 = any
   std::vector<ParameterSpec> fields;  ///< for groups
+  bool must_exist = true;             ///< for paths: a missing file or folder is refused while loading
 };
 
 // Short makers, so that a spec reads like a table.

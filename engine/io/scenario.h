@@ -11,15 +11,9 @@
 
 #include "engine/api/registry.h"
 #include "engine/core/time.h"
+#include "engine/io/source_mark.h"
 
 namespace vinerow::io {
-
-/// Where in the user's files something was said: "file.yaml:12".
-struct SourceMark {
-  std::string file;
-  int line = 0;  ///< 1-based; 0 = not from a file (--set, default)
-  std::string text() const;
-};
 
 /// A part as named in a scenario: `type`, `rate_Hz`, and its parameters at the same level.
 struct PartConfig {
@@ -109,7 +103,7 @@ struct Criterion {
 struct Scenario {
   std::string name;
   std::string description;
-  std::filesystem::path file;
+  std::filesystem::path file;  ///< absolute; empty for a scenario from text
   std::uint64_t seed = 1;
   double duration_s = 60.0;        ///< the run ends here at the latest
   bool stop_when_finished = true;  ///< end when every controller has finished

@@ -1,0 +1,245 @@
+#include "engine/io/scenario_keys.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/core/suggest.h"
+
+namespace vinerow::io {
+namespace {
+
+StructuralKey parameter(ParameterSpec spec) {
+  return {std::move(spec), KeyShape::kParameter, PartKind::kWorld, false};
+}
+
+StructuralKey group(const char* name, std::vector<ParameterSpec> fields, const char* description) {
+  return {group_parameter(name, std::move(fields), description), KeyShape::kGroup, PartKind::kWorld,
+          false};
+}
+
+StructuralKey shaped(const char* name, KeyShape shape, const char* description) {
+  ParameterSpec spec;
+  spec.name = name;
+  spec.kind = ParameterKind::kGroup;
+  spec.description = description;
+  return {std::move(spec), shape, PartKind::kWorld, false};
+}
+
+StructuralKey part(const char* name, KeyShape shape, PartKind kind, bool removable,
+                   const char* description) {
+  StructuralKey key = shaped(name, shape, description);
+  key.part_kind = kind;
+  key.removable = removable;
+  return key;
+}
+
+StructuralKey required_key(StructuralKey key) {
+  key.spec.required = true;
+  return key;
+}
+
+std::vector<ParameterSpec> record_fields() {
+  ParameterSpec truth_rate = positive_parameter(
+      "truth_rate_Hz", "Hz", 20.0, "how often true poses, links and wheel states are logged");
+  truth_rate.max = 1e6;
+  ParameterSpec limit =
+      positive_parameter("sensor_rate_limit_Hz", "Hz", 100.0,
+                         "faster sensors are thinned in the log, never in the simulation");
+  limit.max = 1e6;
+  return {boolean_parameter("enabled", true, "whether a log is written"), truth_rate, limit,
+          choice_parameter("compression", "zstd", {"zstd", "lz4", "none"}, "of the log's chunks")};
+}
+
+ParameterSpec list_in_range(const char* name, const char* unit, double max,
+                            const char* description) {
+  ParameterSpec spec = number_list_parameter(name, unit, {}, description);
+  spec.min = 0.0;
+  spec.max = max;
+  return spec;
+}
+
+ParameterSpec point(const char* name, std::vector<double> value, const char* description) {
+  return number_list_parameter(name, "m", std::move(value), description, 3);
+}
+
+}  // namespace
+
+const std::vector<StructuralKey>& scenario_keys() {
+  static const std::vector<StructuralKey> keys = [] {
+    ParameterSpec duration =
+        positive_parameter("duration_s", "s", 60.0, "the run ends here at the latest");
+    duration.max = 1e7;
+    ParameterSpec step =
+        positive_parameter("step_s", "s", 0.001, "physics step; every part's period is a multiple");
+    step.max = 0.1;
+    return std::vector<StructuralKey>{
+        parameter(required(integer_parameter("vinerow", kFormatVersion, kFormatVersion,
+                                             kFormatVersion, "version of the file format"))),
+        parameter(text_parameter("name", "", "of the scenario; default: the file's name")),
+        parameter(text_parameter("description", "", "what the scenario shows")),
+        parameter(integer_parameter("seed", 1, 0, 9223372036854775807.0,
+                                    "of every random stream of the run")),
+        parameter(duration),
+        parameter(boolean_parameter("stop_when_finished", true,
+                                    "end when every controller has finished")),
+        parameter(number_parameter("gravity_mps2", "m/s2", 9.80665, 0.0, 30.0,
+                                   "gravitational acceleration")),
+        group("physics", {step}, "settings of the physics"),
+        shaped("plugins", KeyShape::kPathList, "shared libraries that bring parts of their own"),
+        required_key(part("world", KeyShape::kPart, PartKind::kWorld, false,
+                          "terrain, rows and everything else that stands in it")),
+        required_key(shaped("vehicles", KeyShape::kVehicles, "the vehicles by name")),
+        part("metrics", KeyShape::kNamedParts, PartKind::kMetric, false,
+             "what is measured for every vehicle; default: every known metric"),
+        {group_list_parameter("criteria", criterion_fields(), "limits that the run must meet"),
+         KeyShape::kGroupList, PartKind::kWorld, false},
+        group("record", record_fields(), "what goes into the log"),
+        shaped("pictures", KeyShape::kPictures, "frames that the run renders")};
+  }();
+  return keys;
+}
+
+const std::vector<StructuralKey>& vehicle_keys() {
+  static const std::vector<StructuralKey> keys = {
+      required_key(shaped("spawn", KeyShape::kSpawn, "where the vehicle starts")),
+      part("sensors", KeyShape::kNamedParts, PartKind::kSensor, true, "the sensors by name"),
+      part("estimator", KeyShape::kPart, PartKind::kEstimator, true,
+           "makes the estimate from sensors; absent: the estimate is the truth"),
+      part("planner", KeyShape::kPart, PartKind::kPlanner, true, "makes the path from the map"),
+      part("guidance", KeyShape::kPart, PartKind::kGuidance, true, "local planning"),
+      part("controller", KeyShape::kPart, PartKind::kController, true, "drives the actuators")};
+  return keys;
+}
+
+const std::vector<StructuralKey>& pictures_keys() {
+  static const std::vector<StructuralKey> keys = {
+      parameter(integer_parameter("width", 1280, 16, 8192, "pixels")),
+      parameter(integer_parameter("height", 720, 16, 8192, "pixels")),
+      parameter(integer_parameter("samples", 4, 1, 8, "antialiasing samples per pixel")),
+      parameter(number_parameter("every_s", "s", 0.0, 0.0, 1e7, "a frame every so often; 0 = not")),
+      parameter(list_in_range("times_s", "s", 1e7, "frames at these times")),
+      parameter(
+          list_in_range("shares", "", 1.0,
+                        "frames at these shares of the run; default [1] where neither times_s "
+                        "nor every_s is given")),
+      shaped("cameras", KeyShape::kCameras,
+             "the cameras by name; default: one that chases the first vehicle")};
+  return keys;
+}
+
+const std::vector<ParameterSpec>& criterion_fields() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  static const std::vector<ParameterSpec> fields = {
+      required(text_parameter("metric", "", "<vehicle>.<metric>, e.g. rover.cross_track_rms_m")),
+      optional(
+          number_parameter("min", "", 0.0, -kInfinity, kInfinity, "the metric must reach this")),
+      optional(number_parameter("max", "", 0.0, -kInfinity, kInfinity,
+                                "the metric must not exceed this")),
+      optional(text_parameter("name", "", "in reports; default: the metric and its limits"))};
+  return fields;
+}
+
+const std::vector<SpawnForm>& spawn_forms() {
+  static const std::vector<SpawnForm> forms = {
+      {"alley",
+       {required(integer_parameter("alley", 0, 0, 1e6, "start at this alley's entrance (id)")),
+        number_parameter("offset_m", "m", 0.0, -1e6, 1e6, "so far before the alley's first point"),
+        boolean_parameter("reverse", false, "start at the last point, driving to the first")}},
+      {"x_m",
+       {required(number_parameter("x_m", "m", 0.0, -1e7, 1e7, "east of the world's origin")),
+        required(number_parameter("y_m", "m", 0.0, -1e7, 1e7, "north of the world's origin")),
+        number_parameter("yaw_deg", "deg", 0.0, -360.0, 360.0,
+                         "heading, from east, positive to the left")}},
+      {"point", {required(text_parameter("point", "", "name of a spawn point of the world"))}}};
+  return forms;
+}
+
+std::string spawn_form_of(const YamlNode& spawn) {
+  for (const SpawnForm& form : spawn_forms()) {
+    for (const ParameterSpec& field : form.fields) {
+      if (spawn.has(field.name)) return form.name;
+    }
+  }
+  return "";
+}
+
+std::string spawn_forms_text() {
+  std::string text;
+  for (std::size_t i = 0; i < spawn_forms().size(); ++i) {
+    std::vector<std::string> names;
+    for (const ParameterSpec& field : spawn_forms()[i].fields) names.push_back(field.name);
+    text += (i == 0 ? "" : i + 1 == spawn_forms().size() ? " or " : ", ");
+    text += "{" + join(names) + "}";
+  }
+  return text;
+}
+
+const std::vector<std::string>& camera_kinds() {
+  static const std::vector<std::string> kinds = {"fixed", "chase", "top", "on_board"};
+  return kinds;
+}
+
+std::vector<ParameterSpec> camera_fields(const std::string& kind) {
+  const ParameterSpec vehicle =
+      optional(text_parameter("vehicle", "", "the vehicle it belongs to; default: the first"));
+  std::vector<ParameterSpec> fields;
+  if (kind == "fixed") {
+    fields = {required(point("position_m", {}, "x, y and height above the ground")),
+              required(point("look_at_m", {}, "x, y and height above the ground"))};
+  } else if (kind == "chase") {
+    fields = {vehicle, number_parameter("distance_m", "m", 6.0, 0.1, 1e4, "behind the vehicle"),
+              number_parameter("height_m", "m", 2.5, -1e4, 1e4, "above the vehicle"),
+              number_parameter("yaw_deg", "deg", 0.0, -360.0, 360.0,
+                               "orbit angle from behind, positive to the left")};
+  } else if (kind == "top") {
+    ParameterSpec followed = vehicle;
+    followed.description = "the vehicle it stays above; absent: the middle of the world";
+    fields = {followed, number_parameter("height_m", "m", 0.0, 0.0, 1e5,
+                                         "above the ground; 0 = the whole world fits")};
+  } else {
+    fields = {vehicle, point("offset_m", {0.3, 0.0, 0.6}, "in the body frame: forward, left, up"),
+              number_parameter("yaw_deg", "deg", 0.0, -360.0, 360.0, "view direction, to the left"),
+              number_parameter("pitch_deg", "deg", 0.0, -90.0, 90.0, "positive looks down")};
+  }
+  fields.push_back(number_parameter("fov_deg", "deg", 55.0, 1.0, 170.0, "vertical field of view"));
+  fields.push_back(boolean_parameter("show_sensor_rays", false, "draw the rays of range sensors"));
+  fields.push_back(boolean_parameter("show_trail", true, "draw where the vehicles have been"));
+  fields.push_back(boolean_parameter("show_plan", true, "draw the planned paths"));
+  return fields;
+}
+
+bool has_rate(PartKind kind) {
+  return kind == PartKind::kSensor || kind == PartKind::kEstimator || kind == PartKind::kGuidance ||
+         kind == PartKind::kController || kind == PartKind::kMetric;
+}
+
+ParameterSpec rate_field(const PartSpec& part) {
+  ParameterSpec spec = number_parameter("rate_Hz", "Hz", part.default_rate_Hz, 1e-6, 1e6,
+                                        "how often it runs; its period is a multiple of the "
+                                        "physics step");
+  if (part.default_rate_Hz <= 0.0) {
+    spec = optional(spec);
+    spec.description = "how often it runs; default: every physics step";
+  }
+  return spec;
+}
+
+bool is_valid_name(const std::string& name) {
+  const auto is_letter = [](unsigned char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+  const auto is_inner = [&](unsigned char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  if (name.empty() || !(is_letter(static_cast<unsigned char>(name[0])) || name[0] == '_')) {
+    return false;
+  }
+  return std::all_of(name.begin(), name.end(),
+                     [&](char c) { return is_inner(static_cast<unsigned char>(c)); });
+}
+
+const std::vector<std::string>& reserved_sensor_names() {
+  static const std::vector<std::string> names = {"truth", "estimate",  "plan",     "reference",
+                                                 "links", "actuators", "follower", "command"};
+  return names;
+}
+
+}  // namespace vinerow::io

@@ -1,0 +1,72 @@
+#pragma once
+/// The keys of a scenario file that do not belong to a part: one table, read by the loader and by
+/// the JSON Schema.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/api/registry.h"
+#include "engine/io/yaml.h"
+
+namespace vinerow::io {
+
+/// The version of the file format that this program reads (`vinerow: 1`).
+constexpr std::int64_t kFormatVersion = 1;
+
+/// What stands under a key.
+enum class KeyShape {
+  kParameter,   ///< a value by its ParameterSpec
+  kGroup,       ///< a mapping of parameters (`spec.fields`), all defaults where it is absent
+  kGroupList,   ///< a list of mappings of parameters
+  kPart,        ///< one part: `type`, `rate_Hz`, its parameters
+  kNamedParts,  ///< a mapping from free names to parts
+  kVehicles,    ///< a mapping from names to vehicles
+  kSpawn,       ///< one of spawn_forms()
+  kPictures,    ///< pictures_keys()
+  kCameras,     ///< a mapping from names to cameras
+  kPathList,    ///< a list of files
+};
+
+struct StructuralKey {
+  ParameterSpec spec;  ///< name, description, required; the whole spec for kParameter and kGroup
+  KeyShape shape = KeyShape::kParameter;
+  PartKind part_kind = PartKind::kWorld;  ///< of kPart and kNamedParts
+  bool removable = false;                 ///< `null` is allowed and means absent
+};
+
+const std::vector<StructuralKey>& scenario_keys();
+/// Keys of a vehicle beside its type's own parameters.
+const std::vector<StructuralKey>& vehicle_keys();
+const std::vector<StructuralKey>& pictures_keys();
+const std::vector<ParameterSpec>& criterion_fields();
+
+/// One of several sets of keys of which exactly one must be used. `name` is a key that only this
+/// form has.
+struct SpawnForm {
+  std::string name;
+  std::vector<ParameterSpec> fields;
+};
+const std::vector<SpawnForm>& spawn_forms();
+/// Name of the first form of which the mapping has a key, or "".
+std::string spawn_form_of(const YamlNode& spawn);
+/// "{alley, offset_m, reverse}, {x_m, y_m, yaw_deg} or {point}".
+std::string spawn_forms_text();
+
+/// Values of a camera's `kind`, and the keys that each has beside it.
+const std::vector<std::string>& camera_kinds();
+std::vector<ParameterSpec> camera_fields(const std::string& kind);
+
+/// Whether parts of a kind have a `rate_Hz`.
+bool has_rate(PartKind kind);
+/// `rate_Hz` of a part, with the part's default.
+ParameterSpec rate_field(const PartSpec& part);
+
+/// Names of vehicles, sensors, metrics and cameras, as a regular expression that JSON Schema and
+/// the loader share.
+constexpr const char* kNamePattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
+bool is_valid_name(const std::string& name);
+/// Signals of the kernel, which no sensor may be called.
+const std::vector<std::string>& reserved_sensor_names();
+
+}  // namespace vinerow::io

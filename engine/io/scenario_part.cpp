@@ -1,0 +1,219 @@
+#include "engine/io/scenario_part.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+#include "engine/io/scenario_keys.h"
+#include "engine/io/yaml_include.h"
+#include "engine/math/angles.h"
+
+namespace vinerow::io {
+namespace {
+
+bool is_known(const std::string& name, const std::vector<std::string>& known) {
+  return std::find(known.begin(), known.end(), name) != known.end();
+}
+
+/// The spec of the type that a part names.
+const PartSpec& read_type(const YamlEntry& entry, const std::string& path, PartKind kind,
+                          const ReadContext& context) {
+  const std::vector<std::string> known = context.registry.names(kind);
+  const YamlNode* type = entry.value.find("type");
+  if (!type) {
+    fail_at(entry.mark, fmt::format("{}.type must be given, one of: {}", path,
+                                    known.empty() ? "none is known" : join(known)));
+  }
+  if (!type->is_scalar() || !std::holds_alternative<std::string>(scalar_value(*type))) {
+    fail_at(type->mark, fmt::format("{}.type = {}, must be one of: {}", path, shown(*type),
+                                    known.empty() ? "none is known" : join(known)));
+  }
+  if (is_known(type->text, known)) return context.registry.spec(kind, type->text);
+  for (const PartKind other : kAllPartKinds) {
+    if (!is_known(type->text, context.registry.names(other))) continue;
+    fail_at(type->mark,
+            fmt::format("{}.type = '{}' is a {}, must be a {} (known: {})", path, type->text,
+                        to_string(other), to_string(kind), known.empty() ? "none" : join(known)));
+  }
+  fail_at(type->mark,
+          fmt::format("{}.type = {}: unknown {}{} (known: {})", path, shown(*type), to_string(kind),
+                      did_you_mean(type->text, known), known.empty() ? "none" : join(known)));
+}
+
+SpawnConfig read_spawn(const YamlEntry& entry, const std::string& path, YamlNode& resolved) {
+  const YamlNode& node = entry.value;
+  require_mapping(node, path, "{alley: 0}");
+  std::vector<std::string> known;
+  std::vector<std::string> given_forms;
+  for (const SpawnForm& form : spawn_forms()) {
+    bool used = false;
+    for (const ParameterSpec& field : form.fields) {
+      known.push_back(field.name);
+      if (node.has(field.name) && !used) {
+        given_forms.push_back(field.name);
+        used = true;
+      }
+    }
+  }
+  check_keys(node, path, known, "", nullptr);
+  if (given_forms.size() != 1) {
+    const std::string what = given_forms.empty()
+                                 ? "is empty"
+                                 : fmt::format("gives {} at once", join(given_forms, " and "));
+    fail_at(entry.mark, fmt::format("{} {}, must be one of {}", path, what, spawn_forms_text()));
+  }
+  const std::string form_name = spawn_form_of(node);
+  const auto form = std::find_if(spawn_forms().begin(), spawn_forms().end(),
+                                 [&](const auto& f) { return f.name == form_name; });
+  ReadParameters read = read_parameters(node, entry.mark, path, form->fields, "spawn");
+  resolved = std::move(read.resolved);
+  resolved.flow = true;
+
+  SpawnConfig spawn;
+  spawn.where = entry.mark;
+  if (form_name == "alley") {
+    spawn.alley = static_cast<int>(read.values.integer("alley"));
+    spawn.offset_m = read.values.number("offset_m");
+    spawn.reverse = read.values.boolean("reverse");
+  } else if (form_name == "x_m") {
+    spawn.p_W = Eigen::Vector2d(read.values.number("x_m"), read.values.number("y_m"));
+    spawn.yaw_rad = rad_from_deg(read.values.number("yaw_deg"));
+  } else {
+    spawn.point = read.values.text("point");
+    if (spawn.point.empty()) {
+      fail_at(node.find("point")->mark, path + ".point = '', must be the name of a spawn point");
+    }
+  }
+  return spawn;
+}
+
+std::optional<PartConfig>& slot_of(VehicleConfig& vehicle, PartKind kind) {
+  switch (kind) {
+    case PartKind::kEstimator:
+      return vehicle.estimator;
+    case PartKind::kPlanner:
+      return vehicle.planner;
+    case PartKind::kGuidance:
+      return vehicle.guidance;
+    default:
+      return vehicle.controller;
+  }
+}
+
+void check_sensor_name(const YamlEntry& entry, const std::string& path) {
+  if (is_known(entry.key, reserved_sensor_names())) {
+    fail_at(entry.mark, fmt::format("{}: a sensor cannot have the name of another signal ({})",
+                                    join_path(path, entry.key), join(reserved_sensor_names())));
+  }
+}
+
+}  // namespace
+
+ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kind,
+                   const ReadContext& context, const std::vector<std::string>& extra_keys) {
+  const std::vector<std::string> types = context.registry.names(kind);
+  YamlNode located = entry.value;
+  if (located.is_null()) located.mark = entry.mark;
+  require_mapping(located, path,
+                  fmt::format("{{type: {}}}", types.empty() ? "..." : types.front()));
+  const PartSpec& spec = read_type(entry, path, kind, context);
+
+  std::vector<ParameterSpec> fields = spec.parameters;
+  std::vector<std::string> known = names_of(fields);
+  known.insert(known.end(), extra_keys.begin(), extra_keys.end());
+  known.push_back("type");
+  const bool rated = has_rate(kind) && !is_known("rate_Hz", known);
+  if (rated) known.push_back("rate_Hz");
+  check_keys(entry.value, path, known, fmt::format("{} '{}'", to_string(kind), spec.name),
+             &context);
+
+  ReadPart part;
+  part.config.type = spec.name;
+  part.config.where = entry.mark;
+  part.resolved.put("type", yaml_text(spec.name));
+  if (rated) {
+    ReadParameters rate =
+        read_parameters(entry.value, entry.mark, path, {rate_field(spec)}, spec.name);
+    for (YamlEntry& written : rate.resolved.entries) {
+      part.resolved.put(written.key, std::move(written.value));
+    }
+    if (rate.values.has("rate_Hz")) {
+      const YamlEntry* given = entry.value.find_entry("rate_Hz");
+      part.config.rate_Hz = rate.values.number("rate_Hz");
+      check_rate(part.config.rate_Hz, context.physics_step, given ? given->mark : entry.mark,
+                 join_path(path, "rate_Hz"));
+    }
+  }
+  ReadParameters read =
+      read_parameters(entry.value, entry.mark, path, fields, path + " (" + spec.name + ")");
+  for (YamlEntry& written : read.resolved.entries) {
+    part.resolved.put(written.key, std::move(written.value));
+  }
+  part.config.parameters = std::move(read.values);
+  return part;
+}
+
+std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::string& path,
+                                        PartKind kind, const ReadContext& context,
+                                        YamlNode& resolved) {
+  require_mapping(mapping, path, "{name: {type: ...}}");
+  std::vector<NamedPart> parts;
+  resolved = yaml_mapping();
+  for (const YamlEntry& entry : mapping.entries) {
+    check_name(entry, path, to_string(kind));
+    if (kind == PartKind::kSensor) check_sensor_name(entry, path);
+    if (entry.value.is_null()) continue;
+    ReadPart part = read_part(entry, join_path(path, entry.key), kind, context);
+    parts.push_back({entry.key, std::move(part.config)});
+    resolved.put(entry.key, std::move(part.resolved));
+  }
+  return parts;
+}
+
+VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
+                           const ReadContext& context, YamlNode& resolved) {
+  std::vector<std::string> own_keys;
+  for (const StructuralKey& key : vehicle_keys()) own_keys.push_back(key.spec.name);
+  ReadPart part = read_part(entry, path, PartKind::kVehicle, context, own_keys);
+  resolved = std::move(part.resolved);
+
+  VehicleConfig vehicle;
+  vehicle.name = entry.key;
+  vehicle.vehicle = std::move(part.config);
+  vehicle.where = entry.mark;
+  for (const StructuralKey& key : vehicle_keys()) {
+    const std::string key_path = join_path(path, key.spec.name);
+    const YamlEntry* given = entry.value.find_entry(key.spec.name);
+    if (!given || (key.removable && given->value.is_null())) {
+      if (key.spec.required) {
+        fail_at(entry.mark,
+                fmt::format("{} must be given, one of {}", key_path, spawn_forms_text()));
+      }
+      continue;
+    }
+    YamlNode written;
+    if (key.shape == KeyShape::kSpawn) {
+      vehicle.spawn = read_spawn(*given, key_path, written);
+    } else if (key.shape == KeyShape::kNamedParts) {
+      vehicle.sensors = read_named_parts(given->value, key_path, key.part_kind, context, written);
+    } else {
+      ReadPart own = read_part(*given, key_path, key.part_kind, context);
+      slot_of(vehicle, key.part_kind) = std::move(own.config);
+      written = std::move(own.resolved);
+    }
+    resolved.put(key.spec.name, std::move(written));
+  }
+  return vehicle;
+}
+
+void check_vehicle(const std::string& vehicle, const std::vector<std::string>& vehicles,
+                   const SourceMark& mark, const std::string& path) {
+  if (is_known(vehicle, vehicles)) return;
+  fail_at(mark,
+          fmt::format("{}: unknown vehicle '{}'{} (known: {})", path, vehicle,
+                      did_you_mean(vehicle, vehicles), vehicles.empty() ? "none" : join(vehicles)));
+}
+
+}  // namespace vinerow::io

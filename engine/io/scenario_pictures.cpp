@@ -1,0 +1,146 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/suggest.h"
+#include "engine/io/scenario_keys.h"
+#include "engine/io/scenario_part.h"
+#include "engine/io/yaml_include.h"
+#include "engine/math/angles.h"
+
+namespace vinerow::io {
+namespace {
+
+Eigen::Vector3d vector_of(const ParameterSet& values, const char* name) {
+  const std::vector<double>& v = values.numbers(name);
+  return {v[0], v[1], v[2]};
+}
+
+/// The kind of a camera; chase where it is not said.
+std::string read_kind(const YamlNode& camera, const std::string& path) {
+  const YamlNode* kind = camera.find("kind");
+  if (!kind) return "chase";
+  const std::vector<std::string>& kinds = camera_kinds();
+  if (!kind->is_scalar() || std::find(kinds.begin(), kinds.end(), kind->text) == kinds.end()) {
+    fail_at(kind->mark, fmt::format("{}.kind = {}, must be one of: {}{}", path, shown(*kind),
+                                    join(kinds), did_you_mean(kind->text, kinds)));
+  }
+  return kind->text;
+}
+
+CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
+                         const std::vector<std::string>& vehicles, YamlNode& resolved) {
+  const YamlNode& node = entry.value;
+  require_mapping(node, path, "{kind: chase}");
+  const std::string kind = read_kind(node, path);
+  const std::vector<ParameterSpec> fields = camera_fields(kind);
+  std::vector<std::string> known = names_of(fields);
+  known.push_back("kind");
+  check_keys(node, path, known, fmt::format("camera of kind '{}'", kind), nullptr);
+  ReadParameters read = read_parameters(node, entry.mark, path, fields, path);
+  const ParameterSet& values = read.values;
+
+  CameraConfig camera;
+  camera.name = entry.key;
+  camera.where = entry.mark;
+  camera.fov_rad = rad_from_deg(values.number("fov_deg"));
+  camera.show_sensor_rays = values.boolean("show_sensor_rays");
+  camera.show_trail = values.boolean("show_trail");
+  camera.show_plan = values.boolean("show_plan");
+  if (kind == "fixed") {
+    camera.kind = CameraKind::kFixed;
+    camera.p_W = vector_of(values, "position_m");
+    camera.target_W = vector_of(values, "look_at_m");
+  } else if (kind == "chase") {
+    camera.kind = CameraKind::kChase;
+    camera.distance_m = values.number("distance_m");
+    camera.height_m = values.number("height_m");
+    camera.yaw_rad = rad_from_deg(values.number("yaw_deg"));
+  } else if (kind == "top") {
+    camera.kind = CameraKind::kTop;
+    camera.height_m = values.number("height_m");
+  } else {
+    camera.kind = CameraKind::kOnBoard;
+    camera.offset_B = vector_of(values, "offset_m");
+    camera.yaw_rad = rad_from_deg(values.number("yaw_deg"));
+    camera.pitch_rad = rad_from_deg(values.number("pitch_deg"));
+  }
+  const bool follows = kind == "chase" || kind == "on_board";
+  const YamlEntry* named = node.find_entry("vehicle");
+  if (named) {
+    camera.vehicle = values.text("vehicle");
+    check_vehicle(camera.vehicle, vehicles, named->value.mark, path + ".vehicle");
+  } else if (follows) {
+    if (vehicles.empty()) {
+      fail_at(entry.mark, fmt::format("{}: a camera of kind '{}' needs a vehicle, and the scenario "
+                                      "has none",
+                                      path, kind));
+    }
+    camera.vehicle = vehicles.front();
+  }
+  resolved.put("kind", yaml_text(kind));
+  if (!camera.vehicle.empty()) resolved.put("vehicle", yaml_text(camera.vehicle));
+  for (YamlEntry& written : read.resolved.entries) {
+    resolved.put(written.key, std::move(written.value));
+  }
+  return camera;
+}
+
+/// The cameras of a `pictures` block that names none.
+YamlNode default_cameras(const std::vector<std::string>& vehicles) {
+  YamlNode cameras = yaml_mapping();
+  if (!vehicles.empty()) cameras.put("chase", yaml_mapping());
+  return cameras;
+}
+
+}  // namespace
+
+PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::string>& vehicles,
+                             YamlNode& resolved) {
+  YamlNode node = yaml_mapping();
+  SourceMark where;
+  if (entry) {
+    require_mapping(entry->value, "pictures", "{shares: [1.0]}");
+    node = entry->value;
+    where = entry->mark;
+  }
+  std::vector<std::string> known;
+  std::vector<ParameterSpec> fields;
+  for (const StructuralKey& key : pictures_keys()) {
+    known.push_back(key.spec.name);
+    if (key.shape == KeyShape::kParameter) fields.push_back(key.spec);
+  }
+  check_keys(node, "pictures", known, "", nullptr);
+  if (!node.has("times_s") && !node.has("every_s") && !node.has("shares")) {
+    YamlNode last_instant = yaml_list();
+    last_instant.items.push_back(yaml_number(1.0));
+    node.put("shares", std::move(last_instant));
+  }
+  ReadParameters read = read_parameters(node, where, "pictures", fields, "pictures");
+  resolved = std::move(read.resolved);
+
+  PicturesConfig pictures;
+  pictures.width = static_cast<int>(read.values.integer("width"));
+  pictures.height = static_cast<int>(read.values.integer("height"));
+  pictures.samples = static_cast<int>(read.values.integer("samples"));
+  pictures.times_s = read.values.numbers("times_s");
+  pictures.every_s = read.values.number("every_s");
+  pictures.shares = read.values.numbers("shares");
+
+  const YamlNode* given = node.find("cameras");
+  const YamlNode cameras = given ? *given : entry ? default_cameras(vehicles) : yaml_mapping();
+  require_mapping(cameras, "pictures.cameras", "{chase: {kind: chase}}");
+  YamlNode written = yaml_mapping();
+  for (const YamlEntry& camera : cameras.entries) {
+    check_name(camera, "pictures.cameras", "camera");
+    if (camera.value.is_null()) continue;
+    YamlNode one = yaml_mapping();
+    pictures.cameras.push_back(
+        read_camera(camera, "pictures.cameras." + camera.key, vehicles, one));
+    written.put(camera.key, std::move(one));
+  }
+  resolved.put("cameras", std::move(written));
+  return pictures;
+}
+
+}  // namespace vinerow::io

@@ -1,0 +1,32 @@
+#pragma once
+/// What mesh files say outside their triangles: axes and unit of COLLADA, files they refer to, kind
+/// of colours.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vinerow::io {
+
+/// The <asset> element of a COLLADA file.
+struct ColladaAsset {
+  char up_axis = 'Y';  ///< 'X', 'Y' or 'Z'; the format's default is Y
+  double unit_m = 1.0;
+};
+
+ColladaAsset read_collada_asset(const std::filesystem::path& file);
+
+/// True where a PLY file's colours are not bytes: floats are linear, bytes are what a screen shows.
+bool has_float_colours(const std::filesystem::path& ply_file);
+
+/// The `mtllib` files an OBJ file names, as written.
+std::vector<std::string> read_material_libraries(const std::filesystem::path& obj_file);
+
+/// Finds a file that a mesh file names: relative to the mesh file's folder, percent-decoded,
+/// `file://` removed, back slashes turned. @returns the absolute path, or nullopt where there is no
+/// such file
+std::optional<std::filesystem::path> find_reference(const std::filesystem::path& mesh_file,
+                                                    const std::string& reference);
+
+}  // namespace vinerow::io

@@ -16,37 +16,48 @@ namespace vinerow::record {
 
 struct ChannelInfo {
   int id = 0;
-  std::string topic;         ///< "/rover/gps"
-  std::string schema;        ///< "sensor_msgs/msg/NavSatFix"
+  std::string topic;   ///< "/rover/gps"
+  std::string schema;  ///< "sensor_msgs/msg/NavSatFix"
   std::uint64_t messages = 0;
+  /// "signal": "rover/gps", "signal_type": "GnssFix"; "exact_of": "/rover/gps" where this channel
+  /// holds what the standard type of another cannot (people may leave it out of lists).
   std::map<std::string, std::string> metadata;
 };
 
 struct LogInfo {
-  bool complete = false;     ///< false: no footer, the run was cut off
-  Time first;
+  bool complete = false;  ///< false: no (readable) summary, the run was cut off
+  Time first;             ///< log time
   Time last;
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;
-  std::vector<ChannelInfo> channels;
+  std::vector<ChannelInfo> channels;               ///< by id
   std::map<std::string, std::string> metadata;     ///< of the "vinerow" record
   std::map<std::string, std::string> attachments;  ///< name -> content
+
+  // What was left out. A whole file's chunks are checked when they are read, so both grow then.
+  std::uint64_t damaged = 0;          ///< chunks, records and messages
+  std::vector<std::string> warnings;  ///< one sentence for each
 };
 
 class LogReader {
  public:
-  /// @throws ConfigError "x.mcap: not an MCAP file" | "x.mcap: cannot be read"
+  /// @throws ConfigError "x.mcap: not an MCAP file" | "x.mcap: cannot be read: ..." | "x.mcap: an
+  /// MCAP file that is cut off or damaged inside its first record"
   explicit LogReader(const std::filesystem::path& file);
   ~LogReader();
 
   const LogInfo& info() const;
+  bool has_topic(const std::string& topic) const;
 
-  /// Calls back for every message of a topic in log order, decoded. @throws ConfigError if the topic has another type
+  /// Calls back for every message of a topic in log order, decoded, with the stamp it was written
+  /// with. Where a topic has an exact channel, that is read.
+  /// @throws ConfigError if there is no such topic, or it has another type
   template <class T>
   void read(const std::string& topic, const std::function<void(Time, const T&)>& callback) const;
 
-  /// Raw messages of every topic in log order.
-  void read_raw(const std::function<void(Time, const ChannelInfo&, const std::vector<std::uint8_t>&)>& callback) const;
+  /// Raw messages of every topic in log order, with their log time.
+  void read_raw(const std::function<void(Time, const ChannelInfo&,
+                                         const std::vector<std::uint8_t>&)>& callback) const;
 
  private:
   struct Impl;

@@ -1,0 +1,168 @@
+#include "engine/record/ros_definitions.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "engine/core/check.h"
+
+namespace vinerow::record {
+namespace {
+
+struct Definition {
+  std::string_view type;  ///< "package/Type"
+  std::string_view text;
+};
+
+// Fields and constants as in ROS 2 Humble (the same in Iron and Jazzy); comments are ours.
+constexpr std::array kDefinitions = {
+    Definition{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
+    Definition{"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
+    Definition{"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
+    Definition{"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    Definition{"geometry_msgs/Quaternion", "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n"},
+    Definition{"geometry_msgs/Pose",
+               "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"},
+    Definition{"geometry_msgs/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n"},
+    Definition{"geometry_msgs/PoseWithCovariance",
+               "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
+    Definition{"geometry_msgs/Twist",
+               "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
+    Definition{"geometry_msgs/TwistStamped", "std_msgs/Header header\ngeometry_msgs/Twist twist\n"},
+    Definition{"geometry_msgs/TwistWithCovariance",
+               "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
+    Definition{"geometry_msgs/Transform",
+               "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
+    Definition{"geometry_msgs/TransformStamped",
+               "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform "
+               "transform\n"},
+    Definition{"nav_msgs/Odometry",
+               "std_msgs/Header header\nstring child_frame_id\n"
+               "geometry_msgs/PoseWithCovariance pose\ngeometry_msgs/TwistWithCovariance "
+               "twist\n"},
+    Definition{"nav_msgs/Path", "std_msgs/Header header\ngeometry_msgs/PoseStamped[] poses\n"},
+    Definition{"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
+    Definition{"sensor_msgs/Imu",
+               "std_msgs/Header header\n"
+               "# first covariance -1: there is no orientation\n"
+               "geometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\n"
+               "geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n"
+               "geometry_msgs/Vector3 linear_acceleration\n"
+               "float64[9] linear_acceleration_covariance\n"},
+    Definition{"sensor_msgs/NavSatStatus",
+               "int8 STATUS_NO_FIX=-1\nint8 STATUS_FIX=0\nint8 STATUS_SBAS_FIX=1\n"
+               "int8 STATUS_GBAS_FIX=2\nint8 status\n"
+               "uint16 SERVICE_GPS=1\nuint16 SERVICE_GLONASS=2\nuint16 SERVICE_COMPASS=4\n"
+               "uint16 SERVICE_GALILEO=8\nuint16 service\n"},
+    Definition{"sensor_msgs/NavSatFix",
+               "std_msgs/Header header\nsensor_msgs/NavSatStatus status\n"
+               "# degrees, degrees, metres above the ellipsoid\n"
+               "float64 latitude\nfloat64 longitude\nfloat64 altitude\n"
+               "# m^2, east north up\n"
+               "float64[9] position_covariance\n"
+               "uint8 COVARIANCE_TYPE_UNKNOWN=0\nuint8 COVARIANCE_TYPE_APPROXIMATED=1\n"
+               "uint8 COVARIANCE_TYPE_DIAGONAL_KNOWN=2\nuint8 COVARIANCE_TYPE_KNOWN=3\n"
+               "uint8 position_covariance_type\n"},
+    Definition{"sensor_msgs/Range",
+               "std_msgs/Header header\nuint8 ULTRASOUND=0\nuint8 INFRARED=1\n"
+               "uint8 radiation_type\nfloat32 field_of_view\nfloat32 min_range\n"
+               "float32 max_range\n# +inf: nothing seen\nfloat32 range\n"},
+    Definition{"sensor_msgs/BatteryState",
+               "uint8 POWER_SUPPLY_STATUS_UNKNOWN=0\nuint8 POWER_SUPPLY_STATUS_CHARGING=1\n"
+               "uint8 POWER_SUPPLY_STATUS_DISCHARGING=2\n"
+               "uint8 POWER_SUPPLY_STATUS_NOT_CHARGING=3\nuint8 POWER_SUPPLY_STATUS_FULL=4\n"
+               "uint8 POWER_SUPPLY_HEALTH_UNKNOWN=0\nuint8 POWER_SUPPLY_HEALTH_GOOD=1\n"
+               "uint8 POWER_SUPPLY_HEALTH_OVERHEAT=2\nuint8 POWER_SUPPLY_HEALTH_DEAD=3\n"
+               "uint8 POWER_SUPPLY_HEALTH_OVERVOLTAGE=4\n"
+               "uint8 POWER_SUPPLY_HEALTH_UNSPEC_FAILURE=5\nuint8 POWER_SUPPLY_HEALTH_COLD=6\n"
+               "uint8 POWER_SUPPLY_HEALTH_WATCHDOG_TIMER_EXPIRE=7\n"
+               "uint8 POWER_SUPPLY_HEALTH_SAFETY_TIMER_EXPIRE=8\n"
+               "uint8 POWER_SUPPLY_TECHNOLOGY_UNKNOWN=0\nuint8 POWER_SUPPLY_TECHNOLOGY_NIMH=1\n"
+               "uint8 POWER_SUPPLY_TECHNOLOGY_LION=2\nuint8 POWER_SUPPLY_TECHNOLOGY_LIPO=3\n"
+               "uint8 POWER_SUPPLY_TECHNOLOGY_LIFE=4\nuint8 POWER_SUPPLY_TECHNOLOGY_NICD=5\n"
+               "uint8 POWER_SUPPLY_TECHNOLOGY_LIMN=6\n"
+               "std_msgs/Header header\nfloat32 voltage\nfloat32 temperature\nfloat32 current\n"
+               "float32 charge\nfloat32 capacity\nfloat32 design_capacity\nfloat32 percentage\n"
+               "uint8 power_supply_status\nuint8 power_supply_health\n"
+               "uint8 power_supply_technology\nbool present\nfloat32[] cell_voltage\n"
+               "float32[] cell_temperature\nstring location\nstring serial_number\n"},
+    Definition{"rcl_interfaces/Log",
+               "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\n"
+               "builtin_interfaces/Time stamp\nuint8 level\nstring name\nstring msg\n"
+               "string file\nstring function\nuint32 line\n"},
+    Definition{"vinerow_msgs/NamedValues",
+               "std_msgs/Header header\n# the unit is the end of the name: _m, _rad, _radps, _N\n"
+               "string[] name\nfloat64[] value\n"},
+    Definition{"vinerow_msgs/FollowerState",
+               "# a follower on its path, by its own estimate\n"
+               "std_msgs/Header header\n# m, positive left of the path\nfloat64 lateral_error\n"
+               "# rad\nfloat64 heading_error\n# m along the path, done and to go\n"
+               "float64 distance\nfloat64 remaining\nint32 waypoint\nbool finished\n"},
+    Definition{"vinerow_msgs/RangeRay",
+               "# m; +inf: nothing seen\nstd_msgs/Header header\nfloat64 range\n"
+               "float64 min_range\nfloat64 max_range\n# rad, half of the cone\n"
+               "float64 half_angle\n# of the sensor in header.frame_id, looking along its x\n"
+               "geometry_msgs/Pose pose\n"},
+    Definition{"vinerow_msgs/GnssFix",
+               "std_msgs/Header header\nbool valid\n# rad, rad, m above the ellipsoid\n"
+               "float64 latitude\nfloat64 longitude\nfloat64 altitude\n"
+               "# antenna in header.frame_id (east, north, up): m, m/s, 1 sigma m\n"
+               "geometry_msgs/Point position\ngeometry_msgs/Vector3 velocity\n"
+               "geometry_msgs/Vector3 position_std\n"},
+    Definition{"vinerow_msgs/PathPoint",
+               "uint8 LEG=0\nuint8 TURN=1\nuint8 TRANSIT=2\n"
+               "geometry_msgs/Point position\n# rad, direction of travel\nfloat64 yaw\n"
+               "# 1/m, positive to the left, of the stretch that starts here\nfloat64 curvature\n"
+               "# m/s, 0 = the follower's own\nfloat64 speed\nuint8 kind\n"
+               "# index of the alley a leg runs in, -1 elsewhere\nint32 alley\n"},
+    Definition{"vinerow_msgs/PlannedPath",
+               "std_msgs/Header header\n# m, of the exact curve\nfloat64 length\n"
+               "vinerow_msgs/PathPoint[] points\n"},
+    Definition{"vinerow_msgs/BatteryState",
+               "std_msgs/Header header\n# W drawn now\nfloat64 power\n# J since the start\n"
+               "float64 energy_used\n# remaining share of the capacity, 0 to 1\n"
+               "float64 charge\n"},
+};
+
+const Definition& find_definition(std::string_view type) {
+  const auto found = std::find_if(kDefinitions.begin(), kDefinitions.end(),
+                                  [&](const Definition& d) { return d.type == type; });
+  VINEROW_DEMAND(found != kDefinitions.end());
+  return *found;
+}
+
+/// Types of other packages' messages in a text, in order: the words with a '/' at line starts.
+void add_used_types(std::string_view text, std::vector<std::string_view>& types) {
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    std::string_view word = line.substr(0, line.find_first_of(" ["));
+    if (line.starts_with('#') || word.find('/') == std::string_view::npos) continue;
+    if (std::find(types.begin(), types.end(), word) == types.end()) types.push_back(word);
+  }
+}
+
+}  // namespace
+
+std::string full_ros_definition(std::string_view type) {
+  // "nav_msgs/msg/Odometry" -> "nav_msgs/Odometry"
+  const std::size_t middle = type.find("/msg/");
+  VINEROW_DEMAND(middle != std::string_view::npos);
+  const std::string short_type =
+      std::string(type.substr(0, middle)) + std::string(type.substr(middle + 4));
+
+  std::vector<std::string_view> types = {find_definition(short_type).type};
+  std::string text;
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    const Definition& definition = find_definition(types[i]);
+    if (i > 0) {
+      text.append(80, '=').append("\nMSG: ").append(definition.type).append("\n");
+    }
+    text.append(definition.text);
+    add_used_types(definition.text, types);
+  }
+  return text;
+}
+
+}  // namespace vinerow::record

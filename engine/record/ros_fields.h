@@ -1,0 +1,70 @@
+#pragma once
+/// The small messages inside ROS 2 messages: time, header, pose. Internal to engine/record.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string_view>
+
+#include "engine/core/time.h"
+#include "engine/math/pose.h"
+#include "engine/record/cdr.h"
+
+namespace vinerow::record {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+/// builtin_interfaces/Time: nanoseconds count forward from the second below.
+inline void write_time(CdrWriter& out, Time stamp) {
+  std::int64_t sec = stamp.ns / kNsPerS;
+  std::int64_t nanosec = stamp.ns % kNsPerS;
+  if (nanosec < 0) {
+    nanosec += kNsPerS;
+    --sec;
+  }
+  out.add(static_cast<std::int32_t>(sec));
+  out.add(static_cast<std::uint32_t>(nanosec));
+}
+
+inline void skip_time(CdrReader& in) {
+  in.read<std::int32_t>();
+  in.read<std::uint32_t>();
+}
+
+inline void write_header(CdrWriter& out, Time stamp, std::string_view frame) {
+  write_time(out, stamp);
+  out.add(frame);
+}
+
+inline void skip_header(CdrReader& in) {
+  skip_time(in);
+  in.read_text();
+}
+
+/// ROS stores x, y, z, w, which is also Eigen's order in memory.
+inline void write_quaternion(CdrWriter& out, const Eigen::Quaterniond& q) {
+  out.add_doubles(q.coeffs().data(), 4);
+}
+
+inline void write_pose(CdrWriter& out, const Pose& pose) {
+  out.add(pose.p);
+  write_quaternion(out, pose.q);
+}
+
+inline void read_pose(CdrReader& in, Pose& pose) {
+  in.read(pose.p);
+  in.read_doubles(pose.q.coeffs().data(), 4);
+}
+
+/// Square and root of a standard deviation. The pair is exact in IEEE binary arithmetic for values
+/// whose square neither overflows nor underflows (S. Boldo, "Stupid is as stupid does: taking the
+/// square root of the square of a floating-point number", ENTCS 317, 2015), so covariances lose
+/// nothing.
+inline double variance(double std) {
+  return std * std;
+}
+inline double std_of_variance(double value) {
+  return std::sqrt(value);
+}
+
+}  // namespace vinerow::record

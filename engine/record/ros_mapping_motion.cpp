@@ -1,0 +1,185 @@
+/// Mappings of poses, commands, paths and what a follower says.
+
+#include "engine/record/ros_fields.h"
+#include "engine/record/ros_mapping.h"
+
+namespace vinerow::record {
+namespace {
+
+// Row-major 6x6 covariance, axes x y z roll pitch yaw: x, y, z and yaw are known.
+constexpr std::size_t kCovarianceSize = 36;
+constexpr std::size_t kCovarianceX = 0;
+constexpr std::size_t kCovarianceY = 7;
+constexpr std::size_t kCovarianceZ = 14;
+constexpr std::size_t kCovarianceYaw = 35;
+
+// Least bytes of one element of a sequence: bounds a damaged count.
+constexpr std::size_t kLeastTransform = 8 + 4 + 4 + 7 * 8;
+constexpr std::size_t kLeastPathPoint = 6 * 8 + 1 + 4;
+
+}  // namespace
+
+FrameNames FrameNames::of_signal(const std::string& signal) {
+  const std::string vehicle = signal.substr(0, signal.find('/'));
+  FrameNames names;
+  names.prefix = vehicle + "/";
+  names.body = names.prefix + "base_link";
+  names.own = signal;
+  return names;
+}
+
+void RosMapping<Odometry>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                 const Odometry& value) {
+  write_header(out, stamp, frames.world);
+  out.add(std::string_view(frames.body));
+  write_pose(out, value.X_WB);
+  double covariance[kCovarianceSize] = {};
+  covariance[kCovarianceX] = variance(value.position_std_m.x());
+  covariance[kCovarianceY] = variance(value.position_std_m.y());
+  covariance[kCovarianceZ] = variance(value.position_std_m.z());
+  covariance[kCovarianceYaw] = variance(value.yaw_std_rad);
+  out.add_doubles(covariance, kCovarianceSize);
+  out.add(value.v_WB_B);
+  out.add(value.w_WB_B);
+  out.add_zero_doubles(kCovarianceSize);
+}
+
+bool RosMapping<Odometry>::read(CdrReader& in, const FrameNames&, Odometry& value) {
+  skip_header(in);
+  in.read_text();
+  read_pose(in, value.X_WB);
+  double covariance[kCovarianceSize];
+  in.read_doubles(covariance, kCovarianceSize);
+  value.position_std_m = {std_of_variance(covariance[kCovarianceX]),
+                          std_of_variance(covariance[kCovarianceY]),
+                          std_of_variance(covariance[kCovarianceZ])};
+  value.yaw_std_rad = std_of_variance(covariance[kCovarianceYaw]);
+  in.read(value.v_WB_B);
+  in.read(value.w_WB_B);
+  in.skip_doubles(kCovarianceSize);
+  return in.ok();
+}
+
+void RosMapping<VelocityCommand>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                        const VelocityCommand& value) {
+  write_header(out, stamp, frames.body);
+  out.add(Eigen::Vector3d(value.v_mps, 0, 0));
+  out.add(Eigen::Vector3d(0, 0, value.yaw_rate_radps));
+}
+
+bool RosMapping<VelocityCommand>::read(CdrReader& in, const FrameNames&, VelocityCommand& value) {
+  skip_header(in);
+  value.v_mps = in.read<double>();
+  in.skip_doubles(4);
+  value.yaw_rate_radps = in.read<double>();
+  return in.ok();
+}
+
+void RosMapping<NamedValues>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                    const NamedValues& value) {
+  write_header(out, stamp, frames.body);
+  out.add_count(value.names.size());
+  for (const std::string& name : value.names) out.add(std::string_view(name));
+  out.add_count(value.values.size());
+  out.add_doubles(value.values.data(), value.values.size());
+}
+
+bool RosMapping<NamedValues>::read(CdrReader& in, const FrameNames&, NamedValues& value) {
+  skip_header(in);
+  value.names.resize(in.read_count(sizeof(std::uint32_t)));
+  for (std::string& name : value.names) in.read(name);
+  value.values.resize(in.read_count(sizeof(double)));
+  in.read_doubles(value.values.data(), value.values.size());
+  return in.ok();
+}
+
+void RosMapping<LinkPoses>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                  const LinkPoses& value) {
+  const std::size_t count = std::min(value.names.size(), value.X_WL.size());
+  out.add_count(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    write_header(out, stamp, frames.world);
+    out.add_joined(frames.prefix, value.names[i]);
+    write_pose(out, value.X_WL[i]);
+  }
+}
+
+bool RosMapping<LinkPoses>::read(CdrReader& in, const FrameNames& frames, LinkPoses& value) {
+  const std::size_t count = in.read_count(kLeastTransform);
+  value.names.resize(count);
+  value.X_WL.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    skip_header(in);
+    std::string_view name = in.read_text();
+    if (name.starts_with(frames.prefix)) name.remove_prefix(frames.prefix.size());
+    value.names[i].assign(name.data(), name.size());
+    read_pose(in, value.X_WL[i]);
+  }
+  return in.ok();
+}
+
+void RosMapping<PlannedPath>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                    const PlannedPath& value) {
+  write_header(out, stamp, frames.world);
+  out.add_count(value.points.size());
+  for (const PathPoint& point : value.points) {
+    write_header(out, stamp, frames.world);
+    write_pose(out, {quaternion_from_rpy({0, 0, point.yaw_rad}), point.p_W});
+  }
+}
+
+void RosMapping<PlannedPath>::write_exact(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                          const PlannedPath& value) {
+  write_header(out, stamp, frames.world);
+  out.add(value.length_m);
+  out.add_count(value.points.size());
+  for (const PathPoint& point : value.points) {
+    out.add(point.p_W);
+    out.add(point.yaw_rad);
+    out.add(point.curvature_per_m);
+    out.add(point.speed_mps);
+    out.add(static_cast<std::uint8_t>(point.kind));
+    out.add(point.alley);
+  }
+}
+
+bool RosMapping<PlannedPath>::read(CdrReader& in, const FrameNames&, PlannedPath& value) {
+  skip_header(in);
+  value.length_m = in.read<double>();
+  value.points.resize(in.read_count(kLeastPathPoint));
+  for (PathPoint& point : value.points) {
+    in.read(point.p_W);
+    point.yaw_rad = in.read<double>();
+    point.curvature_per_m = in.read<double>();
+    point.speed_mps = in.read<double>();
+    const auto kind = in.read<std::uint8_t>();
+    if (kind > static_cast<std::uint8_t>(PathKind::kTransit)) return false;
+    point.kind = static_cast<PathKind>(kind);
+    point.alley = in.read<std::int32_t>();
+  }
+  return in.ok();
+}
+
+void RosMapping<FollowerState>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                      const FollowerState& value) {
+  write_header(out, stamp, frames.body);
+  out.add(value.lateral_error_m);
+  out.add(value.heading_error_rad);
+  out.add(value.distance_m);
+  out.add(value.remaining_m);
+  out.add(value.waypoint);
+  out.add(value.finished);
+}
+
+bool RosMapping<FollowerState>::read(CdrReader& in, const FrameNames&, FollowerState& value) {
+  skip_header(in);
+  value.lateral_error_m = in.read<double>();
+  value.heading_error_rad = in.read<double>();
+  value.distance_m = in.read<double>();
+  value.remaining_m = in.read<double>();
+  value.waypoint = in.read<std::int32_t>();
+  value.finished = in.read_bool();
+  return in.ok();
+}
+
+}  // namespace vinerow::record

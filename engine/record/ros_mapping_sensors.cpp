@@ -1,0 +1,173 @@
+/// Mappings of sensor readings, battery and events.
+
+#include <limits>
+
+#include "engine/math/angles.h"
+#include "engine/record/ros_fields.h"
+#include "engine/record/ros_mapping.h"
+
+namespace vinerow::record {
+namespace {
+
+// Constants of the ROS 2 definitions.
+constexpr std::int8_t kStatusNoFix = -1;
+constexpr std::int8_t kStatusFix = 0;
+constexpr std::uint16_t kServiceGps = 1;
+constexpr std::uint8_t kCovarianceDiagonalKnown = 2;
+constexpr std::uint8_t kUltrasound = 0;
+constexpr std::uint8_t kCharging = 1;
+constexpr std::uint8_t kDischarging = 2;
+constexpr std::uint8_t kNotCharging = 3;
+
+constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
+
+void RosMapping<ImuSample>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                  const ImuSample& value) {
+  write_header(out, stamp, frames.own);
+  // No orientation: identity, and -1 as its first covariance says so.
+  const double orientation[4 + 9] = {0, 0, 0, 1, -1};
+  out.add_doubles(orientation, 4 + 9);
+  out.add(value.w_WS_S);
+  out.add_zero_doubles(9);
+  out.add(value.f_WS_S);
+  out.add_zero_doubles(9);
+}
+
+bool RosMapping<ImuSample>::read(CdrReader& in, const FrameNames&, ImuSample& value) {
+  skip_header(in);
+  in.skip_doubles(4 + 9);
+  in.read(value.w_WS_S);
+  in.skip_doubles(9);
+  in.read(value.f_WS_S);
+  in.skip_doubles(9);
+  return in.ok();
+}
+
+void RosMapping<GnssFix>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                const GnssFix& value) {
+  write_header(out, stamp, frames.own);
+  out.add(value.valid ? kStatusFix : kStatusNoFix);
+  out.add(kServiceGps);
+  out.add(deg_from_rad(value.latitude_rad));
+  out.add(deg_from_rad(value.longitude_rad));
+  out.add(value.altitude_m);
+  const double covariance[9] = {variance(value.std_m.x()), 0, 0, 0,
+                                variance(value.std_m.y()), 0, 0, 0,
+                                variance(value.std_m.z())};
+  out.add_doubles(covariance, 9);
+  out.add(kCovarianceDiagonalKnown);
+}
+
+void RosMapping<GnssFix>::write_exact(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                      const GnssFix& value) {
+  write_header(out, stamp, frames.world);
+  out.add(value.valid);
+  out.add(value.latitude_rad);
+  out.add(value.longitude_rad);
+  out.add(value.altitude_m);
+  out.add(value.p_W);
+  out.add(value.v_W);
+  out.add(value.std_m);
+}
+
+bool RosMapping<GnssFix>::read(CdrReader& in, const FrameNames&, GnssFix& value) {
+  skip_header(in);
+  value.valid = in.read_bool();
+  value.latitude_rad = in.read<double>();
+  value.longitude_rad = in.read<double>();
+  value.altitude_m = in.read<double>();
+  in.read(value.p_W);
+  in.read(value.v_W);
+  in.read(value.std_m);
+  return in.ok();
+}
+
+void RosMapping<RangeSample>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                    const RangeSample& value) {
+  write_header(out, stamp, frames.own);
+  out.add(kUltrasound);
+  out.add(static_cast<float>(2 * value.half_angle_rad));
+  out.add(static_cast<float>(value.min_range_m));
+  out.add(static_cast<float>(value.max_range_m));
+  out.add(static_cast<float>(value.range_m));
+}
+
+void RosMapping<RangeSample>::write_exact(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                          const RangeSample& value) {
+  write_header(out, stamp, frames.world);
+  out.add(value.range_m);
+  out.add(value.min_range_m);
+  out.add(value.max_range_m);
+  out.add(value.half_angle_rad);
+  write_pose(out, value.X_WS);
+}
+
+bool RosMapping<RangeSample>::read(CdrReader& in, const FrameNames&, RangeSample& value) {
+  skip_header(in);
+  value.range_m = in.read<double>();
+  value.min_range_m = in.read<double>();
+  value.max_range_m = in.read<double>();
+  value.half_angle_rad = in.read<double>();
+  read_pose(in, value.X_WS);
+  return in.ok();
+}
+
+void RosMapping<BatteryState>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                     const BatteryState& value) {
+  write_header(out, stamp, frames.body);
+  // voltage, temperature, current, charge, capacity, design_capacity: the model has power and
+  // energy.
+  for (int i = 0; i < 6; ++i) out.add(kNotMeasured);
+  out.add(static_cast<float>(value.charge));
+  out.add(value.power_W > 0 ? kDischarging : value.power_W < 0 ? kCharging : kNotCharging);
+  out.add(std::uint8_t{0});  // health unknown
+  out.add(std::uint8_t{0});  // technology unknown
+  out.add(true);             // present
+  out.add_count(0);          // cell_voltage
+  out.add_count(0);          // cell_temperature
+  out.add(std::string_view());
+  out.add(std::string_view());
+}
+
+void RosMapping<BatteryState>::write_exact(CdrWriter& out, const FrameNames& frames, Time stamp,
+                                           const BatteryState& value) {
+  write_header(out, stamp, frames.body);
+  out.add(value.power_W);
+  out.add(value.energy_used_J);
+  out.add(value.charge);
+}
+
+bool RosMapping<BatteryState>::read(CdrReader& in, const FrameNames&, BatteryState& value) {
+  skip_header(in);
+  value.power_W = in.read<double>();
+  value.energy_used_J = in.read<double>();
+  value.charge = in.read<double>();
+  return in.ok();
+}
+
+void RosMapping<Event>::write(CdrWriter& out, const FrameNames&, Time stamp, const Event& value) {
+  write_time(out, stamp);
+  out.add(static_cast<std::uint8_t>(value.level));
+  out.add(std::string_view(value.source));
+  out.add(std::string_view(value.text));
+  out.add(std::string_view());  // file
+  out.add(std::string_view());  // function
+  out.add(std::uint32_t{0});    // line
+}
+
+bool RosMapping<Event>::read(CdrReader& in, const FrameNames&, Event& value) {
+  skip_time(in);
+  const auto level = in.read<std::uint8_t>();
+  if (level != 20 && level != 30 && level != 40) return false;
+  value.level = static_cast<Event::Level>(level);
+  in.read(value.source);
+  in.read(value.text);
+  in.read_text();
+  in.read_text();
+  in.read<std::uint32_t>();
+  return in.ok();
+}
+
+}  // namespace vinerow::record

@@ -1,0 +1,86 @@
+#include "controllers/estimation/gps_pose.h"
+
+#include "controllers/estimation/heading_source.h"
+
+namespace vinerow {
+namespace {
+
+class GpsPose final : public Estimator {
+ public:
+  GpsPose(const ParameterSet& parameters, const EstimatorContext& context)
+      : gps_name_(parameters.text("gps")),
+        extrapolate_(parameters.boolean("extrapolate")),
+        heading_(parameters, context.period) {
+    const auto& antenna = parameters.numbers("antenna_m");
+    p_BA_ = {antenna[0], antenna[1], antenna[2]};
+  }
+
+  void connect(Ports& ports) override {
+    gps_ = ports.read<GnssFix>(gps_name_);
+    heading_.connect(ports);
+    estimate_ = ports.write<Odometry>("estimate");
+  }
+
+  void step(Time now) override {
+    const bool is_new = gps_.is_newer_than(seen_fix_) && gps_.value().valid;
+    if (is_new) {
+      fix_ = gps_.value();
+      fix_time_ = gps_.stamp();
+    }
+    heading_.step(is_new ? &fix_ : nullptr);
+    if (!heading_.ready() || !fix_.valid) return;  // nothing to say before the first fix
+
+    const Eigen::Quaterniond& q_WB = heading_.q_WB();
+    Odometry estimate;
+    estimate.X_WB.q = q_WB;
+    estimate.X_WB.p = fix_.p_W - q_WB * p_BA_;
+    if (extrapolate_) estimate.X_WB.p += (now - fix_time_).s() * fix_.v_W;
+    estimate.w_WB_B = heading_.w_WB_B();
+    estimate.v_WB_B = q_WB.conjugate() * fix_.v_W - estimate.w_WB_B.cross(p_BA_);
+    estimate.position_std_m = fix_.std_m;
+    estimate_.write(now, estimate);
+  }
+
+ private:
+  std::string gps_name_;
+  bool extrapolate_;
+  HeadingSource heading_;
+  Eigen::Vector3d p_BA_;
+  GnssFix fix_;
+  Time fix_time_;
+  std::uint64_t seen_fix_ = 0;
+  SignalReader<GnssFix> gps_;
+  SignalWriter<Odometry> estimate_;
+};
+
+}  // namespace
+
+PartSpec gps_pose_spec() {
+  PartSpec spec;
+  spec.name = "gps_pose";
+  spec.description =
+      "Takes the last satellite fix as the position, unfiltered (Martelli, Mocera, Soma 2024, "
+      "location "
+      "error), and the heading from the truth or a gyro.";
+  spec.parameters = {
+      text_parameter("gps", "gps", "signal of the satellite receiver"),
+      number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
+                            "where the antenna sits in B (x, y, z); taken off the fix", 3),
+      boolean_parameter("extrapolate", false,
+                        "carry the fix on by its velocity until the next one comes"),
+  };
+  for (ParameterSpec& parameter : HeadingSource::parameters()) {
+    spec.parameters.push_back(std::move(parameter));
+  }
+  spec.default_rate_Hz = 40.0;
+  spec.reads = {"<gps>", "truth", "<imu>"};
+  spec.writes = {"estimate"};
+  return spec;
+}
+
+std::unique_ptr<Estimator> make_gps_pose(const ParameterSet& parameters,
+                                         const EstimatorContext& context) {
+  return std::make_unique<GpsPose>(parameters, context);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,48 @@
+#pragma once
+/// Where an estimator takes attitude and turning rate from.
+
+#include <string>
+#include <vector>
+
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+/// `heading` of the estimators:
+///   truth        the true attitude (paper B: heading without error)
+///   gyro         yaw rate of the IMU summed up from the true heading at the start; level ground
+///   assumed gyro_course  the same, drawn to the course of the satellite velocity while driving
+class HeadingSource {
+ public:
+  static std::vector<ParameterSpec> parameters();
+  static std::vector<std::string> reads();
+
+  HeadingSource(const ParameterSet& parameters, Duration period);
+
+  void connect(Ports& ports);
+  /// Advances to `now`. @param fix  a new satellite fix, or nullptr
+  void step(const GnssFix* fix);
+
+  bool ready() const { return ready_; }
+  const Eigen::Quaterniond& q_WB() const { return q_WB_; }
+  const Eigen::Vector3d& w_WB_B() const { return w_WB_B_; }
+  double yaw_rad() const { return yaw_rad_; }
+
+ private:
+  enum class Mode { kTruth, kGyro, kGyroCourse };
+  Mode mode_;
+  std::string imu_name_;
+  double course_time_s_;
+  double course_speed_mps_;
+  double period_s_;
+  bool ready_ = false;
+  double yaw_rad_ = 0.0;
+  double previous_rate_radps_ = 0.0;
+  double since_fix_s_ = 0.0;
+  Eigen::Quaterniond q_WB_ = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d w_WB_B_ = Eigen::Vector3d::Zero();
+  SignalReader<Odometry> truth_;
+  SignalReader<ImuSample> imu_;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,244 @@
+#include "controllers/estimation/odometry_filter.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "controllers/estimation/heading_source.h"
+#include "controllers/estimation/odometry_kalman.h"
+#include "controllers/parts/differential_drive.h"
+#include "controllers/parts/pose2.h"
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+/// Where the estimate was: late fixes are compared with the past they saw.
+class Trace {
+ public:
+  void add(Time now, const Eigen::Vector2d& p) {
+    entries_[next_] = {now, p};
+    next_ = (next_ + 1) % entries_.size();
+    if (count_ < entries_.size()) ++count_;
+  }
+  /// Between the neighbours in time; the oldest kept for what is older, the newest for what is
+  /// newer.
+  Eigen::Vector2d at(Time time) const {
+    const Entry* newer = &entry(0);
+    if (time >= newer->time) return newer->p;
+    for (std::size_t age = 1; age < count_; ++age) {
+      const Entry& older = entry(age);
+      if (time >= older.time) {
+        const double share = (time - older.time).s() / (newer->time - older.time).s();
+        return older.p + share * (newer->p - older.p);
+      }
+      newer = &older;
+    }
+    return newer->p;
+  }
+  bool empty() const { return count_ == 0; }
+
+ private:
+  struct Entry {
+    Time time;
+    Eigen::Vector2d p;
+  };
+  /// @param age  0 = newest
+  const Entry& entry(std::size_t age) const {
+    return entries_[(next_ + entries_.size() - 1 - age) % entries_.size()];
+  }
+  std::array<Entry, 256> entries_{};
+  std::size_t next_ = 0;
+  std::size_t count_ = 0;
+};
+
+class OdometryFilter final : public Estimator {
+ public:
+  OdometryFilter(const ParameterSet& parameters, const EstimatorContext& context)
+      : gps_name_(parameters.text("gps")),
+        use_wheels_(parameters.text("odometry_source") == "wheels"),
+        odometry_name_(use_wheels_ ? parameters.text("wheels") : "command"),
+        odometry_scale_(parameters.number("odometry_scale")),
+        gps_std_m_(parameters.number("gps_std_m")),
+        period_s_(context.period.s()),
+        filter_(read_filter(parameters)),
+        heading_(parameters, context.period) {
+    const auto& antenna = parameters.numbers("antenna_m");
+    p_BA_ = {antenna[0], antenna[1], antenna[2]};
+    if (use_wheels_) {
+      wheel_radius_m_ = context.vehicle_description->number("wheel_radius_m",
+                                                            context.part + " (odometry_filter)");
+      for (const ActuatorSpec& actuator : context.vehicle_description->actuators) {
+        const double side = side_of_wheel(actuator.name);
+        if (side != 0.0) wheels_.push_back({actuator.name, side, -1});
+      }
+      if (wheels_.empty()) {
+        throw ConfigError(
+            fmt::format("{} (odometry_filter): odometry_source = wheels, but vehicle type '{}' has "
+                        "no wheel speeds",
+                        context.part, context.vehicle_description->type));
+      }
+    }
+  }
+
+  void connect(Ports& ports) override {
+    gps_ = ports.read<GnssFix>(gps_name_);
+    heading_.connect(ports);
+    if (use_wheels_) {
+      wheel_speeds_ = ports.read<NamedValues>(odometry_name_);
+    } else {
+      command_ = ports.read<VelocityCommand>(odometry_name_);
+    }
+    estimate_ = ports.write<Odometry>("estimate");
+  }
+
+  void step(Time now) override {
+    const bool is_new = gps_.is_newer_than(seen_fix_) && gps_.value().valid;
+    const bool was_ready = heading_.ready();
+    const double yaw_before = heading_.yaw_rad();
+    heading_.step(is_new ? &gps_.value() : nullptr);
+    if (!heading_.ready()) return;
+
+    const double v_mps = odometry_scale_ * read_speed_mps();
+    if (filter_.ready() && was_ready) {
+      const double turn = wrap_angle(heading_.yaw_rad() - yaw_before);
+      filter_.predict(advance({{0.0, 0.0}, yaw_before}, v_mps * period_s_, turn).p);
+      trace_.add(now, filter_.p());
+    }
+    if (is_new) take_fix(now);
+    if (filter_.ready()) write_estimate(now, v_mps);
+  }
+
+ private:
+  static OdometryKalmanParams read_filter(const ParameterSet& parameters) {
+    OdometryKalmanParams params;
+    params.drift_m_per_sqrt_m = parameters.number("drift_m_per_sqrt_m");
+    params.scale_std = parameters.number("scale_std");
+    params.scale_drift_per_sqrt_m = params.scale_std > 0.0 ? params.scale_drift_per_sqrt_m : 0.0;
+    if (parameters.text("gain") == "fixed") params.fixed_gain = parameters.number("position_gain");
+    return params;
+  }
+
+  void take_fix(Time now) {
+    const GnssFix& fix = gps_.value();
+    const Eigen::Vector3d p_B = fix.p_W - heading_.q_WB() * p_BA_;
+    height_m_ = p_B.z();
+    const Eigen::Vector2d std_m = gps_std_m_ > 0.0
+                                      ? Eigen::Vector2d(gps_std_m_, gps_std_m_)
+                                      : Eigen::Vector2d(fix.std_m.head<2>().cwiseMax(kLeastStd_m));
+    if (!filter_.ready()) {
+      filter_.start(p_B.head<2>(), std_m);
+      trace_.add(now, filter_.p());
+      return;
+    }
+    const Eigen::Vector2d was = trace_.empty() ? filter_.p() : trace_.at(gps_.stamp());
+    filter_.correct(p_B.head<2>() - was, std_m);
+  }
+
+  double read_speed_mps() {
+    if (!use_wheels_) return command_.has_value() ? command_.value().v_mps : 0.0;
+    if (!wheel_speeds_.has_value()) return 0.0;
+    const NamedValues& speeds = wheel_speeds_.value();
+    double left = 0.0, right = 0.0;
+    int lefts = 0, rights = 0;
+    for (Wheel& wheel : wheels_) {
+      if (wheel.index < 0) find_wheel(speeds, wheel);
+      if (wheel.index < 0) continue;
+      (wheel.side > 0.0 ? right : left) += speeds.values[wheel.index];
+      ++(wheel.side > 0.0 ? rights : lefts);
+    }
+    if (lefts == 0 || rights == 0) return 0.0;
+    return 0.5 * wheel_radius_m_ * (left / lefts + right / rights);
+  }
+
+  struct Wheel {
+    std::string name;
+    double side;
+    int index;
+  };
+  static void find_wheel(const NamedValues& speeds, Wheel& wheel) {
+    for (std::size_t i = 0; i < speeds.names.size(); ++i) {
+      if (speeds.names[i] == wheel.name) wheel.index = static_cast<int>(i);
+    }
+  }
+
+  void write_estimate(Time now, double v_mps) {
+    Odometry estimate;
+    estimate.X_WB.q = heading_.q_WB();
+    estimate.X_WB.p = {filter_.p().x(), filter_.p().y(), height_m_};
+    estimate.v_WB_B = {v_mps * filter_.scale(), 0.0, 0.0};
+    estimate.w_WB_B = heading_.w_WB_B();
+    estimate.position_std_m.head<2>() = filter_.std_m();
+    estimate_.write(now, estimate);
+  }
+
+  static constexpr double kLeastStd_m = 1e-3;  // an ideal receiver states zero
+
+  std::string gps_name_;
+  bool use_wheels_;
+  std::string odometry_name_;
+  double odometry_scale_;
+  double gps_std_m_;
+  double period_s_;
+  OdometryKalman filter_;
+  HeadingSource heading_;
+  Eigen::Vector3d p_BA_;
+  double wheel_radius_m_ = 0.0;
+  std::vector<Wheel> wheels_;
+  double height_m_ = 0.0;
+  Trace trace_;
+  std::uint64_t seen_fix_ = 0;
+  SignalReader<GnssFix> gps_;
+  SignalReader<VelocityCommand> command_;
+  SignalReader<NamedValues> wheel_speeds_;
+  SignalWriter<Odometry> estimate_;
+};
+
+}  // namespace
+
+PartSpec odometry_filter_spec() {
+  PartSpec spec;
+  spec.name = "odometry_filter";
+  spec.description =
+      "Dead reckoning along the heading by wheel or commanded speed, drawn to satellite fixes with "
+      "a "
+      "Kalman gain (position and odometry scale) or a fixed one.";
+  spec.parameters = {
+      text_parameter("gps", "gps", "signal of the satellite receiver"),
+      number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
+                            "where the antenna sits in B (x, y, z); taken off the fix", 3),
+      choice_parameter("odometry_source", "command", {"command", "wheels"},
+                       "speed from the controller's command or from the wheels"),
+      text_parameter("wheels", "wheels", "signal of the wheel speeds (odometry_source: wheels)"),
+      positive_parameter("odometry_scale", "", 1.0,
+                         "factor on the odometry's speed: calibration, or an error to study"),
+      choice_parameter(
+          "gain", "kalman", {"kalman", "fixed"},
+          "kalman: from the stated noises, odometry scale learnt; fixed: position_gain"),
+      number_parameter("position_gain", "", 0.05, 0.0, 1.0,
+                       "share of the difference taken over with each fix (gain: fixed)"),
+      positive_parameter("drift_m_per_sqrt_m", "m/sqrt(m)", 0.002,
+                         "1 sigma by which dead reckoning errs over one metre (gain: kalman)"),
+      number_parameter(
+          "scale_std", "", 0.03, 0.0, 1.0,
+          "1 sigma of the odometry's scale at the start (gain: kalman); 0 = not learnt"),
+      number_parameter("gps_std_m", "m", 0.0, 0.0, 100.0,
+                       "1 sigma of a fix; 0 = as the receiver states"),
+  };
+  for (ParameterSpec& parameter : HeadingSource::parameters()) {
+    spec.parameters.push_back(std::move(parameter));
+  }
+  spec.default_rate_Hz = 40.0;
+  spec.reads = {"<gps>", "truth", "<imu>", "command or <wheels>"};
+  spec.writes = {"estimate"};
+  return spec;
+}
+
+std::unique_ptr<Estimator> make_odometry_filter(const ParameterSet& parameters,
+                                                const EstimatorContext& context) {
+  return std::make_unique<OdometryFilter>(parameters, context);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,17 @@
+#pragma once
+/// Estimator `odometry_filter`: dead reckoning along the heading, drawn to the satellite fixes.
+
+#include <memory>
+
+#include "engine/api/part.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+PartSpec odometry_filter_spec();
+
+/// @throws ConfigError if odometry_source is wheels and the vehicle has no left and right wheels
+std::unique_ptr<Estimator> make_odometry_filter(const ParameterSet& parameters,
+                                                const EstimatorContext& context);
+
+}  // namespace vinerow

@@ -1,0 +1,46 @@
+#pragma once
+/// Position from dead reckoning and fixes: a Kalman filter over east, north and the odometry's
+/// scale.
+///
+/// Model: per step p += (1 + s) d + noise, with d the way that odometry and heading tell, s the
+/// constant by which the wheels mismeasure (worn tyre, steady slip) and noise of variance q^2 |d|
+/// along each axis. Fix: z = p + noise of the receiver. Standard equations (Kalman 1960; Joseph
+/// form of the covariance). The gain follows from the stated noises: with good odometry it becomes
+/// as small as 1/n, and the learnt scale keeps so small a gain from lagging behind.
+
+#include <Eigen/Core>
+
+namespace vinerow {
+
+struct OdometryKalmanParams {
+  double drift_m_per_sqrt_m = 0.002;  ///< q
+  double scale_std = 0.03;            ///< of s at the start
+  double scale_drift_per_sqrt_m = 1e-4;
+  double fixed_gain = 0.0;  ///< > 0: this gain on the position, scale not learnt
+};
+
+class OdometryKalman {
+ public:
+  explicit OdometryKalman(const OdometryKalmanParams& params) : params_(params) {}
+
+  bool ready() const { return ready_; }
+  void start(const Eigen::Vector2d& p, const Eigen::Vector2d& std_m);
+  /// @param d  displacement as odometry tells it, m, in W
+  void predict(const Eigen::Vector2d& d);
+  /// @param innovation  fix minus the estimate at the time of the fix, m
+  /// @param std_m  1 sigma of the fix, > 0
+  void correct(const Eigen::Vector2d& innovation, const Eigen::Vector2d& std_m);
+
+  Eigen::Vector2d p() const { return x_.head<2>(); }
+  double scale() const { return 1.0 + x_[2]; }
+  Eigen::Vector2d std_m() const { return covariance_.diagonal().head<2>().cwiseSqrt(); }
+  const Eigen::Matrix3d& covariance() const { return covariance_; }
+
+ private:
+  OdometryKalmanParams params_;
+  bool ready_ = false;
+  Eigen::Vector3d x_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace vinerow

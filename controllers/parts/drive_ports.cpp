@@ -1,0 +1,40 @@
+#include "controllers/parts/drive_ports.h"
+
+#include <fmt/format.h>
+
+#include "engine/core/error.h"
+
+namespace vinerow {
+
+DrivePorts::DrivePorts(const ControllerContext& context, const std::string& type) {
+  const std::string who = fmt::format("{} ({})", context.part, type);
+  VINEROW_DEMAND(context.vehicle_description != nullptr);
+  if (context.period.ns <= 0) {
+    throw ConfigError(fmt::format("{}: rate_Hz must be > 0", who));
+  }
+  drive_ = DifferentialDrive(*context.vehicle_description, who);
+  actuator_values_ = drive_.make_actuators();
+}
+
+void DrivePorts::connect(Ports& ports) {
+  estimate_ = ports.read<Odometry>("estimate");
+  plan_ = ports.read<PlannedPath>("plan");
+  actuators_ = ports.write<NamedValues>("actuators");
+  command_ = ports.write<VelocityCommand>("command");
+  follower_ = ports.write<FollowerState>("follower");
+}
+
+Pose2 DrivePorts::pose() const {
+  const Pose& X_WB = estimate_.value().X_WB;
+  return {X_WB.p.head<2>(), yaw_from_quaternion(X_WB.q)};
+}
+
+void DrivePorts::write(Time now, const VelocityCommand& command, const VelocityCommand& wheels,
+                       const FollowerState& state) {
+  drive_.mix(wheels, actuator_values_);
+  actuators_.write(now, actuator_values_);
+  command_.write(now, command);
+  follower_.write(now, state);
+}
+
+}  // namespace vinerow

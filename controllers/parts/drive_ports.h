@@ -1,0 +1,47 @@
+#pragma once
+/// What every path follower of a speed-steered vehicle reads and writes.
+
+#include "controllers/parts/differential_drive.h"
+#include "controllers/parts/pose2.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+/// The followers' common ports: reads "estimate" and "plan"; writes "actuators", "command",
+/// "follower".
+class DrivePorts {
+ public:
+  /// @throws ConfigError as DifferentialDrive
+  DrivePorts(const ControllerContext& context, const std::string& type);
+
+  void connect(Ports& ports);
+
+  /// True once per new plan.
+  bool has_new_plan() { return plan_.is_newer_than(seen_plan_); }
+  const PlannedPath& plan() const { return plan_.value(); }
+  bool has_estimate() const { return estimate_.has_value(); }
+  const Odometry& estimate() const { return estimate_.value(); }
+  Pose2 pose() const;
+
+  /// Writes wheel speeds, command and follower state. No heap.
+  void write(Time now, const VelocityCommand& command, const FollowerState& state) {
+    write(now, command, command, state);
+  }
+  /// The same with other wheel speeds than the command's (slip made up for).
+  void write(Time now, const VelocityCommand& command, const VelocityCommand& wheels,
+             const FollowerState& state);
+
+  const DifferentialDrive& drive() const { return drive_; }
+
+ private:
+  DifferentialDrive drive_;
+  NamedValues actuator_values_;
+  std::uint64_t seen_plan_ = 0;
+  SignalReader<Odometry> estimate_;
+  SignalReader<PlannedPath> plan_;
+  SignalWriter<NamedValues> actuators_;
+  SignalWriter<VelocityCommand> command_;
+  SignalWriter<FollowerState> follower_;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,39 @@
+#pragma once
+/// Poses in the horizontal plane and motion along arcs of constant curvature.
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace vinerow {
+
+/// Position in W and heading, rad, counter-clockwise from x.
+struct Pose2 {
+  Eigen::Vector2d p = Eigen::Vector2d::Zero();
+  double yaw_rad = 0.0;
+};
+
+/// Unit vector of a heading.
+inline Eigen::Vector2d direction(double yaw_rad) {
+  return {std::cos(yaw_rad), std::sin(yaw_rad)};
+}
+
+/// The vector turned a quarter to the left.
+inline Eigen::Vector2d left_of(const Eigen::Vector2d& v) {
+  return {-v.y(), v.x()};
+}
+
+/// z component of the cross product.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Pose after an arc: chord length sin(h)/h, direction yaw + h, with h half the turned angle.
+/// @param length_m  along the arc, negative backwards
+/// @param turn_rad  heading change over the whole arc, positive to the left
+inline Pose2 advance(const Pose2& pose, double length_m, double turn_rad) {
+  const double half = 0.5 * turn_rad;
+  const double shrink = std::abs(half) < 1e-8 ? 1.0 : std::sin(half) / half;
+  return {pose.p + length_m * shrink * direction(pose.yaw_rad + half), pose.yaw_rad + turn_rad};
+}
+
+}  // namespace vinerow

@@ -1,0 +1,18 @@
+#pragma once
+/// Controller `path_follower`: curvature feed-forward, dynamic lookahead, speed profile, slip
+/// learning.
+
+#include <memory>
+
+#include "engine/api/part.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+PartSpec path_follower_spec();
+
+/// @throws ConfigError if the vehicle has no left and right wheel speeds
+std::unique_ptr<Controller> make_path_follower(const ParameterSet& parameters,
+                                               const ControllerContext& context);
+
+}  // namespace vinerow

@@ -1,0 +1,96 @@
+#include "controllers/path_follower/path_follower_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+constexpr double kSearchBehind_m = 0.5;  // a noisy position may lie behind the last one
+constexpr double kSearchAhead_m = 1.0;
+constexpr double kFirstSearch_m = 3.0;  // where to look for a vehicle that just got its path
+constexpr double kSteepestApproach =
+    0.8;  // sine of the angle at which a distant path is approached
+}  // namespace
+
+void PathFollowerLaw::set_path(const PlannedPath& plan) {
+  path_ = Path(plan);
+  has_path_ = true;
+  finished_ = path_.empty();
+  state_ = {};
+  state_.finished = finished_;
+  state_.remaining_m = path_.length_m();
+  integral_m_ = 0.0;
+  distance_m_ = -1.0;
+  if (!path_.empty()) profile_ = SpeedProfile(path_, params_.speed);
+}
+
+double PathFollowerLaw::calc_lookahead_m() const {
+  return std::clamp(params_.lookahead_s * speed_mps_, params_.lookahead_min_m,
+                    params_.lookahead_max_m);
+}
+
+double PathFollowerLaw::calc_speed(const Path::Nearest& at, double heading_error_rad) {
+  double wanted = profile_.speed_at(path_, at.segment, at.distance_m);
+  // Turn before driving off in a wrong direction.
+  wanted *= std::max(std::cos(heading_error_rad), 0.1);
+  const double step = params_.speed.acceleration_mps2 * params_.cycle_s;
+  return std::clamp(wanted, std::max(speed_mps_ - 2.0 * step, 0.0), speed_mps_ + step);
+}
+
+double PathFollowerLaw::calc_curvature(const Path::Nearest& at, double heading_error_rad) {
+  const double way_m = std::max(speed_mps_ * params_.cycle_s, 1e-3);
+  const double from_m = at.distance_m + speed_mps_ * params_.response_s;
+  const double feed_forward = path_.turn_between_rad(from_m, from_m + way_m, at.segment) / way_m;
+
+  const double lookahead = calc_lookahead_m();
+  const double damping = 2.0 * params_.damping / lookahead;
+  const double e = at.lateral_error_m;
+  if (params_.integral > 0.0) {
+    // Integrate only near the path: a way back from far off says nothing about drift.
+    if (std::abs(e) < 2.0 * params_.integral_max_m) {
+      integral_m_ += params_.integral * e * way_m / lookahead;
+    }
+    integral_m_ = std::clamp(integral_m_, -params_.integral_max_m, params_.integral_max_m);
+  }
+  const double approach = std::clamp((e + integral_m_) / (lookahead * lookahead * damping),
+                                     -kSteepestApproach, kSteepestApproach);
+  // Beyond a quarter turn the sine falls again; the vehicle is to turn all the harder.
+  const double sine = std::abs(heading_error_rad) > 0.5 * kPi
+                          ? std::copysign(1.0, heading_error_rad)
+                          : std::sin(heading_error_rad);
+  return std::clamp(feed_forward - damping * (sine + approach), -params_.max_curvature_per_m,
+                    params_.max_curvature_per_m);
+}
+
+VelocityCommand PathFollowerLaw::step(const Pose2& pose) {
+  if (!has_path_ || finished_) {
+    speed_mps_ = 0.0;
+    return {};
+  }
+  const bool is_first = distance_m_ < 0.0;
+  const double from_m = is_first ? 0.0 : distance_m_ - kSearchBehind_m;
+  const double to_m = is_first ? kFirstSearch_m : distance_m_ + kSearchAhead_m;
+  const Path::Nearest at = path_.nearest(pose.p, from_m, to_m, state_.waypoint);
+  const double heading_error = wrap_angle(pose.yaw_rad - at.yaw_rad);
+  distance_m_ = at.distance_m;
+
+  state_.lateral_error_m = at.lateral_error_m;
+  state_.heading_error_rad = heading_error;
+  state_.distance_m = at.distance_m;
+  state_.remaining_m = path_.length_m() - at.distance_m;
+  state_.waypoint = at.segment;
+  finished_ = state_.remaining_m < params_.goal_tolerance_m;
+  state_.finished = finished_;
+  if (finished_) {
+    speed_mps_ = 0.0;
+    return {};
+  }
+  speed_mps_ = calc_speed(at, heading_error);
+  const double yaw_rate = speed_mps_ * calc_curvature(at, heading_error);
+  return {speed_mps_,
+          std::clamp(yaw_rate, -params_.speed.yaw_rate_radps, params_.speed.yaw_rate_radps)};
+}
+
+}  // namespace vinerow

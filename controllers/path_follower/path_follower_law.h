@@ -1,0 +1,63 @@
+#pragma once
+/// Path following with the path's own curvature fed forward.
+///
+/// Along a path with curvature kappa_ref the lateral error e (positive left) and heading error psi
+/// obey e' = sin(psi), psi' = kappa - kappa_ref per metre driven (small e). The law
+///   kappa = kappa_ref - sin(psi) 2 zeta / L - e / L^2
+/// makes that a linear oscillator per metre with natural length L and damping zeta: errors die out
+/// over about L whatever the speed. L is the dynamic lookahead: it grows with speed, because a
+/// vehicle's response takes time and not distance, and shrinks in turns, where the speed profile
+/// brakes. kappa_ref is the mean over the way of the coming cycle, so that a perfect vehicle ends
+/// each cycle on the path; with a response time it is taken that much further ahead.
+
+#include "controllers/parts/path.h"
+#include "controllers/path_follower/speed_profile.h"
+
+namespace vinerow {
+
+struct PathFollowerParams {
+  double lookahead_s = 1.0;  ///< L = lookahead_s * v, within the two limits
+  double lookahead_min_m = 0.8;
+  double lookahead_max_m = 2.0;
+  double damping = 1.0;          ///< zeta
+  double integral = 0.0;         ///< of e over distance, as a share of 1/L^3
+  double integral_max_m = 0.15;  ///< lateral offset the integral may stand for
+  double response_s = 0.0;
+  double max_curvature_per_m = 2.0;
+  double goal_tolerance_m = 0.05;
+  double cycle_s = 0.025;
+  SpeedLimits speed;
+};
+
+class PathFollowerLaw {
+ public:
+  explicit PathFollowerLaw(const PathFollowerParams& params) : params_(params) {}
+
+  /// Takes over a path. Allocates. A path without length is finished at once.
+  void set_path(const PlannedPath& plan);
+
+  /// One cycle. No heap.
+  VelocityCommand step(const Pose2& pose);
+
+  bool has_path() const { return has_path_; }
+  bool finished() const { return finished_; }
+  const Path& path() const { return path_; }
+  FollowerState state() const { return state_; }
+
+ private:
+  double calc_lookahead_m() const;
+  double calc_speed(const Path::Nearest& at, double heading_error_rad);
+  double calc_curvature(const Path::Nearest& at, double heading_error_rad);
+
+  PathFollowerParams params_;
+  Path path_;
+  SpeedProfile profile_;
+  FollowerState state_;
+  bool has_path_ = false;
+  bool finished_ = false;
+  double distance_m_ = 0.0;
+  double speed_mps_ = 0.0;
+  double integral_m_ = 0.0;  ///< lateral offset that the integral stands for
+};
+
+}  // namespace vinerow

@@ -1,0 +1,38 @@
+#pragma once
+/// How fast a path may be driven: lateral acceleration and yaw rate in turns, braking before them.
+
+#include <vector>
+
+#include "controllers/parts/path.h"
+
+namespace vinerow {
+
+struct SpeedLimits {
+  double speed_mps = 7.0 / 3.6;
+  double acceleration_mps2 = 0.8;          ///< along the path, both ways
+  double lateral_acceleration_mps2 = 1.0;  ///< v^2 |kappa|
+  double yaw_rate_radps = 1.944;           ///< v |kappa|
+  double goal_speed_mps = 0.1;             ///< left at the path's end
+};
+
+/// Largest speed at each place, so that braking with the given acceleration meets every slower
+/// stretch ahead: v(s)^2 = v(s_end)^2 + 2 a (s_end - s), swept backwards over the segments once per
+/// plan.
+class SpeedProfile {
+ public:
+  SpeedProfile() = default;
+  SpeedProfile(const Path& path, const SpeedLimits& limits);
+
+  /// @param segment  that holds the distance
+  double speed_at(const Path& path, int segment, double distance_m) const;
+
+ private:
+  struct Stretch {
+    double cap_mps;  ///< on the stretch itself
+    double end_mps;  ///< where it ends
+  };
+  double acceleration_mps2_ = 1.0;
+  std::vector<Stretch> stretches_;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,124 @@
+#include "controllers/planning/waypoints.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "controllers/parts/path_pieces.h"
+#include "controllers/planning/lift.h"
+#include "controllers/planning/row_check.h"
+#include "engine/core/error.h"
+
+namespace vinerow {
+namespace {
+
+/// Lines "x,y" in metres; a first line of names, empty lines and lines that start with '#' are
+/// skipped.
+std::vector<Eigen::Vector2d> read_csv(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) throw ConfigError(fmt::format("{}: cannot be read", file));
+  std::vector<Eigen::Vector2d> points;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || line.front() == '#') continue;
+    std::string fields = line;
+    for (char& c : fields) c = (c == ',' || c == ';') ? ' ' : c;
+    std::istringstream parser(fields);
+    parser.imbue(std::locale::classic());
+    Eigen::Vector2d p;
+    if (parser >> p.x() >> p.y() && std::isfinite(p.x()) && std::isfinite(p.y())) {
+      points.push_back(p);
+    } else if (number > 1) {
+      throw ConfigError(
+          fmt::format("{}:{}: '{}' must be two numbers, x and y in metres", file, number, line));
+    }
+  }
+  return points;
+}
+
+class Waypoints final : public Planner {
+ public:
+  Waypoints(const ParameterSet& parameters, const PlannerContext& context)
+      : pitch_m_(parameters.number("waypoint_pitch_m")),
+        speed_mps_(parameters.number("speed_mps")),
+        clearance_m_(parameters.number("clearance_m")),
+        map_(context.map),
+        scene_(context.scene) {
+    const std::string who = context.part + " (waypoints)";
+    if (parameters.has("file")) {
+      points_ = read_csv(parameters.text("file"));
+    } else {
+      const auto& x = parameters.numbers("x_m");
+      const auto& y = parameters.numbers("y_m");
+      if (x.size() != y.size()) {
+        throw ConfigError(fmt::format("{}: x_m has {} numbers and y_m {}, must be as many", who,
+                                      x.size(), y.size()));
+      }
+      for (std::size_t i = 0; i < x.size(); ++i) points_.emplace_back(x[i], y[i]);
+    }
+    for (std::size_t i = 1; i < points_.size();) {
+      const bool is_same = (points_[i] - points_[i - 1]).norm() < 1e-6;
+      if (is_same) {
+        points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(i));
+      } else {
+        ++i;
+      }
+    }
+    if (points_.size() < 2) {
+      throw ConfigError(fmt::format(
+          "{}: needs at least two different points, from x_m and y_m or from a file", who));
+    }
+  }
+
+  Result<PlannedPath> plan(const Pose& start) override {
+    std::vector<PathPiece> pieces;
+    for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+      pieces.push_back(make_straight(points_[i], points_[i + 1], PathKind::kLeg, -1, speed_mps_));
+    }
+    constexpr double kNotSplit_m = 1e9;
+    PlannedPath path = make_planned_path(pieces, pitch_m_ > 0.0 ? pitch_m_ : kNotSplit_m);
+    if (map_ != nullptr) {
+      if (const auto fault = find_path_into_row(path, *map_, clearance_m_)) return Failure{*fault};
+    }
+    lift_to_ground(scene_, start.p.z(), path);
+    return path;
+  }
+
+ private:
+  double pitch_m_, speed_mps_, clearance_m_;
+  const RowMap* map_;
+  const SceneQuery* scene_;
+  std::vector<Eigen::Vector2d> points_;
+};
+
+}  // namespace
+
+PartSpec waypoints_spec() {
+  PartSpec spec;
+  spec.name = "waypoints";
+  spec.description = "A path of straights between points given in the scenario or in a CSV file.";
+  spec.parameters = {
+      number_list_parameter("x_m", "m", {}, "x of the points in W (east)"),
+      number_list_parameter("y_m", "m", {}, "y of the points in W (north), as many as x_m"),
+      path_parameter("file",
+                     "CSV file with a line x,y in metres for each point, instead of the lists"),
+      number_parameter("waypoint_pitch_m", "m", 0.33, 0.0, 1e3,
+                       "straights are split into round(length / pitch) parts; 0 = not at all"),
+      number_parameter("speed_mps", "m/s", 0.0, 0.0, 100.0, "wanted speed; 0 = the follower's own"),
+      number_parameter("clearance_m", "m", 0.0, 0.0, 10.0,
+                       "distance that the planned line keeps from every canopy's footprint"),
+  };
+  spec.reads = {"estimate"};
+  spec.writes = {"plan"};
+  return spec;
+}
+
+std::unique_ptr<Planner> make_waypoints(const ParameterSet& parameters,
+                                        const PlannerContext& context) {
+  return std::make_unique<Waypoints>(parameters, context);
+}
+
+}  // namespace vinerow

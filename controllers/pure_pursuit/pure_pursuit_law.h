@@ -1,0 +1,84 @@
+#pragma once
+/// The path-following law of paper B: lookahead circle, local goal point, speeds (section 2.4).
+///
+/// Source: Martelli, Mocera, Soma, AgriEngineering 6(3), 2024, eq. 5-7 and figures 8-13. One cycle:
+///   1. a waypoint is crossed when it is nearer than D_th; the current index is the last one
+///   crossed;
+///   2. the local goal point (LGP) is the first intersection of the lookahead circle with a segment
+///   from
+///      the current index on; of two on one segment the one nearer the segment's end; where there
+///      is none, the waypoint of the current index;
+///   3. theta = phi - gamma (eq. 5), brought into (-pi, pi]: without that the mission is lost as
+///   soon as
+///      headings pass 180 deg;
+///   4. |theta| below the threshold counts as zero;
+///   5. v = v_t (1 - |theta| / theta_max) (eq. 7, with |theta|: a turn to the right must not speed
+///   up);
+///   6. yaw rate = theta / t (eq. 6), limited to v_t / R_min (table 1).
+/// Settled here: D_th equals the lookahead distance and the last waypoint is aimed at once it is
+/// within the lookahead distance. Other choices loop about a waypoint or never reach the goal
+/// (docs/paper_b.md).
+
+#include <optional>
+#include <vector>
+
+#include "controllers/parts/pose2.h"
+#include "engine/api/messages.h"
+
+namespace vinerow {
+
+struct PurePursuitParams {
+  double lookahead_m = 0.75;         ///< LD
+  double crossed_distance_m = 0.75;  ///< D_th
+  double speed_mps = 7.0 / 3.6;      ///< v_t
+  double steering_threshold_rad = 0.0;
+  double largest_angle_rad = 2.0 * 3.14159265358979323846;  ///< theta_max
+  double yaw_rate_limit_radps = 7.0 / 3.6;                  ///< infinity = none
+  double turn_gain = 1.0;                                   ///< 1 = eq. 6
+  double cycle_s = 0.025;                                   ///< t
+  double goal_tolerance_m = 0.1;
+  bool aim_at_goal = true;
+};
+
+class PurePursuitLaw {
+ public:
+  explicit PurePursuitLaw(const PurePursuitParams& params) : params_(params) {}
+
+  /// Takes over a path and starts at its first waypoint. Allocates.
+  void set_path(const PlannedPath& path);
+
+  /// One cycle. No heap.
+  /// @returns what to drive; zero once the goal is reached or while there is no path
+  VelocityCommand step(const Pose2& pose);
+
+  bool has_path() const { return !points_.empty(); }
+  bool finished() const { return finished_; }
+  /// Index of the last waypoint crossed.
+  int index() const { return index_; }
+  /// Length of the polyline up to a waypoint.
+  double distance_m(int waypoint) const { return distance_m_[waypoint]; }
+  double length_m() const { return distance_m_.empty() ? 0.0 : distance_m_.back(); }
+  const std::vector<Eigen::Vector2d>& points() const { return points_; }
+  const Eigen::Vector2d& local_goal() const { return local_goal_; }
+
+ private:
+  void advance_index(const Eigen::Vector2d& p);
+  Eigen::Vector2d find_local_goal(const Eigen::Vector2d& p) const;
+  bool is_at_goal(const Eigen::Vector2d& p) const;
+
+  PurePursuitParams params_;
+  std::vector<Eigen::Vector2d> points_;
+  std::vector<double> distance_m_;
+  std::vector<double> speed_mps_;
+  double longest_segment_m_ = 0.0;
+  int index_ = 0;
+  bool finished_ = false;
+  Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
+};
+
+/// Where a circle meets a segment: the share of the segment in [0, 1], the larger one of two.
+/// @returns nullopt if the circle misses the segment (paper B, figure 10, cases a and b)
+std::optional<double> intersect_circle(const Eigen::Vector2d& centre, double radius_m,
+                                       const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+
+}  // namespace vinerow

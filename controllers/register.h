@@ -1,0 +1,10 @@
+#pragma once
+/// Every built-in estimator, planner and controller.
+
+#include "engine/api/registry.h"
+
+namespace vinerow {
+
+void register_controllers(Registry& registry);
+
+}  // namespace vinerow

@@ -1,0 +1,104 @@
+#pragma once
+/// Deviation of a driven track from a planned polyline: mean, maximum and number of oscillations.
+///
+/// Source: Martelli, Mocera, Soma, "Autonomous Driving Strategy for a Specialized Four-Wheel
+/// Differential-Drive Agricultural Rover", AgriEngineering 6(3), 2024, section 3: average
+/// trajectory deviation (ATD), oscillating factor (OF), relative accuracy RA = 1/(ATD OF) (eq. 8).
+/// Settled here, because the paper leaves it open: deviation is the distance to the waypoint
+/// polyline (not to the nearest waypoint); OF counts the local maxima of the whole mission's
+/// deviation curve as MATLAB's findpeaks does (a plateau once, the ends never) with a least
+/// prominence of 1e-6 m, so that rounding on straight rows is not counted.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace vinerow {
+
+/// A fixed polyline in the plane that answers "how far, and where" exactly.
+class PolylineDistance {
+ public:
+  struct Nearest {
+    double distance_m = std::numeric_limits<double>::infinity();
+    double signed_distance_m = 0.0;  ///< positive: left of the nearest segment
+    int segment = 0;                 ///< index of its first point
+    double fraction = 0.0;           ///< 0..1 along the segment
+    Eigen::Vector2d point = Eigen::Vector2d::Zero();
+  };
+
+  PolylineDistance() = default;
+  /// @param points  at least one, m; a single point is a polyline of length zero
+  explicit PolylineDistance(std::vector<Eigen::Vector2d> points);
+
+  /// Nearest point of the whole polyline. Of equals the one on the lowest segment that was tried
+  /// first from the hint. Cost: a few segments and one box per 32 segments; no heap.
+  /// @param hint_segment  where to look first; decides the cost, never the distance
+  Nearest nearest(const Eigen::Vector2d& p, int hint_segment = 0) const;
+
+  /// Nearest point among segments [first, last] only, clamped to the polyline.
+  Nearest nearest_within(const Eigen::Vector2d& p, int first, int last) const;
+
+  const std::vector<Eigen::Vector2d>& points() const { return points_; }
+  int segments() const { return static_cast<int>(points_.size()) - 1; }
+  double length_m() const { return length_m_; }
+
+ private:
+  void try_segment(int segment, const Eigen::Vector2d& p, Nearest& best) const;
+
+  std::vector<Eigen::Vector2d> points_;
+  std::vector<Eigen::AlignedBox2d> blocks_;  ///< of 32 segments each
+  double length_m_ = 0.0;
+};
+
+/// Counts the local maxima of a curve as it comes, without keeping it.
+///
+/// A maximum counts if the curve rose by at least `least_prominence` before it and falls by as much
+/// after it, relative to the lowest values between it and the next maximum that counts: the peaks
+/// that MATLAB's findpeaks(y, 'MinPeakProminence', least_prominence) returns. With 0: every strict
+/// local maximum, a plateau once. The first and the last value are never maxima.
+class PeakCounter {
+ public:
+  explicit PeakCounter(double least_prominence = 1e-6) : least_prominence_(least_prominence) {}
+  void add(double value);
+  std::int64_t count() const { return count_; }
+
+ private:
+  double least_prominence_;
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = 0.0;
+  bool rising_ = false;
+  std::int64_t count_ = 0;
+};
+
+/// ATD, OF and RA of a mission, sample by sample. Memory does not grow with the mission.
+class DeviationMeter {
+ public:
+  static constexpr double kLeastProminence_m = 1e-6;
+
+  explicit DeviationMeter(std::vector<Eigen::Vector2d> path,
+                          double least_prominence_m = kLeastProminence_m)
+      : path_(std::move(path)), peaks_(least_prominence_m) {}
+
+  /// @param p  true position in the plane, m. @returns where it is on the path
+  PolylineDistance::Nearest add(const Eigen::Vector2d& p);
+
+  std::int64_t samples() const { return samples_; }
+  double average_m() const;  ///< ATD; NaN without samples
+  double max_m() const { return max_m_; }
+  std::int64_t oscillations() const { return peaks_.count(); }
+  /// 1/(ATD OF), 1/m; NaN if either is zero.
+  double relative_accuracy_per_m() const;
+  const PolylineDistance& path() const { return path_; }
+
+ private:
+  PolylineDistance path_;
+  PeakCounter peaks_;
+  int segment_ = 0;
+  std::int64_t samples_ = 0;
+  double sum_m_ = 0.0;
+  double max_m_ = 0.0;
+};
+
+}  // namespace vinerow

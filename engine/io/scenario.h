@@ -18,7 +18,9 @@ namespace vinerow::io {
 /// A part as named in a scenario: `type`, `rate_Hz`, and its parameters at the same level.
 struct PartConfig {
   std::string type;
-  double rate_Hz = 0.0;  ///< the given one or the spec's default; 0 where the kind has none
+  /// The given one, the spec's default, or the physics step's where that default is 0; 0 where the
+  /// kind has none.
+  double rate_Hz = 0.0;
   ParameterSet parameters;
   SourceMark where;
 };
@@ -128,7 +130,9 @@ struct Overrides {
 
 /// Only the plug-in list, read first because plug-ins extend the registry that the rest is checked
 /// against.
-std::vector<std::filesystem::path> load_plugin_list(const std::filesystem::path& file);
+/// @returns absolute paths of files that exist. Of the overrides only those of `plugins` count.
+std::vector<std::filesystem::path> load_plugin_list(const std::filesystem::path& file,
+                                                    const Overrides& overrides = {});
 
 /// Loads, includes, overrides and checks. @throws ConfigError with "file:line: key = value, ..." in
 /// one sentence

@@ -144,6 +144,9 @@ ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kin
       part.config.rate_Hz = rate.values.number("rate_Hz");
       check_rate(part.config.rate_Hz, context.physics_step, given ? given->mark : entry.mark,
                  join_path(path, "rate_Hz"));
+    } else {
+      // The part asks for every physics step; llround in period_of_rate brings the same step back.
+      part.config.rate_Hz = 1e9 / static_cast<double>(context.physics_step.ns);
     }
   }
   ReadParameters read =

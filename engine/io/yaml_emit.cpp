@@ -99,8 +99,15 @@ void emit_block(const YamlNode& node, int indent, std::string& out) {
     emit_value(entry.value, indent + 2, out);
   }
   for (const YamlNode& item : node.items) {
-    out += spaces + "-";
-    emit_value(item, indent + 2, out);
+    if (fits_one_line(item)) {
+      out += spaces + "- " + in_one_line(item) + "\n";
+      continue;
+    }
+    // A block starts in the line of its dash: "- metric: ...".
+    std::string block;
+    emit_block(item, indent + 2, block);
+    block[static_cast<std::size_t>(indent)] = '-';
+    out += block;
   }
 }
 

@@ -146,7 +146,7 @@ bool differ(const YamlNode* a, const YamlNode* b) {
 
 bool replaces_whole(const YamlNode& base, const YamlNode& over, const std::string& path) {
   if (!base.is_mapping() || !over.is_mapping()) return true;
-  if (is_sourced_value(base) || is_sourced_value(over)) return true;
+  if (is_sourced_value(base) && is_sourced_value(over)) return true;
   if (!is_vehicle_path(path) && differ(base.find("type"), over.find("type"))) return true;
   if (path.starts_with("pictures.cameras.") && differ(base.find("kind"), over.find("kind"))) {
     return true;

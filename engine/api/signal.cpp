@@ -113,7 +113,7 @@ void SignalBus::check_connected() const {
     if (!signal->writer().empty()) written.push_back(signal->name());
   }
   for (const auto& signal : signals_) {
-    if (!signal->writer().empty()) continue;
+    if (!signal->writer().empty() || signal->first_reader().empty()) continue;
     throw ConfigError(fmt::format("{} reads signal '{}', which nobody writes{} (written: {})",
                                   signal->first_reader(), signal->name(),
                                   did_you_mean(signal->name(), written), join(written)));

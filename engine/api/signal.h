@@ -120,6 +120,10 @@ class SignalBus {
   template <class T>
   SignalReader<T> subscribe(const std::string& name, const std::string& reader);
 
+  /// Like subscribe, but it is no error if nobody writes the signal: the reader never has a value then.
+  template <class T>
+  SignalReader<T> subscribe_optional(const std::string& name, const std::string& reader);
+
   /// @throws ConfigError "rover.controller reads 'rover/estimat' which nobody writes; did you mean
   /// ...?"
   void check_connected() const;
@@ -157,6 +161,14 @@ SignalReader<T> SignalBus::subscribe(const std::string& name, const std::string&
   return SignalReader<T>(static_cast<const Signal<T>*>(&signal));
 }
 
+template <class T>
+SignalReader<T> SignalBus::subscribe_optional(const std::string& name, const std::string& reader) {
+  SignalBase& signal = slot(name, T::kType, reader, [](const std::string& n) {
+    return std::unique_ptr<SignalBase>(std::make_unique<Signal<T>>(n));
+  });
+  return SignalReader<T>(static_cast<const Signal<T>*>(&signal));
+}
+
 /// The bus as one part sees it: local names inside its vehicle, e.g. "estimate" ->
 /// "rover/estimate".
 class Ports {
@@ -170,6 +182,11 @@ class Ports {
   template <class T>
   SignalReader<T> read(const std::string& name) {
     return bus_.subscribe<T>(full_name(name), part_);
+  }
+  /// For what a part can do without, e.g. a metric that judges plans where there are any.
+  template <class T>
+  SignalReader<T> read_optional(const std::string& name) {
+    return bus_.subscribe_optional<T>(full_name(name), part_);
   }
   template <class T>
   SignalWriter<T> write(const std::string& name) {

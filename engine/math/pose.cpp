@@ -30,11 +30,12 @@ double yaw_from_quaternion(const Quaterniond& q) {
 
 Quaterniond quaternion_on_slope(double yaw_rad, const Vector3d& normal_W) {
   const Vector3d z = normal_W.normalized();
+  // The x axis is the line in which the slope cuts the vertical plane of the heading.
   const Vector3d heading(std::cos(yaw_rad), std::sin(yaw_rad), 0.0);
-  const Vector3d y = z.cross(heading).normalized();
+  const Vector3d x = (heading - Vector3d(0.0, 0.0, heading.dot(z) / z.z())).normalized();
   Matrix3d R;
-  R.col(0) = y.cross(z);
-  R.col(1) = y;
+  R.col(0) = x;
+  R.col(1) = z.cross(x);
   R.col(2) = z;
   return Quaterniond(R);
 }

@@ -1,8 +1,10 @@
 #pragma once
-/// Multi-rate scheduler on integer nanoseconds: which tasks are due at an instant, and in which order.
+/// Multi-rate scheduler on integer nanoseconds: which tasks are due at an instant, and in which
+/// order.
 ///
-/// Rates are exact: a task of period T and offset D runs at D, D + T, D + 2T ... and at no other time, so that an
-/// hour holds exactly 18,000 ticks of a 5 Hz task. Inside an instant tasks run by stage, then in order of adding.
+/// Rates are exact: a task of period T and offset D runs at D, D + T, D + 2T ... and at no other
+/// time, so that an hour holds exactly 18,000 ticks of a 5 Hz task. Inside an instant tasks run by
+/// stage, then in order of adding.
 
 #include <cstdint>
 #include <functional>
@@ -23,7 +25,8 @@ class Scheduler {
 
   /// @param name  who, for errors and timings, e.g. "rover.controller"
   /// @throws ConfigError naming both numbers if the step does not divide the period or the offset
-  void add(Stage stage, std::string name, Duration period, Duration offset, std::function<void(Time)> run);
+  void add(Stage stage, std::string name, Duration period, Duration offset,
+           std::function<void(Time)> run);
 
   /// Runs everything that is due at `now`. Instants must be visited in rising order without gaps.
   void run_due(Time now);

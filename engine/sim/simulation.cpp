@@ -20,7 +20,9 @@ std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Regi
 }
 
 Simulation::Simulation(const io::Scenario& scenario, const Registry& registry)
-    : scenario_(scenario), world_(build_world(scenario, registry)), scheduler_(scenario.physics_step) {
+    : scenario_(scenario),
+      world_(build_world(scenario, registry)),
+      scheduler_(scenario.physics_step) {
   physics::PhysicsSettings settings;
   settings.step = scenario_.physics_step;
   settings.gravity_mps2 = scenario_.gravity_mps2;
@@ -33,9 +35,8 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry)
                        *physics_,
                        bus_,
                        scheduler_,
-                       [this](Event::Level level, const std::string& source, const std::string& text) {
-                         emit(level, source, text);
-                       }};
+                       [this](Event::Level level, const std::string& source,
+                              const std::string& text) { emit(level, source, text); }};
   for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
     vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run));
   }
@@ -43,6 +44,7 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry)
 
   hashed_sequence_.assign(bus_.signals().size(), 0);
   hashed_.assign(bus_.signals().size(), true);
+  hashed_[0] = false;  // events tell people what the signals hold already
   for (const auto& vehicle : vehicles_) {
     for (const std::string& diagnostic : vehicle->diagnostic_signals()) {
       for (std::size_t i = 0; i < bus_.signals().size(); ++i) {
@@ -96,7 +98,8 @@ void Simulation::step_physics() {
 }
 
 void Simulation::run_until(Time end) {
-  const Time last{duration_from_s(scenario_.duration_s).ns / scenario_.physics_step.ns * scenario_.physics_step.ns};
+  const Time last{duration_from_s(scenario_.duration_s).ns / scenario_.physics_step.ns *
+                  scenario_.physics_step.ns};
   while (!over_ && now_ <= end) {
     work_instant();
     over_ = now_ >= last || (scenario_.stop_when_finished && finished());
@@ -104,7 +107,9 @@ void Simulation::run_until(Time end) {
   }
 }
 
-void Simulation::run() { run_until(Time{duration_from_s(scenario_.duration_s).ns}); }
+void Simulation::run() {
+  run_until(Time{duration_from_s(scenario_.duration_s).ns});
+}
 
 std::map<std::string, std::map<std::string, double>> Simulation::metrics() const {
   std::map<std::string, std::map<std::string, double>> all;
@@ -118,8 +123,8 @@ const Odometry& Simulation::truth(const std::string& name) const {
     if (vehicle->name() == name) return vehicle->truth();
     known.push_back(vehicle->name());
   }
-  throw ConfigError(fmt::format("no vehicle '{}' in this run{} (known: {})", name, did_you_mean(name, known),
-                                join(known)));
+  throw ConfigError(fmt::format("no vehicle '{}' in this run{} (known: {})", name,
+                                did_you_mean(name, known), join(known)));
 }
 
 }  // namespace vinerow

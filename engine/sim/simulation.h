@@ -1,9 +1,9 @@
 #pragma once
 /// One run of one scenario: builds the parts, wires the signals, steps. No files are written here.
 ///
-/// At each instant t = k * physics step: truth is published, then sense, estimate, plan, guide, control, actuate,
-/// judge (metrics); observers see the instant and the digest takes in every signal written; then physics carries
-/// the state to t + step and is checked.
+/// At each instant t = k * physics step: truth is published, then sense, estimate, plan, guide,
+/// control, actuate, judge (metrics); observers see the instant and the digest takes in every
+/// signal written; then physics carries the state to t + step and is checked.
 
 #include <memory>
 #include <string>
@@ -58,7 +58,8 @@ class Simulation {
   Time now() const { return now_; }
   std::uint64_t steps() const { return steps_; }
 
-  /// Digest over every signal written so far (diagnostics such as link poses excepted: they follow from truth).
+  /// Digest over every signal written so far, events and diagnostics (link poses, wheel states)
+  /// excepted: they follow from the others, and their rate belongs to the log.
   std::string digest() const { return hasher_.hex(); }
 
   /// metrics[vehicle][metric]. Call when over().

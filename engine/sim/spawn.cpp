@@ -15,12 +15,14 @@ struct Heading {
   double yaw_rad;
 };
 
-Heading find_on_alley(const io::SpawnConfig& spawn, const WorldModel& world, const std::string& vehicle) {
+Heading find_on_alley(const io::SpawnConfig& spawn, const WorldModel& world,
+                      const std::string& vehicle) {
   const auto& alleys = world.rows.alleys;
   if (*spawn.alley < 0 || *spawn.alley >= static_cast<int>(alleys.size())) {
-    throw ConfigError(fmt::format("{}: vehicles.{}.spawn.alley = {}, but world '{}' has {} alleys (0 to {})",
-                                  spawn.where.text(), vehicle, *spawn.alley, world.name, alleys.size(),
-                                  static_cast<int>(alleys.size()) - 1));
+    throw ConfigError(
+        fmt::format("{}: vehicles.{}.spawn.alley = {}, but world '{}' has {} alleys (0 to {})",
+                    spawn.where.text(), vehicle, *spawn.alley, world.name, alleys.size(),
+                    static_cast<int>(alleys.size()) - 1));
   }
   std::vector<Eigen::Vector3d> line = alleys[*spawn.alley].line_W;
   if (spawn.reverse) std::reverse(line.begin(), line.end());
@@ -29,15 +31,17 @@ Heading find_on_alley(const io::SpawnConfig& spawn, const WorldModel& world, con
   return {first - spawn.offset_m * along, std::atan2(along.y(), along.x())};
 }
 
-Heading find_point(const io::SpawnConfig& spawn, const WorldModel& world, const std::string& vehicle) {
+Heading find_point(const io::SpawnConfig& spawn, const WorldModel& world,
+                   const std::string& vehicle) {
   std::vector<std::string> known;
   for (const SpawnPoint& point : world.spawn_points) {
     if (point.name == spawn.point) return {point.p_W, point.yaw_rad};
     known.push_back(point.name);
   }
-  throw ConfigError(fmt::format("{}: vehicles.{}.spawn.point = '{}', but world '{}' has no such spawn point{} (it has: {})",
-                                spawn.where.text(), vehicle, spawn.point, world.name, did_you_mean(spawn.point, known),
-                                known.empty() ? "none" : join(known)));
+  throw ConfigError(fmt::format(
+      "{}: vehicles.{}.spawn.point = '{}', but world '{}' has no such spawn point{} (it has: {})",
+      spawn.where.text(), vehicle, spawn.point, world.name, did_you_mean(spawn.point, known),
+      known.empty() ? "none" : join(known)));
 }
 
 }  // namespace
@@ -56,16 +60,19 @@ Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, cons
   constexpr double kFromAbove_m = 1e5;
   const auto ground = scene.ground_height_m(x, y, kFromAbove_m);
   if (!ground) {
-    throw ConfigError(fmt::format("{}: vehicles.{}.spawn is at x = {:.3f} m, y = {:.3f} m, where world '{}' has no ground",
-                                  spawn.where.text(), vehicle, x, y, world.name));
+    throw ConfigError(fmt::format(
+        "{}: vehicles.{}.spawn is at x = {:.3f} m, y = {:.3f} m, where world '{}' has no ground",
+        spawn.where.text(), vehicle, x, y, world.name));
   }
-  // Slope from the ground a wheel base around, so that a pebble under the centre does not tilt the vehicle.
+  // Slope from the ground a wheel base around, so that a pebble under the centre does not tilt the
+  // vehicle.
   constexpr double kReach_m = 0.5;
   const auto height_at = [&](double dx, double dy) {
     return scene.ground_height_m(x + dx, y + dy, kFromAbove_m).value_or(*ground);
   };
   const Eigen::Vector3d normal(-(height_at(kReach_m, 0) - height_at(-kReach_m, 0)) / (2 * kReach_m),
-                               -(height_at(0, kReach_m) - height_at(0, -kReach_m)) / (2 * kReach_m), 1.0);
+                               -(height_at(0, kReach_m) - height_at(0, -kReach_m)) / (2 * kReach_m),
+                               1.0);
   Pose pose;
   pose.q = quaternion_on_slope(heading.yaw_rad, normal);
   pose.p = Eigen::Vector3d(x, y, *ground) + height_above_ground_m * normal.normalized();

@@ -22,12 +22,13 @@ constexpr double kDefaultControlRate_Hz = 20.0;
 /// Smallest multiple of the physics step that is not shorter than 1 / rate.
 Duration diagnostics_period(double rate_Hz, Duration step) {
   const double wanted_ns = 1e9 / rate_Hz;
-  return {static_cast<std::int64_t>(std::ceil(wanted_ns / static_cast<double>(step.ns) - 1e-9)) * step.ns};
+  return {static_cast<std::int64_t>(std::ceil(wanted_ns / static_cast<double>(step.ns) - 1e-9)) *
+          step.ns};
 }
 
 bool is_finite(const Odometry& state) {
-  return state.X_WB.p.allFinite() && state.X_WB.q.coeffs().allFinite() && state.v_WB_B.allFinite() &&
-         state.w_WB_B.allFinite();
+  return state.X_WB.p.allFinite() && state.X_WB.q.coeffs().allFinite() &&
+         state.v_WB_B.allFinite() && state.w_WB_B.allFinite();
 }
 
 }  // namespace
@@ -64,21 +65,23 @@ std::function<void(Time)> VehicleRuntime::guarded(const std::string& part, const
     }
     for (SignalBase* signal : written) {
       if (signal->has_nan()) {
-        throw SimulationError(culprit, now, fmt::format("wrote NaN into signal '{}'", signal->name()));
+        throw SimulationError(culprit, now,
+                              fmt::format("wrote NaN into signal '{}'", signal->name()));
       }
     }
   };
 }
 
-void VehicleRuntime::add_stepped(Stage stage, const std::string& part, const std::string& type, double rate_Hz,
-                                 SteppedPart& stepped) {
+void VehicleRuntime::add_stepped(Stage stage, const std::string& part, const std::string& type,
+                                 double rate_Hz, SteppedPart& stepped) {
   Ports ports(run_.bus, config_.name, part);
   stepped.connect(ports);
   run_.scheduler.add(stage, part, period_of_rate(rate_Hz), {},
                      guarded(part, type, [&stepped](Time now) { stepped.step(now); }));
 }
 
-VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext& run) : config_(config), run_(run) {
+VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext& run)
+    : config_(config), run_(run) {
   const std::string& name = config_.name;
   vehicle_ = run_.registry.make_vehicle(config_.vehicle.type, config_.vehicle.parameters,
                                         context<VehicleContext>(name, 0.0));
@@ -103,9 +106,10 @@ VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext
   contacts_.names = {"touches", "touching"};
   contacts_.values = {0.0, 0.0};
 
-  run_.scheduler.add(Stage::kSense, name + ".diagnostics",
-                     diagnostics_period(run_.scenario.record.truth_rate_Hz, run_.scenario.physics_step), {},
-                     [this](Time now) { publish_diagnostics(now); });
+  run_.scheduler.add(
+      Stage::kSense, name + ".diagnostics",
+      diagnostics_period(run_.scenario.record.truth_rate_Hz, run_.scenario.physics_step), {},
+      [this](Time now) { publish_diagnostics(now); });
   add_sensors();
   add_estimator();
   add_planner();
@@ -125,12 +129,14 @@ void VehicleRuntime::add_sensors() {
     sensor_context.scene = &run_.physics.scene();
     sensor_context.world = &run_.world;
     sensor_context.vehicle_truth = vehicle_.get();
-    sensors_.push_back(run_.registry.make_sensor(sensor.part.type, sensor.part.parameters, sensor_context));
+    sensors_.push_back(
+        run_.registry.make_sensor(sensor.part.type, sensor.part.parameters, sensor_context));
     Sensor& built = *sensors_.back();
     add_stepped(Stage::kSense, part, sensor.part.type, sensor.part.rate_Hz, built);
     if (built.delay().ns > 0) {
-      run_.scheduler.add(Stage::kSense, part + ".delivery", sensor_context.period, built.delay(),
-                         guarded(part, sensor.part.type, [&built](Time now) { built.deliver(now); }));
+      run_.scheduler.add(
+          Stage::kSense, part + ".delivery", sensor_context.period, built.delay(),
+          guarded(part, sensor.part.type, [&built](Time now) { built.deliver(now); }));
     }
   }
 }
@@ -139,12 +145,14 @@ void VehicleRuntime::add_estimator() {
   const std::string part = config_.name + ".estimator";
   const bool given = config_.estimator.has_value();
   const std::string type = given ? config_.estimator->type : "truth";
-  const double rate_Hz = given && config_.estimator->rate_Hz > 0.0 ? config_.estimator->rate_Hz : control_rate_Hz();
+  const double rate_Hz =
+      given && config_.estimator->rate_Hz > 0.0 ? config_.estimator->rate_Hz : control_rate_Hz();
   auto estimator_context = context<EstimatorContext>(part, rate_Hz);
   estimator_context.vehicle_description = &vehicle_->description();
   estimator_context.map = &run_.world.rows;
-  estimator_ = given ? run_.registry.make_estimator(type, config_.estimator->parameters, estimator_context)
-                     : std::make_unique<TruthEstimator>();
+  estimator_ =
+      given ? run_.registry.make_estimator(type, config_.estimator->parameters, estimator_context)
+            : std::make_unique<TruthEstimator>();
   add_stepped(Stage::kEstimate, part, type, rate_Hz, *estimator_);
 }
 
@@ -155,20 +163,24 @@ void VehicleRuntime::add_planner() {
   planner_context.vehicle_description = &vehicle_->description();
   planner_context.map = &run_.world.rows;
   planner_context.scene = &run_.physics.scene();
-  planner_ = run_.registry.make_planner(config_.planner->type, config_.planner->parameters, planner_context);
+  planner_ = run_.registry.make_planner(config_.planner->type, config_.planner->parameters,
+                                        planner_context);
   Ports ports(run_.bus, config_.name, part);
   estimate_ = ports.read<Odometry>("estimate");
   plan_writer_ = ports.write<PlannedPath>("plan");
   run_.scheduler.add(Stage::kPlan, part, planner_context.period, {},
-                     guarded(part, config_.planner->type, [this](Time now) { try_to_plan(now); }));
+                     [this](Time now) { try_to_plan(now); });
 }
 
 void VehicleRuntime::try_to_plan(Time now) {
   if (planned_ || !estimate_.has_value()) return;
-  const Result<PlannedPath> plan = planner_->plan(estimate_.value().X_WB);
+  Result<PlannedPath> plan = Failure{};
+  guarded(config_.name + ".planner", config_.planner->type,
+          [&](Time) { plan = planner_->plan(estimate_.value().X_WB); })(now);
+  // A plan that cannot be made is bad input, not a failure of the simulation.
   if (!plan) {
-    throw ConfigError(fmt::format("{}: {}.planner ({}): {}", config_.planner->where.text(), config_.name,
-                                  config_.planner->type, plan.reason()));
+    throw ConfigError(fmt::format("{}: {}.planner ({}): {}", config_.planner->where.text(),
+                                  config_.name, config_.planner->type, plan.reason()));
   }
   planned_ = true;
   plan_writer_.write(now, *plan);
@@ -186,20 +198,22 @@ void VehicleRuntime::add_controller() {
   };
   if (config_.guidance) {
     const std::string part = config_.name + ".guidance";
-    const double rate_Hz = config_.guidance->rate_Hz > 0.0 ? config_.guidance->rate_Hz : control_rate_Hz();
+    const double rate_Hz =
+        config_.guidance->rate_Hz > 0.0 ? config_.guidance->rate_Hz : control_rate_Hz();
     guidance_ = run_.registry.make_guidance(config_.guidance->type, config_.guidance->parameters,
                                             controller_context_of(part, rate_Hz));
     add_stepped(Stage::kGuide, part, config_.guidance->type, rate_Hz, *guidance_);
   }
   const std::string part = config_.name + ".controller";
-  controller_ = run_.registry.make_controller(config_.controller->type, config_.controller->parameters,
-                                              controller_context_of(part, control_rate_Hz()));
+  controller_ =
+      run_.registry.make_controller(config_.controller->type, config_.controller->parameters,
+                                    controller_context_of(part, control_rate_Hz()));
   add_stepped(Stage::kControl, part, config_.controller->type, control_rate_Hz(), *controller_);
   Ports ports(run_.bus, config_.name, config_.name);
   actuators_ = ports.read<NamedValues>("actuators");
   actuator_values_.assign(vehicle_->description().actuators.size(), 0.0);
-  run_.scheduler.add(Stage::kActuate, config_.name + ".actuators", period_of_rate(control_rate_Hz()), {},
-                     [this](Time now) { actuate(now); });
+  run_.scheduler.add(Stage::kActuate, config_.name + ".actuators",
+                     period_of_rate(control_rate_Hz()), {}, [this](Time now) { actuate(now); });
 }
 
 void VehicleRuntime::actuate(Time now) {
@@ -231,14 +245,16 @@ void VehicleRuntime::actuate(Time now) {
 void VehicleRuntime::add_metrics() {
   for (const io::NamedPart& metric : run_.scenario.metrics) {
     const std::string part = fmt::format("{}.metrics.{}", config_.name, metric.name);
-    // Metrics look as often as the controller acts: the paper's samples are the poses of its cycles.
+    // Metrics look as often as the controller acts: the paper's samples are the poses of its
+    // cycles.
     const double rate_Hz = metric.part.rate_Hz > 0.0 ? metric.part.rate_Hz : control_rate_Hz();
     auto metric_context = context<MetricContext>(part, rate_Hz);
     metric_context.vehicle_description = &vehicle_->description();
     metric_context.scene = &run_.physics.scene();
     metric_context.world = &run_.world;
     metrics_.push_back(
-        {metric.name, run_.registry.make_metric(metric.part.type, metric.part.parameters, metric_context)});
+        {metric.name,
+         run_.registry.make_metric(metric.part.type, metric.part.parameters, metric_context)});
     // A metric that judges plans has nothing to read where the vehicle has no planner.
     add_stepped(Stage::kJudge, part, metric.part.type, rate_Hz, *metrics_.back().metric);
   }
@@ -263,11 +279,13 @@ void VehicleRuntime::after_physics(Time now, Duration step) {
   const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
   if (!is_finite(state)) throw SimulationError(culprit, now, "its state is not finite any more");
   if (state.X_WB.p.cwiseAbs().maxCoeff() > kMaxDistance_m) {
-    throw SimulationError(culprit, now, fmt::format("it is farther than {:g} m from the origin", kMaxDistance_m));
+    throw SimulationError(culprit, now,
+                          fmt::format("it is farther than {:g} m from the origin", kMaxDistance_m));
   }
   if (state.v_WB_B.norm() > kMaxSpeed_mps) {
-    throw SimulationError(culprit, now, fmt::format("its speed of {:g} m/s is beyond {:g} m/s",
-                                                    state.v_WB_B.norm(), kMaxSpeed_mps));
+    throw SimulationError(culprit, now,
+                          fmt::format("its speed of {:g} m/s is beyond {:g} m/s",
+                                      state.v_WB_B.norm(), kMaxSpeed_mps));
   }
   watch_contacts(now);
 }
@@ -276,7 +294,8 @@ void VehicleRuntime::watch_contacts(Time now) {
   const physics::Contact* touched = nullptr;
   for (const physics::Contact& contact : run_.physics.contacts()) {
     const bool ours = contact.body.index >= first_body_ && contact.body.index < end_body_;
-    if (ours && contact.surface != SurfaceClass::kTerrain && contact.depth_m >= 0.0) touched = &contact;
+    if (ours && contact.surface != SurfaceClass::kTerrain && contact.depth_m >= 0.0)
+      touched = &contact;
   }
   const bool was_touching = contacts_.values[1] != 0.0;
   if (!touched && !was_touching) return;

@@ -1,5 +1,6 @@
 #pragma once
-/// One vehicle of a run with its sensors, estimator, planner, guidance, controller and metrics, wired and scheduled.
+/// One vehicle of a run with its sensors, estimator, planner, guidance, controller and metrics,
+/// wired and scheduled.
 
 #include <functional>
 #include <memory>
@@ -26,7 +27,8 @@ struct RunContext {
 
 class VehicleRuntime {
  public:
-  /// Builds the vehicle, puts it into the physics world, connects and schedules its parts. @throws ConfigError
+  /// Builds the vehicle, puts it into the physics world, connects and schedules its parts. @throws
+  /// ConfigError
   VehicleRuntime(const io::VehicleConfig& config, const RunContext& run);
 
   const std::string& name() const { return config_.name; }
@@ -38,7 +40,8 @@ class VehicleRuntime {
   /// Reads the bodies and writes "truth". Called at every instant.
   void publish_truth(Time now);
   void before_physics(Time now, Duration step) { vehicle_->before_physics(now, step); }
-  /// Advances the vehicle and checks that its state is finite and inside the envelope. @throws SimulationError
+  /// Advances the vehicle and checks that its state is finite and inside the envelope. @throws
+  /// SimulationError
   void after_physics(Time now, Duration step);
 
   std::map<std::string, double> metric_results() const;
@@ -65,7 +68,8 @@ class VehicleRuntime {
   void actuate(Time now);
   void watch_contacts(Time now);
   double control_rate_Hz() const;
-  /// Runs a part's tick; turns what it throws and the NaN it writes into a SimulationError with a name.
+  /// Runs a part's tick; turns what it throws and the NaN it writes into a SimulationError with a
+  /// name.
   std::function<void(Time)> guarded(const std::string& part, const std::string& type,
                                     std::function<void(Time)> step);
 
@@ -86,7 +90,7 @@ class VehicleRuntime {
   SignalReader<Odometry> estimate_;
   SignalReader<NamedValues> actuators_;
   std::uint64_t actuators_seen_ = 0;
-  std::vector<int> actuator_index_;   // of each name the controller writes
+  std::vector<int> actuator_index_;  // of each name the controller writes
   std::vector<double> actuator_values_;
   Odometry truth_;
   LinkPoses links_;

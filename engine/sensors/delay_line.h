@@ -1,0 +1,53 @@
+#pragma once
+/// Readings on their way from a sensor to its signal: first in, first out, fixed capacity, no heap
+/// after set-up.
+
+#include <vector>
+
+#include "engine/api/signal.h"
+#include "engine/core/check.h"
+
+namespace vinerow {
+
+template <class T>
+class DelayLine {
+ public:
+  /// @param delay   between measurement and delivery
+  /// @param period  of the sensor
+  DelayLine(Duration delay, Duration period) : delay_(delay) {
+    if (delay.ns > 0) ring_.resize(static_cast<std::size_t>(delay.ns / period.ns) + 2);
+  }
+
+  Duration delay() const { return delay_; }
+
+  /// Writes at once without delay, else keeps the reading until deliver().
+  void push(Time measured, const T& reading, SignalWriter<T>& out) {
+    if (delay_.ns == 0) {
+      out.write(measured, reading);
+      return;
+    }
+    VINEROW_DEMAND(count_ < ring_.size());
+    ring_[(first_ + count_++) % ring_.size()] = {measured, reading};
+  }
+
+  /// Hands over the oldest reading; its stamp is the time of the measurement.
+  void deliver(SignalWriter<T>& out) {
+    if (count_ == 0) return;  // the measurement was lost (an outage without message)
+    const Entry& oldest = ring_[first_];
+    out.write(oldest.measured, oldest.reading);
+    first_ = (first_ + 1) % ring_.size();
+    --count_;
+  }
+
+ private:
+  struct Entry {
+    Time measured;
+    T reading;
+  };
+  Duration delay_;
+  std::vector<Entry> ring_;
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,15 @@
+#include "engine/sensors/register.h"
+
+#include "engine/sensors/gps.h"
+#include "engine/sensors/imu.h"
+#include "engine/sensors/ultrasound.h"
+
+namespace vinerow {
+
+void register_sensors(Registry& registry) {
+  registry.add_sensor(gps_spec(), make_gps);
+  registry.add_sensor(imu_spec(), make_imu);
+  registry.add_sensor(ultrasound_spec(), make_ultrasound);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,171 @@
+#include "engine/sim/frame_composer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/math/angles.h"
+#include "engine/render/cameras.h"
+
+namespace vinerow {
+namespace {
+
+const Eigen::Vector3f kPlanColour{0.05f, 0.45f, 1.0f};
+const Eigen::Vector3f kRayColour{1.0f, 0.25f, 0.1f};
+/// Trails of the first vehicles; more vehicles start again.
+const Eigen::Vector3f kTrailColours[] = {
+    {1.0f, 0.72f, 0.05f}, {1.0f, 0.3f, 0.7f}, {0.3f, 0.95f, 0.9f}};
+/// Lines hover this much above what they follow, so that grass does not swallow them.
+constexpr double kHover_m = 0.06;
+/// Points of a trail closer than this are left out.
+constexpr double kTrailPitch_m = 0.1;
+
+}  // namespace
+
+FrameComposer::FrameComposer(const io::Scenario& scenario, const WorldModel& world,
+                             const std::vector<std::unique_ptr<Vehicle>>& vehicles,
+                             const LogTrace& trace)
+    : scenario_(scenario), world_(world), vehicles_(vehicles), trace_(trace) {
+  for (const PlantRow& row : world.rows.rows) {
+    for (const Eigen::Vector3d& p : row.line_W)
+      extent_W_.extend(p).extend(p + Eigen::Vector3d(0, 0, row.canopy_top_m));
+  }
+  for (const auto& [name, vehicle] : trace.vehicles) {
+    for (const Odometry& truth : vehicle.truth.values) extent_W_.extend(truth.X_WB.p);
+    for (const PlannedPath& plan : vehicle.plan.values) {
+      for (const PathPoint& point : plan.points) extent_W_.extend(point.p_W);
+    }
+  }
+  if (extent_W_.isEmpty())
+    extent_W_ = Eigen::AlignedBox3d(Eigen::Vector3d(-10, -10, 0), Eigen::Vector3d(10, 10, 2));
+}
+
+const VehicleTrace& FrameComposer::trace_of(const std::string& vehicle) const {
+  return trace_.vehicles.at(vehicle);
+}
+
+double FrameComposer::ground_m(double x, double y) const {
+  return world_.terrain ? world_.terrain->height_m(x, y) : 0.0;
+}
+
+render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, double aspect) const {
+  const bool follows = !camera.vehicle.empty() && !trace_of(camera.vehicle).truth.empty();
+  const Pose X_WB = follows ? trace_of(camera.vehicle).truth_at(t).X_WB : Pose{};
+  switch (camera.kind) {
+    case io::CameraKind::kChase: {
+      render::ChaseOptions options;
+      options.distance_m = camera.distance_m;
+      options.height_m = camera.height_m;
+      options.side_rad = camera.yaw_rad;
+      options.fov_rad = camera.fov_rad;
+      return render::chase_camera(X_WB, options);
+    }
+    case io::CameraKind::kOnBoard:
+      return render::on_board_camera(
+          X_WB, {quaternion_from_rpy({0.0, camera.pitch_rad, camera.yaw_rad}), camera.offset_B},
+          camera.fov_rad);
+    case io::CameraKind::kTop: {
+      if (!follows || camera.height_m <= 0.0) return render::top_camera(extent_W_, aspect);
+      const Eigen::Vector3d half(0.5 * camera.height_m * aspect, 0.5 * camera.height_m, 1.0);
+      return render::top_camera(Eigen::AlignedBox3d(X_WB.p - half, X_WB.p + half), aspect, 0.0);
+    }
+    case io::CameraKind::kFixed:
+      break;
+  }
+  const Eigen::Vector3d eye =
+      camera.p_W + Eigen::Vector3d(0, 0, ground_m(camera.p_W.x(), camera.p_W.y()));
+  const Eigen::Vector3d target =
+      camera.target_W + Eigen::Vector3d(0, 0, ground_m(camera.target_W.x(), camera.target_W.y()));
+  return render::look_at(eye, target, camera.fov_rad);
+}
+
+void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::Frame& frame) const {
+  for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
+    const io::VehicleConfig& config = scenario_.vehicles[v];
+    const bool from_inside =
+        camera.kind == io::CameraKind::kOnBoard && camera.vehicle == config.name;
+    const Trace<Odometry>& truth = trace_of(config.name).truth;
+    if (truth.empty() || from_inside) continue;
+    render::Polyline trail;
+    trail.colour = kTrailColours[v % std::size(kTrailColours)];
+    trail.width_px = camera.kind == io::CameraKind::kTop ? 3.0f : 4.0f;
+    trail.alpha = 0.9f;
+    const double down_m = vehicles_[v]->description().height_above_ground_m - kHover_m;
+    const std::size_t end = truth.index_at(t);
+    for (std::size_t i = 0; i <= end; ++i) {
+      const Eigen::Vector3d p = truth.values[i].X_WB * Eigen::Vector3d(0, 0, -down_m);
+      if (!trail.points_W.empty() && (trail.points_W.back() - p).norm() < kTrailPitch_m && i != end)
+        continue;
+      trail.points_W.push_back(p);
+    }
+    if (trail.points_W.size() > 1) frame.lines.push_back(std::move(trail));
+  }
+}
+
+void FrameComposer::add_plans(Time t, render::Frame& frame) const {
+  for (const auto& [name, vehicle] : trace_.vehicles) {
+    if (vehicle.plan.empty() || vehicle.plan.times.front() > t) continue;
+    render::Polyline plan;
+    plan.colour = kPlanColour;
+    plan.width_px = 2.5f;
+    plan.alpha = 0.75f;
+    plan.dashed = true;
+    for (const PathPoint& point : vehicle.plan.values[vehicle.plan.index_at(t)].points) {
+      const Eigen::Vector2d p = point.p_W.head<2>();
+      plan.points_W.emplace_back(p.x(), p.y(),
+                                 std::max(point.p_W.z(), ground_m(p.x(), p.y())) + 0.5 * kHover_m);
+    }
+    if (plan.points_W.size() > 1) frame.lines.push_back(std::move(plan));
+  }
+}
+
+void FrameComposer::add_rays(Time t, render::Frame& frame) const {
+  for (const auto& [name, vehicle] : trace_.vehicles) {
+    for (const auto& [sensor, ranges] : vehicle.ranges) {
+      if (ranges.empty() || ranges.times.front() > t) continue;
+      const RangeSample& sample = ranges.values[ranges.index_at(t)];
+      const bool seen = std::isfinite(sample.range_m);
+      const double length_m = seen ? sample.range_m : sample.max_range_m;
+      // The axis and the rim of the cone.
+      for (int k = -1; k < 8; ++k) {
+        const double off = k < 0 ? 0.0 : sample.half_angle_rad, around = 2.0 * kPi * k / 8.0;
+        const Eigen::Vector3d dir(std::cos(off), std::sin(off) * std::cos(around),
+                                  std::sin(off) * std::sin(around));
+        render::Polyline ray;
+        ray.colour = kRayColour;
+        ray.width_px = k < 0 ? 3.0f : 1.5f;
+        ray.alpha = seen ? 0.85f : 0.25f;
+        ray.points_W = {sample.X_WS.p, sample.X_WS * Eigen::Vector3d(length_m * dir)};
+        frame.lines.push_back(std::move(ray));
+      }
+    }
+  }
+}
+
+render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) const {
+  render::Frame frame;
+  frame.width = scenario_.pictures.width;
+  frame.height = scenario_.pictures.height;
+  frame.samples = scenario_.pictures.samples;
+  frame.camera = place(camera, t, static_cast<double>(frame.width) / frame.height);
+  for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
+    frame.vehicles.push_back(
+        {&vehicles_[v]->links(), trace_of(scenario_.vehicles[v].name).links_at(t)});
+    if (frame.vehicles.back().X_WL.empty()) frame.vehicles.pop_back();
+  }
+  if (camera.show_plan) add_plans(t, frame);
+  if (camera.show_trail) add_trails(camera, t, frame);
+  if (camera.show_sensor_rays) add_rays(t, frame);
+  frame.caption.push_back(scenario_.name);
+  const int whole_s = static_cast<int>(t.s());
+  std::string line = fmt::format("{:02d}:{:04.1f}", whole_s / 60, t.s() - 60 * (whole_s / 60));
+  for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
+    if (trace_of(vehicle.name).truth.empty()) continue;
+    line += fmt::format("   {} {:.2f} m/s", vehicle.name,
+                        trace_of(vehicle.name).truth_at(t).v_WB_B.norm());
+  }
+  frame.caption.push_back(line);
+  return frame;
+}
+
+}  // namespace vinerow

@@ -1,0 +1,37 @@
+#pragma once
+/// From a log's trace at one instant to the frame of one camera.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/io/scenario.h"
+#include "engine/render/scene.h"
+#include "engine/sim/log_trace.h"
+
+namespace vinerow {
+
+class FrameComposer {
+ public:
+  /// @param vehicles  same order as scenario.vehicles; only their links are used
+  FrameComposer(const io::Scenario& scenario, const WorldModel& world,
+                const std::vector<std::unique_ptr<Vehicle>>& vehicles, const LogTrace& trace);
+
+  render::Frame compose(const io::CameraConfig& camera, Time t) const;
+
+ private:
+  render::Camera place(const io::CameraConfig& camera, Time t, double aspect) const;
+  void add_trails(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
+  void add_plans(Time t, render::Frame& frame) const;
+  void add_rays(Time t, render::Frame& frame) const;
+  double ground_m(double x, double y) const;
+  const VehicleTrace& trace_of(const std::string& vehicle) const;
+
+  const io::Scenario& scenario_;
+  const WorldModel& world_;
+  const std::vector<std::unique_ptr<Vehicle>>& vehicles_;
+  const LogTrace& trace_;
+  Eigen::AlignedBox3d extent_W_;  // what a top view shows: rows, plans and tracks
+};
+
+}  // namespace vinerow

@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+#include "engine/sim/run.h"
+
+namespace vinerow {
+namespace {
+
+double find_metric(const io::Criterion& criterion,
+                   const std::map<std::string, std::map<std::string, double>>& metrics) {
+  std::vector<std::string> known;
+  for (const auto& [vehicle, values] : metrics) {
+    for (const auto& [name, value] : values) {
+      const std::string full = vehicle + "." + name;
+      if (full == criterion.metric) return value;
+      known.push_back(full);
+    }
+  }
+  throw ConfigError(fmt::format("{}: criteria: metric '{}' does not exist{} (known: {})",
+                                criterion.where.text(), criterion.metric,
+                                did_you_mean(criterion.metric, known), join(known)));
+}
+
+}  // namespace
+
+std::vector<CriterionResult> judge(
+    const std::vector<io::Criterion>& criteria,
+    const std::map<std::string, std::map<std::string, double>>& metrics) {
+  std::vector<CriterionResult> results;
+  for (const io::Criterion& criterion : criteria) {
+    const double value = find_metric(criterion, metrics);
+    // A value that was not measured (NaN) meets no limit: both comparisons are false.
+    if (criterion.max) {
+      results.push_back({criterion.name, criterion.metric, "max", value, *criterion.max,
+                         value <= *criterion.max});
+    }
+    if (criterion.min) {
+      results.push_back({criterion.name, criterion.metric, "min", value, *criterion.min,
+                         value >= *criterion.min});
+    }
+  }
+  return results;
+}
+
+}  // namespace vinerow

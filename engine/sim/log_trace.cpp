@@ -1,0 +1,90 @@
+#include "engine/sim/log_trace.h"
+
+#include <algorithm>
+
+namespace vinerow {
+namespace {
+
+/// The two samples around an instant and how far it is from the first to the second, 0 to 1.
+struct Bracket {
+  std::size_t before;
+  std::size_t after;
+  double share;
+};
+
+Bracket bracket(const std::vector<Time>& times, Time t) {
+  const auto next = std::upper_bound(times.begin(), times.end(), t);
+  if (next == times.begin()) return {0, 0, 0.0};
+  const std::size_t after = static_cast<std::size_t>(next - times.begin());
+  if (after == times.size()) return {after - 1, after - 1, 0.0};
+  const double span_s = (times[after] - times[after - 1]).s();
+  return {after - 1, after, (t - times[after - 1]).s() / span_s};
+}
+
+Pose between(const Pose& a, const Pose& b, double share) {
+  return {a.q.slerp(share, b.q), a.p + share * (b.p - a.p)};
+}
+
+template <class T>
+void read_into(const record::LogReader& log, const std::string& topic, Trace<T>& trace) {
+  log.read<T>(topic, [&](Time t, const T& value) {
+    trace.times.push_back(t);
+    trace.values.push_back(value);
+  });
+}
+
+}  // namespace
+
+template <class T>
+std::size_t Trace<T>::index_at(Time t) const {
+  return bracket(times, t).before;
+}
+template struct Trace<Odometry>;
+template struct Trace<LinkPoses>;
+template struct Trace<PlannedPath>;
+template struct Trace<RangeSample>;
+
+Odometry VehicleTrace::truth_at(Time t) const {
+  const Bracket at = bracket(truth.times, t);
+  const Odometry& a = truth.values[at.before];
+  const Odometry& b = truth.values[at.after];
+  Odometry result = a;
+  result.X_WB = between(a.X_WB, b.X_WB, at.share);
+  result.v_WB_B = a.v_WB_B + at.share * (b.v_WB_B - a.v_WB_B);
+  result.w_WB_B = a.w_WB_B + at.share * (b.w_WB_B - a.w_WB_B);
+  return result;
+}
+
+std::vector<Pose> VehicleTrace::links_at(Time t) const {
+  if (links.empty()) return {};
+  const Bracket at = bracket(links.times, t);
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < links.values[at.before].X_WL.size(); ++i) {
+    poses.push_back(
+        between(links.values[at.before].X_WL[i], links.values[at.after].X_WL[i], at.share));
+  }
+  return poses;
+}
+
+LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles) {
+  LogTrace trace;
+  trace.first = log.info().first;
+  trace.last = log.info().last;
+  for (const std::string& name : vehicles) {
+    VehicleTrace& vehicle = trace.vehicles[name];
+    for (const record::ChannelInfo& channel : log.info().channels) {
+      const std::string prefix = "/" + name + "/";
+      if (channel.topic == prefix + "truth") read_into(log, channel.topic, vehicle.truth);
+      if (channel.topic == prefix + "links") read_into(log, channel.topic, vehicle.links);
+      if (channel.topic == prefix + "plan") read_into(log, channel.topic, vehicle.plan);
+      const auto type = channel.metadata.find("vinerow_type");
+      if (type != channel.metadata.end() && type->second == RangeSample::kType &&
+          channel.topic.starts_with(prefix)) {
+        read_into(log, channel.topic, vehicle.ranges[channel.topic.substr(prefix.size())]);
+      }
+    }
+  }
+  return trace;
+}
+
+}  // namespace vinerow

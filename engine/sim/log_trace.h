@@ -1,0 +1,49 @@
+#pragma once
+/// What pictures need of a log, in memory: where every vehicle and link was, what was planned and
+/// measured.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/api/messages.h"
+#include "engine/core/time.h"
+#include "engine/record/log_reader.h"
+
+namespace vinerow {
+
+/// Samples of one signal in rising time.
+template <class T>
+struct Trace {
+  std::vector<Time> times;
+  std::vector<T> values;
+
+  bool empty() const { return times.empty(); }
+  /// Index of the last sample at or before t; 0 if t is before the first. @pre !empty()
+  std::size_t index_at(Time t) const;
+};
+
+struct VehicleTrace {
+  Trace<Odometry> truth;
+  Trace<LinkPoses> links;
+  Trace<PlannedPath> plan;
+  std::map<std::string, Trace<RangeSample>> ranges;  ///< by sensor
+
+  /// Pose and speed at t, between the samples around it (constant twist is not assumed: straight
+  /// and slerp).
+  Odometry truth_at(Time t) const;
+  /// Link poses at t, interpolated likewise.
+  std::vector<Pose> links_at(Time t) const;
+};
+
+struct LogTrace {
+  Time first;
+  Time last;
+  std::map<std::string, VehicleTrace> vehicles;
+};
+
+/// @param vehicles  names to look for
+LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles);
+
+}  // namespace vinerow

@@ -1,0 +1,24 @@
+#pragma once
+/// How well the true track follows the plan.
+///
+/// Source: paper B (Martelli 2024), section 3 and eq. 8, as settled in engine/math/deviation.h.
+/// Results over the whole mission, samples at the metric's rate (default: the controller's) plus
+/// the start:
+///   average_deviation_m (ATD), deviation_max_m, oscillation_count (OF), relative_accuracy_per_m =
+///   1/(ATD OF)
+/// and on the legs, where the plants are (stretches of kind kLeg):
+///   cross_track_rms_m, cross_track_max_m, heading_error_rms_rad, leg_samples
+/// and in the turns: turn_deviation_max_m. Also planned_length_m and alleys_driven (legs seen to
+/// their last tenth).
+
+#include <memory>
+
+#include "engine/api/registry.h"
+
+namespace vinerow {
+
+PartSpec path_deviation_spec();
+std::unique_ptr<Metric> make_path_deviation(const ParameterSet& parameters,
+                                            const MetricContext& context);
+
+}  // namespace vinerow

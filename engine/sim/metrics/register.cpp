@@ -1,0 +1,25 @@
+#include "engine/sim/metrics/register.h"
+
+#include "engine/sim/metrics/clearance.h"
+#include "engine/sim/metrics/path_deviation.h"
+#include "engine/sim/metrics/travel.h"
+#include "engine/sim/truth_estimator.h"
+
+namespace vinerow {
+
+void register_metrics(Registry& registry) {
+  registry.add_metric(path_deviation_spec(), make_path_deviation);
+  registry.add_metric(clearance_spec(), make_clearance);
+  registry.add_metric(travel_spec(), make_travel);
+
+  PartSpec truth;
+  truth.name = "truth";
+  truth.description = "The estimate is the truth";
+  truth.reads = {"truth"};
+  truth.writes = {"estimate"};
+  registry.add_estimator(truth, [](const ParameterSet&, const EstimatorContext&) {
+    return std::make_unique<TruthEstimator>();
+  });
+}
+
+}  // namespace vinerow

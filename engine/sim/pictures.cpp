@@ -1,0 +1,134 @@
+#include "engine/sim/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+#include "engine/render/scene.h"
+#include "engine/sim/frame_composer.h"
+#include "engine/sim/log_trace.h"
+#include "engine/sim/simulation.h"
+
+namespace vinerow {
+namespace {
+
+std::vector<io::CameraConfig> chosen_cameras(const io::Scenario& scenario,
+                                             const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return scenario.pictures.cameras;
+  std::vector<io::CameraConfig> chosen;
+  std::vector<std::string> known;
+  for (const io::CameraConfig& camera : scenario.pictures.cameras) known.push_back(camera.name);
+  for (const std::string& name : wanted) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+      throw ConfigError(fmt::format("no camera '{}' in scenario '{}'{} (known: {})", name,
+                                    scenario.name, did_you_mean(name, known),
+                                    known.empty() ? "none" : join(known)));
+    }
+    chosen.push_back(scenario.pictures.cameras[found - known.begin()]);
+  }
+  return chosen;
+}
+
+/// Instants of the frames, in order, each once. Instants after the log's end are left out.
+std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOptions& options,
+                           const LogTrace& trace) {
+  std::set<Time> times;
+  const auto add = [&](double t_s) {
+    const Time t{duration_from_s(t_s).ns};
+    if (t >= trace.first && t <= trace.last) times.insert(t);
+  };
+  const bool own_schedule = options.times_s || options.every_s;
+  for (const double t_s :
+       own_schedule ? options.times_s.value_or(std::vector<double>{}) : pictures.times_s)
+    add(t_s);
+  const double every_s = own_schedule ? options.every_s.value_or(0.0) : pictures.every_s;
+  if (every_s > 0.0) {
+    const auto count = static_cast<std::int64_t>(trace.last.s() / every_s + 1e-9);
+    for (std::int64_t k = 0; k <= count; ++k) add(static_cast<double>(k) * every_s);
+  }
+  if (!own_schedule) {
+    for (const double share : pictures.shares) {
+      times.insert(trace.first + Duration{std::llround(
+                                     share * static_cast<double>((trace.last - trace.first).ns))});
+    }
+  }
+  return times;
+}
+
+std::vector<std::unique_ptr<Vehicle>> build_vehicles(const io::Scenario& scenario,
+                                                     const Registry& registry) {
+  std::vector<std::unique_ptr<Vehicle>> vehicles;
+  for (const io::VehicleConfig& config : scenario.vehicles) {
+    VehicleContext context;
+    context.vehicle = context.part = config.name;
+    context.seed = scenario.seed;
+    context.physics_step = scenario.physics_step;
+    context.gravity_mps2 = scenario.gravity_mps2;
+    vehicles.push_back(
+        registry.make_vehicle(config.vehicle.type, config.vehicle.parameters, context));
+  }
+  return vehicles;
+}
+
+io::Scenario scenario_in(const record::LogReader& reader, const std::filesystem::path& log,
+                         const Registry& registry) {
+  const auto found = reader.info().attachments.find("scenario.resolved.yaml");
+  if (found == reader.info().attachments.end()) {
+    throw ConfigError(fmt::format("{}: holds no scenario.resolved.yaml, so its world is not known",
+                                  log.string()));
+  }
+  return io::parse_scenario(found->second, log.parent_path(), registry);
+}
+
+}  // namespace
+
+io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry) {
+  return scenario_in(record::LogReader(log), log, registry);
+}
+
+PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
+                         const Registry& registry, const PictureOptions& options) {
+  const record::LogReader reader(log);
+  io::Scenario scenario = scenario_in(reader, log, registry);
+  scenario.pictures.width = options.width.value_or(scenario.pictures.width);
+  scenario.pictures.height = options.height.value_or(scenario.pictures.height);
+  const std::vector<io::CameraConfig> cameras = chosen_cameras(scenario, options.cameras);
+
+  const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
+  PictureReport report;
+  auto renderer = render::make_renderer(*world);
+  if (!renderer) {
+    report.note = renderer.reason();
+    return report;
+  }
+  const std::vector<std::unique_ptr<Vehicle>> vehicles = build_vehicles(scenario, registry);
+  std::vector<std::string> names;
+  for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  const LogTrace trace = read_trace(reader, names);
+  const FrameComposer composer(scenario, *world, vehicles, trace);
+  const std::set<Time> times = frame_times(scenario.pictures, options, trace);
+
+  std::filesystem::create_directories(out);
+  const auto start = std::chrono::steady_clock::now();
+  const int total = static_cast<int>(times.size() * cameras.size());
+  for (const Time t : times) {
+    for (const io::CameraConfig& camera : cameras) {
+      const render::Image image = (*renderer)->draw(composer.compose(camera, t));
+      const auto file = out / fmt::format("{}_{:09d}.png", camera.name, t.ns / 1'000'000);
+      render::write_png(file.string(), image);
+      report.files.push_back(file);
+      report.digests.push_back(render::image_digest(image));
+      if (options.progress) options.progress(static_cast<int>(report.files.size()), total);
+    }
+  }
+  report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace vinerow

@@ -1,0 +1,40 @@
+#pragma once
+/// Frames of a run, drawn from its log: `vinerow run` and `vinerow render` share this one way.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/api/registry.h"
+#include "engine/io/scenario.h"
+
+namespace vinerow {
+
+/// What to draw otherwise than the scenario in the log says.
+struct PictureOptions {
+  std::vector<std::string> cameras;            ///< names; empty = all of the scenario
+  std::optional<std::vector<double>> times_s;  ///< instead of the scenario's schedule
+  std::optional<double> every_s;
+  std::optional<int> width;
+  std::optional<int> height;
+  std::function<void(int done, int total)> progress;
+};
+
+struct PictureReport {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> digests;  ///< of the pixels, same order
+  std::string note;                  ///< why there are no pictures
+  double wall_s = 0.0;
+};
+
+/// Draws the frames of a log into `out`, named "<camera>_<milliseconds>.png".
+/// @throws ConfigError if the log cannot be read or names parts that the registry does not have
+PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
+                         const Registry& registry, const PictureOptions& options);
+
+/// The scenario that a log holds.
+io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry);
+
+}  // namespace vinerow

@@ -1,0 +1,48 @@
+#include "engine/sim/plugin_loader.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "engine/api/plugin.h"
+#include "engine/core/error.h"
+
+namespace vinerow {
+
+void load_plugin(const std::filesystem::path& file, Registry& registry) {
+  if (!std::filesystem::exists(file)) {
+    throw ConfigError(fmt::format("plug-in '{}' does not exist", file.string()));
+  }
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!library)
+    throw ConfigError(fmt::format("plug-in '{}' cannot be loaded: {}", file.string(), dlerror()));
+
+  using AbiFunction = const char* (*)();
+  using RegisterFunction = void (*)(Registry*);
+  const auto abi = reinterpret_cast<AbiFunction>(dlsym(library, "vinerow_plugin_abi"));
+  const auto registration =
+      reinterpret_cast<RegisterFunction>(dlsym(library, "vinerow_plugin_register"));
+  if (!abi || !registration) {
+    throw ConfigError(fmt::format(
+        "'{}' is not a Vinerow plug-in: it has no VINEROW_PLUGIN(...) line", file.string()));
+  }
+  if (std::string_view(abi()) != VINEROW_ABI_TAG) {
+    throw ConfigError(
+        fmt::format("plug-in '{}' was built for '{}', this program is '{}'; build it again",
+                    file.string(), abi(), VINEROW_ABI_TAG));
+  }
+  registry.set_origin(file.string());
+  try {
+    registration(&registry);
+  } catch (const ConfigError&) {
+    registry.set_origin("built-in");
+    throw;
+  } catch (const std::exception& error) {
+    throw ConfigError(
+        fmt::format("plug-in '{}' failed to register its parts: {}", file.string(), error.what()));
+  }
+  registry.set_origin("built-in");
+}
+
+}  // namespace vinerow

@@ -1,0 +1,173 @@
+#include "engine/sim/run.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/error.h"
+#include "engine/record/recorder.h"
+#include "engine/sim/pictures.h"
+#include "engine/sim/simulation.h"
+#include "engine/sim/summary.h"
+
+namespace vinerow {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
+}
+
+/// Feeds the log: truth and diagnostics at their rate, sensors up to theirs, everything else as it
+/// is written.
+class LogObserver final : public RunObserver {
+ public:
+  LogObserver(const Simulation& simulation, const std::filesystem::path& file)
+      : recorder_(file, options_of(simulation.scenario()), metadata_of(simulation.scenario())) {
+    const io::RecordConfig& config = simulation.scenario().record;
+    recorder_.add_attachment("scenario.resolved.yaml", "application/yaml",
+                             simulation.scenario().resolved_yaml);
+    for (const auto& signal : simulation.bus().signals()) {
+      if (signal->writer().empty()) continue;
+      recorder_.add_signal(*signal, shortest_period(*signal, config));
+    }
+  }
+
+  void on_instant(Time now) override { recorder_.record(now); }
+  /// Several events can fall into one instant; each is stored before the next overwrites it.
+  void on_event(Time now, const Event&) override { recorder_.record(now); }
+
+  void finish() { recorder_.finish(); }
+
+ private:
+  static record::RecorderOptions options_of(const io::Scenario& scenario) {
+    record::RecorderOptions options;
+    options.compression = scenario.record.compression;
+    return options;
+  }
+  static std::map<std::string, std::string> metadata_of(const io::Scenario& scenario) {
+    return {{"scenario", scenario.name},
+            {"seed", std::to_string(scenario.seed)},
+            {"vinerow", program_version()},
+            {"latitude_longitude_note", "frame map is East-North-Up at the scenario's origin"}};
+  }
+  static Duration shortest_period(const SignalBase& signal, const io::RecordConfig& config) {
+    const std::string& name = signal.name();
+    const bool is_truth = name.ends_with("/truth") || name.ends_with("/estimate");
+    if (is_truth) return period_of_rate(config.truth_rate_Hz);
+    if (name == "run/events" || name.ends_with("/plan") || name.ends_with("/contacts")) return {};
+    return period_of_rate(config.sensor_rate_limit_Hz);
+  }
+
+  record::Recorder recorder_;
+};
+
+class EventFile final : public RunObserver {
+ public:
+  explicit EventFile(const std::filesystem::path& file) : out_(file) {}
+  void on_event(Time now, const Event& event) override {
+    const char* level = event.level == Event::Level::kInfo      ? "info"
+                        : event.level == Event::Level::kWarning ? "warning"
+                                                                : "error";
+    out_ << nlohmann::ordered_json{{"t_s", now.s()},
+                                   {"level", level},
+                                   {"source", event.source},
+                                   {"text", event.text}}
+                .dump()
+         << std::endl;  // flushed line by line: a killed run's events stay readable
+  }
+
+ private:
+  std::ofstream out_;
+};
+
+/// Steps to the end in slices of simulated time, so that progress can be told. Slices change no
+/// result.
+void step_to_end(Simulation& simulation, const RunOptions& options, Clock::time_point start) {
+  const double duration_s = simulation.scenario().duration_s;
+  constexpr Duration kSlice{250'000'000};
+  double told_s = -1.0;
+  while (!simulation.over()) {
+    simulation.run_until(simulation.now() + kSlice);
+    const double wall_s = seconds_since(start);
+    if (options.progress && (wall_s - told_s > 0.2 || simulation.over())) {
+      told_s = wall_s;
+      options.progress({simulation.now().s(), duration_s, wall_s});
+    }
+  }
+}
+
+}  // namespace
+
+RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
+                       const RunOptions& options) {
+  Simulation simulation(scenario, registry);
+  simulation.scheduler().measure(options.measure_cost);
+  // Unknown metric names are bad input and must not wait for the end of a long run.
+  static_cast<void>(judge(scenario.criteria, simulation.metrics()));
+
+  std::error_code failed;
+  std::filesystem::create_directories(options.out, failed);
+  if (failed)
+    throw ConfigError(
+        fmt::format("folder '{}' cannot be made: {}", options.out.string(), failed.message()));
+  write_text(options.out / "scenario.resolved.yaml", scenario.resolved_yaml);
+  const std::filesystem::path log_file = options.out / "log.mcap";
+  const bool with_log = options.log && scenario.record.enabled;
+  std::unique_ptr<LogObserver> log;
+  if (with_log) {
+    log = std::make_unique<LogObserver>(simulation, log_file);
+    simulation.add_observer(log.get());
+  }
+  EventFile events(options.out / "events.jsonl");
+  simulation.add_observer(&events);
+
+  RunResult result;
+  const Clock::time_point start = Clock::now();
+  try {
+    simulation.emit(Event::Level::kInfo, "run", fmt::format("started '{}'", scenario.name));
+    step_to_end(simulation, options, start);
+    simulation.emit(Event::Level::kInfo, "run",
+                    simulation.finished() ? "mission finished" : "duration is over");
+    if (log) log->on_instant(simulation.now());
+  } catch (const SimulationError& error) {
+    result.status = RunStatus::kBrokenOff;
+    result.error = error.what();
+    simulation.emit(Event::Level::kError, error.culprit(), error.what());
+  }
+  if (log) log->finish();
+
+  result.wall_s = seconds_since(start);
+  result.simulated_s = simulation.now().s();
+  result.digest = simulation.digest();
+  result.finished = simulation.finished();
+  result.metrics = simulation.metrics();
+  result.criteria = judge(scenario.criteria, result.metrics);
+  if (result.status == RunStatus::kAllMet) {
+    for (const CriterionResult& criterion : result.criteria) {
+      if (!criterion.met) result.status = RunStatus::kCriterionFailed;
+    }
+  }
+  if (options.pictures && !scenario.pictures.cameras.empty()) {
+    if (with_log) {
+      const PictureReport pictures = render_log(log_file, options.out / "frames", registry, {});
+      result.pictures = pictures.files;
+      result.picture_note = pictures.note;
+    } else {
+      result.picture_note = "pictures are drawn from the log, which this run does not write";
+    }
+  }
+  write_text(options.out / "summary.json", summary_json(result, simulation));
+  return result;
+}
+
+}  // namespace vinerow

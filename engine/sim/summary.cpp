@@ -1,0 +1,88 @@
+#include "engine/sim/summary.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/api/plugin.h"
+
+namespace vinerow {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json criteria_json(const RunResult& result) {
+  Json list = Json::array();
+  for (const CriterionResult& c : result.criteria) {
+    list.push_back({{"name", c.name},
+                    {"metric", c.metric},
+                    {"kind", c.kind},
+                    {"value", c.value},
+                    {"limit", c.limit},
+                    {"met", c.met}});
+  }
+  return list;
+}
+
+Json cost_json(Simulation& simulation) {
+  Json list = Json::array();
+  for (const Scheduler::TaskReport& task : simulation.scheduler().reports()) {
+    list.push_back(
+        {{"task", task.name},
+         {"period_s", task.period.s()},
+         {"ticks", task.ticks},
+         {"wall_s", task.wall_s},
+         {"us_per_tick", task.ticks ? 1e6 * task.wall_s / static_cast<double>(task.ticks) : 0.0}});
+  }
+  return list;
+}
+
+const char* status_name(RunStatus status) {
+  switch (status) {
+    case RunStatus::kAllMet:
+      return "all criteria met";
+    case RunStatus::kCriterionFailed:
+      return "a criterion failed";
+    case RunStatus::kBadInput:
+      return "bad input";
+    case RunStatus::kBrokenOff:
+      return "broken off";
+  }
+  return "?";
+}
+
+}  // namespace
+
+std::string program_version() {
+  return VINEROW_VERSION;
+}
+
+std::string summary_json(const RunResult& result, Simulation& simulation) {
+  const io::Scenario& scenario = simulation.scenario();
+  Json summary;
+  summary["scenario"] = scenario.name;
+  summary["status"] = status_name(result.status);
+  summary["exit_status"] = static_cast<int>(result.status);
+  if (!result.error.empty()) summary["error"] = result.error;
+  summary["seed"] = scenario.seed;
+  summary["digest"] = result.digest;
+  summary["finished"] = result.finished;
+  summary["simulated_s"] = result.simulated_s;
+  summary["wall_s"] = result.wall_s;
+  summary["real_time_factor"] = result.real_time_factor();
+  summary["physics_step_s"] = scenario.physics_step.s();
+  summary["steps"] = simulation.steps();
+  summary["criteria"] = criteria_json(result);
+  summary["metrics"] = Json::object();
+  for (const auto& [vehicle, metrics] : result.metrics) {
+    for (const auto& [name, value] : metrics) summary["metrics"][vehicle][name] = value;
+  }
+  summary["pictures"] = Json::array();
+  for (const auto& picture : result.pictures) summary["pictures"].push_back(picture.string());
+  if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;
+  summary["notes"] = simulation.world().notes;
+  summary["cost"] = cost_json(simulation);
+  summary["versions"] = {
+      {"vinerow", program_version()}, {"abi", VINEROW_ABI_TAG}, {"compiler", __VERSION__}};
+  return summary.dump(2) + "\n";
+}
+
+}  // namespace vinerow

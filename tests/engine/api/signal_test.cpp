@@ -1,0 +1,89 @@
+#include "engine/api/signal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/core/error.h"
+
+namespace vinerow {
+namespace {
+
+TEST(Signal, ReadersSeeTheLastValueWithItsTime) {
+  SignalBus bus;
+  Ports writer(bus, "rover", "rover.controller"), reader(bus, "rover", "rover.metric");
+  auto in = reader.read<VelocityCommand>("command");
+  auto out = writer.write<VelocityCommand>("command");
+  EXPECT_FALSE(in.has_value());
+  out.write(Time{5}, {1.0, 0.5});
+  EXPECT_TRUE(in.has_value());
+  EXPECT_EQ(in.value().v_mps, 1.0);
+  EXPECT_EQ(in.stamp().ns, 5);
+  std::uint64_t seen = 0;
+  EXPECT_TRUE(in.is_newer_than(seen));
+  EXPECT_FALSE(in.is_newer_than(seen));
+}
+
+TEST(Signal, WrongWiresAreRefused) {
+  SignalBus bus;
+  bus.advertise<Odometry>("rover/truth", "rover");
+  try {
+    bus.advertise<Odometry>("rover/truth", "other");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "signal 'rover/truth' is written by both rover and other");
+  }
+  try {
+    bus.subscribe<ImuSample>("rover/truth", "rover.estimator");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "rover.estimator takes signal 'rover/truth' as ImuSample, but it is Odometry");
+  }
+  bus.subscribe<Odometry>("rover/trut", "rover.controller");
+  try {
+    bus.check_connected();
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "rover.controller reads signal 'rover/trut', which nobody writes; did you mean "
+                 "'rover/truth'? "
+                 "(written: rover/truth)");
+  }
+}
+
+TEST(Signal, OptionalReadersNeedNoWriter) {
+  SignalBus bus;
+  const auto reader = bus.subscribe_optional<BatteryState>("rover/battery", "rover.metric");
+  EXPECT_NO_THROW(bus.check_connected());
+  EXPECT_FALSE(reader.has_value());
+}
+
+TEST(Signal, DigestSeesNameTimeAndEveryField) {
+  const auto digest = [](const char* name, Time time, double v) {
+    Signal<VelocityCommand> signal(name);
+    signal.write(time, {v, 0.0});
+    Hasher hasher;
+    signal.hash_into(hasher);
+    return hasher.hex();
+  };
+  const std::string base = digest("a/command", Time{1}, 2.0);
+  EXPECT_EQ(base, digest("a/command", Time{1}, 2.0));
+  EXPECT_NE(base, digest("b/command", Time{1}, 2.0));
+  EXPECT_NE(base, digest("a/command", Time{2}, 2.0));
+  EXPECT_NE(base, digest("a/command", Time{1}, 2.5));
+}
+
+TEST(Signal, NanIsFoundAndInfinityIsNot) {
+  Signal<RangeSample> range("rover/sonar");
+  RangeSample sample;
+  sample.range_m = INFINITY;
+  range.write(Time{0}, sample);
+  EXPECT_FALSE(range.has_nan());
+  sample.range_m = NAN;
+  range.write(Time{1}, sample);
+  EXPECT_TRUE(range.has_nan());
+}
+
+}  // namespace
+}  // namespace vinerow

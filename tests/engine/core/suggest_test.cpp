@@ -1,0 +1,29 @@
+#include "engine/core/suggest.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace vinerow {
+namespace {
+
+TEST(Suggest, EditDistanceCountsInsertionsDeletionsReplacementsAndSwaps) {
+  EXPECT_EQ(edit_distance("", ""), 0);
+  EXPECT_EQ(edit_distance("row", "row"), 0);
+  EXPECT_EQ(edit_distance("row", "rows"), 1);
+  EXPECT_EQ(edit_distance("rover", "rver"), 1);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(edit_distance("ab", "ba"), 1);
+}
+
+TEST(Suggest, NearestNameIsFoundAndAGuessIsNotMade) {
+  const std::vector<std::string> known{"lookahead_m", "speed_mps", "steering_threshold_deg"};
+  EXPECT_EQ(nearest_name("lookahed_m", known), "lookahead_m");
+  EXPECT_EQ(nearest_name("lookahead", known), "lookahead_m");
+  EXPECT_EQ(nearest_name("colour", known), "");
+  EXPECT_EQ(did_you_mean("sped_mps", known), "; did you mean 'speed_mps'?");
+  EXPECT_EQ(did_you_mean("colour", known), "");
+}
+
+}  // namespace
+}  // namespace vinerow

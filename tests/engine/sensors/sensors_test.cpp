@@ -1,0 +1,262 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+#include "engine/sensors/register.h"
+#include "tests/engine/sensors/fixed_scene.h"
+#include "tests/support/no_alloc.h"
+
+namespace vinerow {
+namespace {
+
+using test::SensorBench;
+
+std::unique_ptr<Sensor> make(SensorBench& bench, const std::string& type, double rate_Hz,
+                             const std::vector<std::pair<std::string, ParameterSet::Value>>& values,
+                             std::uint64_t seed = 1) {
+  Registry registry;
+  register_sensors(registry);
+  ParameterSet parameters(registry.spec(PartKind::kSensor, type).parameters, type);
+  for (const auto& [name, value] : values) parameters.set(name, value);
+  auto sensor = registry.make_sensor(type, parameters, bench.context(rate_Hz, seed));
+  bench.connect(*sensor);
+  return sensor;
+}
+
+TEST(Gps, IdealFixIsTheAntennaWithItsLeverArm) {
+  SensorBench bench;
+  auto gps =
+      make(bench, "gps", 5.0,
+           {{"error", std::string("ideal")}, {"position_m", std::vector<double>{1.0, 0.0, 0.5}}});
+  Odometry truth;
+  truth.X_WB = {quaternion_from_rpy({0, 0, kPi / 2}), {10, 20, 1}};
+  truth.v_WB_B = {2, 0, 0};
+  truth.w_WB_B = {0, 0, 0.5};
+  bench.truth.write(Time{0}, truth);
+  gps->step(Time{0});
+  const GnssFix& fix = bench.bus.subscribe<GnssFix>("rover/s", "test").value();
+  // By hand: the antenna is 1 m ahead, which is north; its velocity adds w x r = 0.5 m/s to the
+  // left (west).
+  EXPECT_NEAR((fix.p_W - Eigen::Vector3d(10, 21, 1.5)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((fix.v_W - Eigen::Vector3d(-0.5, 2, 0)).norm(), 0.0, 1e-12);
+  EXPECT_TRUE(fix.valid);
+}
+
+TEST(Gps, UniformErrorFillsItsSquareAndNoMore) {
+  SensorBench bench;
+  auto gps = make(bench, "gps", 40.0, {{"error", std::string("uniform")}, {"accuracy_m", 0.05}});
+  bench.truth.write(Time{0}, Odometry{});
+  const auto fix = bench.bus.subscribe<GnssFix>("rover/s", "test");
+  constexpr int kCount = 20'000;
+  double sum_squares = 0.0, largest = 0.0, cross = 0.0;
+  for (int i = 0; i < kCount; ++i) {
+    gps->step(Time{i * 25'000'000LL});
+    const Eigen::Vector3d& p = fix.value().p_W;
+    ASSERT_LE(std::abs(p.x()), 0.05);
+    ASSERT_LE(std::abs(p.y()), 0.05);
+    ASSERT_EQ(p.z(), 0.0);
+    largest = std::max(largest, std::abs(p.x()));
+    sum_squares += p.x() * p.x();
+    cross += p.x() * p.y();
+  }
+  EXPECT_GT(largest, 0.0499);
+  // Variance a^2/3; five standard errors of the mean square (variance of x^2 is 4 a^4/45).
+  EXPECT_NEAR(sum_squares / kCount, 0.0025 / 3.0, 5.0 * std::sqrt(4.0 / 45.0 / kCount) * 0.0025);
+  EXPECT_NEAR(cross / kCount, 0.0, 5.0 * (0.0025 / 3.0) / std::sqrt(kCount));
+}
+
+TEST(Gps, OutageGivesInvalidFixesAndDoesNotShiftTheNoise) {
+  SensorBench a, b;
+  auto plain = make(a, "gps", 5.0, {});
+  Registry registry;
+  register_sensors(registry);
+  ParameterSet parameters(registry.spec(PartKind::kSensor, "gps").parameters, "gps");
+  ParameterSet window = parameters.make_group("outages");
+  window.set("begin_s", 1.0).set("end_s", 2.0);
+  parameters.set("outages", std::vector<ParameterSet>{window});
+  auto broken = registry.make_sensor("gps", parameters, b.context(5.0));
+  b.connect(*broken);
+  a.truth.write(Time{0}, Odometry{}), b.truth.write(Time{0}, Odometry{});
+  const auto fix_a = a.bus.subscribe<GnssFix>("rover/s", "test"),
+             fix_b = b.bus.subscribe<GnssFix>("rover/s", "test");
+  for (int i = 0; i < 20; ++i) {
+    const Time now{i * 200'000'000LL};
+    plain->step(now), broken->step(now);
+    const bool out = i >= 5 && i < 10;
+    EXPECT_EQ(fix_b.value().valid, !out) << i;
+    if (!out) {
+      EXPECT_EQ(fix_a.value().p_W, fix_b.value().p_W) << i;
+    }
+  }
+}
+
+TEST(Gps, DelayedFixesKeepTheirTimeOfMeasurement) {
+  SensorBench bench;
+  auto gps = make(bench, "gps", 5.0, {{"delay_s", 0.5}, {"error", std::string("ideal")}});
+  EXPECT_EQ(gps->delay().ns, 500'000'000);
+  const auto fix = bench.bus.subscribe<GnssFix>("rover/s", "test");
+  Odometry truth;
+  for (int i = 0; i < 4; ++i) {
+    truth.X_WB.p.x() = i;
+    bench.truth.write(Time{i * 200'000'000LL}, truth);
+    gps->step(Time{i * 200'000'000LL});
+  }
+  EXPECT_FALSE(fix.has_value());
+  gps->deliver(Time{500'000'000});
+  EXPECT_EQ(fix.stamp().ns, 0);
+  gps->deliver(Time{700'000'000});
+  EXPECT_EQ(fix.stamp().ns, 200'000'000);
+  EXPECT_EQ(fix.value().p_W.x(), 1.0);
+}
+
+TEST(Gps, GaussMarkovPartHasItsVarianceAndCorrelation) {
+  SensorBench bench;
+  auto gps = make(bench, "gps", 5.0,
+                  {{"horizontal_std_m", 0.0},
+                   {"vertical_std_m", 0.0},
+                   {"walk_std_m", 0.5},
+                   {"walk_time_s", 2.0}});
+  bench.truth.write(Time{0}, Odometry{});
+  const auto fix = bench.bus.subscribe<GnssFix>("rover/s", "test");
+  constexpr int kCount = 100'000;
+  double sum_squares = 0.0, lagged = 0.0, last = 0.0;
+  for (int i = 0; i < kCount; ++i) {
+    gps->step(Time{i * 25'000'000LL});
+    const double x = fix.value().p_W.x();
+    sum_squares += x * x;
+    if (i > 0) lagged += x * last;
+    last = x;
+  }
+  // Closed form: variance 0.25, correlation after one sample exp(-0.2/2). About 10^4 independent
+  // samples: 5 %.
+  EXPECT_NEAR(sum_squares / kCount, 0.25, 0.0125);
+  EXPECT_NEAR(lagged / sum_squares, std::exp(-0.1), 0.01);
+}
+
+TEST(Imu, AtRestItReadsGravityAndItsNoiseHasTheStatedDensity) {
+  SensorBench bench;
+  auto imu =
+      make(bench, "imu", 100.0, {{"gyro_noise_dps_rtHz", 0.01}, {"accel_noise_mps2_rtHz", 0.002}});
+  bench.truth.write(Time{0}, Odometry{});
+  const auto sample = bench.bus.subscribe<ImuSample>("rover/s", "test");
+  constexpr int kCount = 20'000;
+  double mean_z = 0.0, gyro_squares = 0.0, accel_squares = 0.0;
+  for (int i = 0; i < kCount; ++i) {
+    imu->step(Time{i * 10'000'000LL});
+    mean_z += sample.value().f_WS_S.z() / kCount;
+    gyro_squares += std::pow(sample.value().w_WS_S.x(), 2) / kCount;
+    accel_squares += std::pow(sample.value().f_WS_S.x(), 2) / kCount;
+  }
+  // density / sqrt(0.01 s) = 10 x density per sample; five standard errors.
+  EXPECT_NEAR(mean_z, 9.80665, 5.0 * 0.02 / std::sqrt(kCount));
+  EXPECT_NEAR(std::sqrt(gyro_squares), rad_from_deg(0.1),
+              rad_from_deg(0.1) * 5.0 / std::sqrt(2.0 * kCount));
+  EXPECT_NEAR(std::sqrt(accel_squares), 0.02, 0.02 * 5.0 / std::sqrt(2.0 * kCount));
+}
+
+TEST(Imu, TurningAddsTheCentripetalForceOfTheLeverArm) {
+  SensorBench bench;
+  auto imu = make(bench, "imu", 100.0,
+                  {{"gyro_noise_dps_rtHz", 0.0},
+                   {"accel_noise_mps2_rtHz", 0.0},
+                   {"position_m", std::vector<double>{0.5, 0.0, 0.0}}});
+  Odometry truth;
+  truth.w_WB_B = {0, 0, 2.0};
+  const auto sample = bench.bus.subscribe<ImuSample>("rover/s", "test");
+  for (int i = 0; i < 2; ++i) {
+    bench.truth.write(Time{i * 10'000'000LL}, truth);
+    imu->step(Time{i * 10'000'000LL});
+  }
+  // Closed form: -w^2 r towards the centre.
+  EXPECT_NEAR(sample.value().f_WS_S.x(), -2.0, 1e-12);
+  EXPECT_NEAR(sample.value().w_WS_S.z(), 2.0, 1e-12);
+}
+
+TEST(Imu, ReadingsSaturate) {
+  SensorBench bench;
+  auto imu = make(bench, "imu", 100.0, {{"gyro_range_dps", 100.0}, {"accel_range_mps2", 5.0}});
+  Odometry truth;
+  truth.w_WB_B = {0, 0, 50.0};
+  bench.truth.write(Time{0}, truth);
+  imu->step(Time{0});
+  const ImuSample& sample = bench.bus.subscribe<ImuSample>("rover/s", "test").value();
+  EXPECT_DOUBLE_EQ(sample.w_WS_S.z(), rad_from_deg(100.0));
+  EXPECT_DOUBLE_EQ(sample.f_WS_S.z(), 5.0);
+}
+
+TEST(Ultrasound, ReadsTheFirstReturnInItsCone) {
+  SensorBench bench;
+  bench.scene.wall_x_m = 2.0;
+  auto single = make(bench, "ultrasound", 20.0, {{"half_angle_deg", 0.0}, {"noise_std_m", 0.0}});
+  Odometry truth;
+  truth.X_WB.p = {0, 0, 1.0};
+  bench.truth.write(Time{0}, truth);
+  single->step(Time{0});
+  EXPECT_DOUBLE_EQ(bench.bus.subscribe<RangeSample>("rover/s", "test").value().range_m, 2.0);
+
+  // Pitched 30 deg down, the lowest ray of a 15 deg cone meets the ground first: 1 / sin 45 deg.
+  SensorBench tilted;
+  auto cone = make(tilted, "ultrasound", 20.0,
+                   {{"noise_std_m", 0.0}, {"rotation_deg", std::vector<double>{0, 30, 0}}});
+  tilted.truth.write(Time{0}, truth);
+  cone->step(Time{0});
+  EXPECT_NEAR(tilted.bus.subscribe<RangeSample>("rover/s", "test").value().range_m, std::sqrt(2.0),
+              1e-12);
+}
+
+TEST(Ultrasound, NothingInRangeReadsInfinity) {
+  SensorBench bench;
+  auto sonar = make(bench, "ultrasound", 20.0, {{"max_range_m", 1.5}, {"noise_std_m", 0.0}});
+  Odometry truth;
+  truth.X_WB.p = {0, 0, 50.0};
+  bench.truth.write(Time{0}, truth);
+  sonar->step(Time{0});
+  EXPECT_TRUE(std::isinf(bench.bus.subscribe<RangeSample>("rover/s", "test").value().range_m));
+}
+
+/// One suite for every registered sensor.
+class SensorConformance : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(SensorConformance, SameSeedSameBitsOtherSeedOthers) {
+  const auto digest = [&](std::uint64_t seed) {
+    SensorBench bench;
+    bench.scene.wall_x_m = 2.0;
+    auto sensor = make(bench, GetParam(), 20.0, {}, seed);
+    Hasher hasher;
+    for (int i = 0; i < 100; ++i) {
+      Odometry truth;
+      truth.X_WB.p = {0.01 * i, 0, 1};
+      bench.truth.write(Time{i * 50'000'000LL}, truth);
+      sensor->step(Time{i * 50'000'000LL});
+      bench.bus.find("rover/s")->hash_into(hasher);
+    }
+    return hasher.hex();
+  };
+  EXPECT_EQ(digest(1), digest(1));
+  EXPECT_NE(digest(1), digest(2));
+}
+
+TEST_P(SensorConformance, AStepAllocatesNothingAndWritesNoNan) {
+  SensorBench bench;
+  bench.scene.wall_x_m = 2.0;
+  auto sensor = make(bench, GetParam(), 20.0, {});
+  bench.truth.write(Time{0}, Odometry{});
+  sensor->step(Time{0});
+  const test::AllocationCounter counter;
+  for (int i = 1; i < 50; ++i) sensor->step(Time{i * 50'000'000LL});
+  EXPECT_EQ(counter.count(), 0u);
+  EXPECT_FALSE(bench.bus.find("rover/s")->has_nan());
+}
+
+std::vector<std::string> registered_sensors() {
+  Registry registry;
+  register_sensors(registry);
+  return registry.names(PartKind::kSensor);
+}
+INSTANTIATE_TEST_SUITE_P(All, SensorConformance, ::testing::ValuesIn(registered_sensors()),
+                         [](const auto& parameter) { return parameter.param; });
+
+}  // namespace
+}  // namespace vinerow

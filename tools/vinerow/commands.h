@@ -1,0 +1,36 @@
+#pragma once
+/// The sub-commands of `vinerow`. Each adds itself to the parser; its callback sets the exit
+/// status.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/api/registry.h"
+#include "engine/io/scenario.h"
+
+namespace vinerow::tools {
+
+/// Adds one command. @param exit_status  set by the command when it has run
+void add_run_command(CLI::App& app, int& exit_status);
+void add_validate_command(CLI::App& app, int& exit_status);
+void add_list_command(CLI::App& app, int& exit_status);
+void add_schema_command(CLI::App& app, int& exit_status);
+void add_render_command(CLI::App& app, int& exit_status);
+void add_info_command(CLI::App& app, int& exit_status);
+
+/// Options that every command which reads a scenario has.
+struct ScenarioArguments {
+  std::filesystem::path file;
+  io::Overrides overrides;
+  std::vector<std::filesystem::path> plugins;
+};
+void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments);
+
+/// Built-in parts plus those of the scenario's and the command line's plug-ins.
+Registry make_registry(const std::vector<std::filesystem::path>& plugins);
+/// Loads plug-ins, then the scenario against them. @throws ConfigError
+io::Scenario load(const ScenarioArguments& arguments, Registry& registry);
+
+}  // namespace vinerow::tools

@@ -1,0 +1,45 @@
+/// The command: `vinerow run | validate | list | schema | render | info`.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "engine/core/error.h"
+#include "engine/sim/summary.h"
+#include "tools/vinerow/commands.h"
+
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr int kBrokenOff = 3;
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Vinerow: simulation of robots that work in vineyards and orchards"};
+  app.set_version_flag("--version", "vinerow " + vinerow::program_version());
+  app.require_subcommand(1);
+  int exit_status = 0;
+  vinerow::tools::add_run_command(app, exit_status);
+  vinerow::tools::add_validate_command(app, exit_status);
+  vinerow::tools::add_list_command(app, exit_status);
+  vinerow::tools::add_schema_command(app, exit_status);
+  vinerow::tools::add_render_command(app, exit_status);
+  vinerow::tools::add_info_command(app, exit_status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? 0 : kBadInput;
+  } catch (const vinerow::ConfigError& error) {
+    fmt::print(stderr, "vinerow: {}\n", error.what());
+    return kBadInput;
+  } catch (const vinerow::SimulationError& error) {
+    fmt::print(stderr, "vinerow: {}\n", error.what());
+    return kBrokenOff;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "vinerow: unexpected failure: {}\n", error.what());
+    return kBrokenOff;
+  }
+  return exit_status;
+}

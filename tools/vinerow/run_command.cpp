@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "engine/sim/run.h"
+#include "tools/vinerow/commands.h"
+
+namespace vinerow::tools {
+namespace {
+
+/// A bar that redraws itself on a terminal; a line per 10 % elsewhere.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+  void show(const Progress& progress) {
+    if (quiet_) return;
+    const double share =
+        progress.duration_s > 0.0 ? progress.simulated_s / progress.duration_s : 1.0;
+    const double factor = progress.wall_s > 0.0 ? progress.simulated_s / progress.wall_s : 0.0;
+    const double left_s =
+        factor > 0.0 ? (progress.duration_s - progress.simulated_s) / factor : 0.0;
+    if (terminal_) {
+      constexpr int kWidth = 30;
+      const int filled = static_cast<int>(share * kWidth);
+      fmt::print(stderr,
+                 "\r[{:=<{}}{: <{}}] {:8.1f} s  {:6.0f} x real time  at most {:4.0f} s left ", "",
+                 filled, "", kWidth - filled, progress.simulated_s, factor, left_s);
+      std::fflush(stderr);
+    } else if (share >= next_share_) {
+      fmt::print(stderr, "{:3.0f} %  {:.1f} s simulated, {:.0f} x real time\n", 100.0 * share,
+                 progress.simulated_s, factor);
+      while (next_share_ <= share) next_share_ += 0.1;
+    }
+  }
+
+  void end() const {
+    if (!quiet_ && terminal_) fmt::print(stderr, "\n");
+  }
+
+ private:
+  bool quiet_;
+  bool terminal_;
+  double next_share_ = 0.1;
+};
+
+void print_result(const RunResult& result, const std::filesystem::path& out, bool with_log) {
+  for (const CriterionResult& c : result.criteria) {
+    fmt::print("{}  {} = {:.6g} ({} {:g})\n", c.met ? "met   " : "FAILED", c.metric, c.value,
+               c.kind == "max" ? "at most" : "at least", c.limit);
+  }
+  fmt::print("simulated {:.3f} s in {:.2f} s ({:.0f} x real time), mission {}\n",
+             result.simulated_s, result.wall_s, result.real_time_factor(),
+             result.finished ? "finished" : "not finished");
+  fmt::print("digest   {}\n", result.digest);
+  fmt::print("summary  {}\n", (out / "summary.json").string());
+  if (with_log) fmt::print("log      {}\n", (out / "log.mcap").string());
+  if (!result.pictures.empty()) {
+    fmt::print("pictures {} in {}, the last is {}\n", result.pictures.size(),
+               (out / "frames").string(), result.pictures.back().string());
+  }
+  if (!result.picture_note.empty()) fmt::print("pictures none: {}\n", result.picture_note);
+  if (!result.error.empty()) fmt::print(stderr, "vinerow: the run broke off: {}\n", result.error);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_status) {
+  struct Arguments {
+    ScenarioArguments scenario;
+    std::filesystem::path out;
+    bool no_log = false, no_pictures = false, quiet = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("run", "run a scenario headless and write log, summary and pictures");
+  add_scenario_arguments(*command, arguments->scenario);
+  command->add_option("--out", arguments->out,
+                      "folder for the results (default: runs/<scenario name>)");
+  command->add_flag("--no-log", arguments->no_log, "write no log (and so no pictures)");
+  command->add_flag("--no-pictures", arguments->no_pictures, "draw no pictures");
+  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->callback([arguments, &exit_status] {
+    Registry registry;
+    const io::Scenario scenario = load(arguments->scenario, registry);
+    RunOptions options;
+    options.out =
+        arguments->out.empty() ? std::filesystem::path("runs") / scenario.name : arguments->out;
+    options.log = !arguments->no_log;
+    options.pictures = !arguments->no_pictures;
+    ProgressLine line(arguments->quiet);
+    options.progress = [&line](const Progress& progress) { line.show(progress); };
+    const RunResult result = run_scenario(scenario, registry, options);
+    line.end();
+    print_result(result, options.out, options.log && scenario.record.enabled);
+    exit_status = static_cast<int>(result.status);
+  });
+}
+
+}  // namespace vinerow::tools

@@ -19,8 +19,9 @@ struct ChannelInfo {
   std::string topic;   ///< "/rover/gps"
   std::string schema;  ///< "sensor_msgs/msg/NavSatFix"
   std::uint64_t messages = 0;
-  /// "signal": "rover/gps", "signal_type": "GnssFix"; "exact_of": "/rover/gps" where this channel
-  /// holds what the standard type of another cannot (people may leave it out of lists).
+  /// "signal": "rover/gps", and either "vinerow_type": "GnssFix" (what read<T>() takes) or
+  /// "exact_of": "/rover/gps" where this channel only holds what the standard type of another
+  /// cannot (lists for people may leave it out).
   std::map<std::string, std::string> metadata;
 };
 

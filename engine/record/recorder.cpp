@@ -17,6 +17,7 @@ struct Entry {
   const SignalBase* signal = nullptr;
   Duration min_period;
   FrameNames frames;
+  const Signal<Odometry>* truth = nullptr;  ///< of the same vehicle
   std::uint16_t channel = 0;
   std::uint16_t exact_channel = 0;  ///< 0: none
   std::uint64_t seen = 0;
@@ -29,16 +30,20 @@ template <class T>
 void write_messages(McapWriter& writer, const Entry& entry, Time now) {
   const T& value = static_cast<const Signal<T>&>(*entry.signal).value();
   const Time stamp = entry.signal->stamp();
+  const bool is_body_known =
+      entry.truth != nullptr && entry.truth->sequence() > 0 && entry.truth->stamp() == stamp;
+  const WriteContext context{entry.frames, stamp,
+                             is_body_known ? &entry.truth->value().X_WB : nullptr};
   const auto log_time = static_cast<std::uint64_t>(now.ns);
   const auto publish_time = static_cast<std::uint64_t>(stamp.ns);
   {
     CdrWriter out(writer.begin_message(entry.channel, log_time, publish_time));
-    RosMapping<T>::write(out, entry.frames, stamp, value);
+    RosMapping<T>::write(out, context, value);
     writer.end_message();
   }
   if constexpr (RosMapping<T>::kExactType != nullptr) {
     CdrWriter out(writer.begin_message(entry.exact_channel, log_time, publish_time));
-    RosMapping<T>::write_exact(out, entry.frames, stamp, value);
+    RosMapping<T>::write_exact(out, context, value);
     writer.end_message();
   }
 }
@@ -49,6 +54,7 @@ struct Recorder::Impl {
   Impl(const std::filesystem::path& file, const RecorderOptions& options)
       : path(file),
         chunk_bytes(options.chunk_bytes),
+        compact_poses(options.compact_poses),
         flush_period(std::chrono::duration_cast<WallClock::duration>(
             std::chrono::duration<double>(options.flush_wall_s))),
         writer(file, options.compression, options.chunk_bytes, "ros2",
@@ -63,11 +69,13 @@ struct Recorder::Impl {
   }
 
   std::uint16_t add_channel(const SignalBase& signal, const char* type, const std::string& suffix) {
-    TextMap metadata = {{"signal", signal.name()},
-                        {"signal_type", signal.type()},
-                        // Asked for by the ros2 profile; an empty list: nothing was published.
-                        {"offered_qos_profiles", "[]"}};
-    if (!suffix.empty()) metadata["exact_of"] = "/" + signal.name();
+    // offered_qos_profiles: asked for by the ros2 profile; an empty list: nothing was published.
+    TextMap metadata = {{"signal", signal.name()}, {"offered_qos_profiles", "[]"}};
+    if (suffix.empty()) {
+      metadata["vinerow_type"] = signal.type();
+    } else {
+      metadata["exact_of"] = "/" + signal.name();
+    }
     return writer.add_channel(schema_id(type), "/" + signal.name() + suffix, "cdr", metadata);
   }
 
@@ -81,6 +89,18 @@ struct Recorder::Impl {
     }
   }
 
+  /// Every signal learns where its vehicle is from "<vehicle>/truth", in whatever order they come.
+  void connect_truth() {
+    for (const Entry& truth : entries) {
+      if (truth.signal->name() != truth.frames.prefix + "truth") continue;
+      if (std::string_view(truth.signal->type()) != Odometry::kType) continue;
+      for (Entry& entry : entries) {
+        if (entry.frames.prefix != truth.frames.prefix) continue;
+        entry.truth = static_cast<const Signal<Odometry>*>(truth.signal);
+      }
+    }
+  }
+
   void throw_on_failure(Time now) {
     if (failed || writer.failure().empty()) return;
     failed = true;
@@ -90,6 +110,7 @@ struct Recorder::Impl {
 
   std::filesystem::path path;
   std::size_t chunk_bytes;
+  bool compact_poses;
   WallClock::duration flush_period;
   McapWriter writer;
   std::map<std::string, std::uint16_t> schema_ids;
@@ -122,6 +143,7 @@ void Recorder::add_signal(const SignalBase& signal, Duration min_period) {
   for_each_message_type([&]<class T>(T*) { impl_->set_type<T>(entry); });
   VINEROW_DEMAND(entry.write != nullptr);
   impl_->entries.push_back(std::move(entry));
+  if (impl_->compact_poses) impl_->connect_truth();
 }
 
 void Recorder::record(Time now) {

@@ -20,6 +20,9 @@ struct RecorderOptions {
   std::string compression = "zstd";      ///< zstd | lz4 | none
   std::size_t chunk_bytes = 768 * 1024;  ///< a chunk is closed when this much is in it ...
   double flush_wall_s = 1.0;  ///< ... or this much wall time has passed, and is flushed to the file
+  /// Link and sensor poses are stored relative to "<vehicle>/truth" and rounded to 1 nm and 2 nrad;
+  /// false: in the world and to the last bit, which makes a log a fifth larger.
+  bool compact_poses = true;
 };
 
 class Recorder {

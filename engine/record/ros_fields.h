@@ -9,6 +9,7 @@
 #include "engine/core/time.h"
 #include "engine/math/pose.h"
 #include "engine/record/cdr.h"
+#include "engine/record/ros_mapping.h"
 
 namespace vinerow::record {
 
@@ -54,6 +55,19 @@ inline void write_pose(CdrWriter& out, const Pose& pose) {
 inline void read_pose(CdrReader& in, Pose& pose) {
   in.read(pose.p);
   in.read_doubles(pose.q.coeffs().data(), 4);
+}
+
+inline double round_to_grid(double value) {
+  // + 0.0 turns -0 into 0: one pattern of bits for nothing.
+  return std::round(value / kPoseGrid) * kPoseGrid + 0.0;
+}
+
+/// X_BA from X_WB and X_WA, on the grid.
+inline Pose pose_in_body(const Pose& X_WB, const Pose& X_WA) {
+  Pose X_BA = X_WB.inverse() * X_WA;
+  X_BA.p = X_BA.p.unaryExpr(&round_to_grid);
+  X_BA.q.coeffs() = X_BA.q.coeffs().unaryExpr(&round_to_grid);
+  return X_BA;
 }
 
 /// Square and root of a standard deviation. The pair is exact in IEEE binary arithmetic for values

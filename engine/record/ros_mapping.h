@@ -24,20 +24,34 @@ struct FrameNames {
   static FrameNames of_signal(const std::string& signal);
 };
 
+/// What a message says beside the value.
+struct WriteContext {
+  const FrameNames& frames;
+  Time stamp;
+  /// Where the vehicle's body was at `stamp`, if it is known: poses of its links and sensors are
+  /// then stored relative to it, rounded to kPoseGrid, because a log is mostly the noise of poses.
+  const Pose* X_WB = nullptr;
+};
+
+/// Step of positions (m) and quaternion components in poses relative to the body: about 1 nm and
+/// 2 nrad, a power of two, so that a rounded number has few bits and a fixed mounting is the same
+/// bytes in every message.
+constexpr double kPoseGrid = 0x1p-30;
+
 /// @tparam T one of the types of messages.h
 template <class T>
 struct RosMapping;
 
 /// What every mapping has. `read` fills all fields of T from what write_exact wrote, or write if
 /// kExactType is null. @returns false if the bytes do not hold such a message
-#define VINEROW_ROS_MAPPING(T, type, exact_type)                            \
-  template <>                                                               \
-  struct RosMapping<T> {                                                    \
-    static constexpr const char* kType = type;                              \
-    static constexpr const char* kExactType = exact_type;                   \
-    static void write(CdrWriter&, const FrameNames&, Time, const T&);       \
-    static void write_exact(CdrWriter&, const FrameNames&, Time, const T&); \
-    static bool read(CdrReader&, const FrameNames&, T&);                    \
+#define VINEROW_ROS_MAPPING(T, type, exact_type)                        \
+  template <>                                                           \
+  struct RosMapping<T> {                                                \
+    static constexpr const char* kType = type;                          \
+    static constexpr const char* kExactType = exact_type;               \
+    static void write(CdrWriter&, const WriteContext&, const T&);       \
+    static void write_exact(CdrWriter&, const WriteContext&, const T&); \
+    static bool read(CdrReader&, const FrameNames&, T&);                \
   };
 
 VINEROW_ROS_MAPPING(Odometry, "nav_msgs/msg/Odometry", nullptr)

@@ -28,10 +28,9 @@ FrameNames FrameNames::of_signal(const std::string& signal) {
   return names;
 }
 
-void RosMapping<Odometry>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
-                                 const Odometry& value) {
-  write_header(out, stamp, frames.world);
-  out.add(std::string_view(frames.body));
+void RosMapping<Odometry>::write(CdrWriter& out, const WriteContext& to, const Odometry& value) {
+  write_header(out, to.stamp, to.frames.world);
+  out.add(std::string_view(to.frames.body));
   write_pose(out, value.X_WB);
   double covariance[kCovarianceSize] = {};
   covariance[kCovarianceX] = variance(value.position_std_m.x());
@@ -60,9 +59,9 @@ bool RosMapping<Odometry>::read(CdrReader& in, const FrameNames&, Odometry& valu
   return in.ok();
 }
 
-void RosMapping<VelocityCommand>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<VelocityCommand>::write(CdrWriter& out, const WriteContext& to,
                                         const VelocityCommand& value) {
-  write_header(out, stamp, frames.body);
+  write_header(out, to.stamp, to.frames.body);
   out.add(Eigen::Vector3d(value.v_mps, 0, 0));
   out.add(Eigen::Vector3d(0, 0, value.yaw_rate_radps));
 }
@@ -75,9 +74,9 @@ bool RosMapping<VelocityCommand>::read(CdrReader& in, const FrameNames&, Velocit
   return in.ok();
 }
 
-void RosMapping<NamedValues>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<NamedValues>::write(CdrWriter& out, const WriteContext& to,
                                     const NamedValues& value) {
-  write_header(out, stamp, frames.body);
+  write_header(out, to.stamp, to.frames.body);
   out.add_count(value.names.size());
   for (const std::string& name : value.names) out.add(std::string_view(name));
   out.add_count(value.values.size());
@@ -93,44 +92,62 @@ bool RosMapping<NamedValues>::read(CdrReader& in, const FrameNames&, NamedValues
   return in.ok();
 }
 
-void RosMapping<LinkPoses>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
-                                  const LinkPoses& value) {
+void RosMapping<LinkPoses>::write(CdrWriter& out, const WriteContext& to, const LinkPoses& value) {
   const std::size_t count = std::min(value.names.size(), value.X_WL.size());
-  out.add_count(count);
+  // A tree world -> body -> links where the body is known, else every link in the world.
+  const bool is_tree = to.X_WB != nullptr && count > 0;
+  out.add_count(is_tree ? count + 1 : count);
+  if (is_tree) {
+    write_header(out, to.stamp, to.frames.world);
+    out.add(std::string_view(to.frames.body));
+    write_pose(out, *to.X_WB);
+  }
   for (std::size_t i = 0; i < count; ++i) {
-    write_header(out, stamp, frames.world);
-    out.add_joined(frames.prefix, value.names[i]);
-    write_pose(out, value.X_WL[i]);
+    write_header(out, to.stamp, is_tree ? to.frames.body : to.frames.world);
+    out.add_joined(to.frames.prefix, value.names[i]);
+    write_pose(out, is_tree ? pose_in_body(*to.X_WB, value.X_WL[i]) : value.X_WL[i]);
   }
 }
 
 bool RosMapping<LinkPoses>::read(CdrReader& in, const FrameNames& frames, LinkPoses& value) {
-  const std::size_t count = in.read_count(kLeastTransform);
+  std::size_t count = in.read_count(kLeastTransform);
   value.names.resize(count);
   value.X_WL.resize(count);
+  Pose X_WB;
+  std::size_t k = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    skip_header(in);
+    skip_time(in);
+    const bool is_in_body = in.read_text() == frames.body;
+    // The first link in the body's frame tells that what came before it was the body.
+    if (is_in_body && i == 1) {
+      X_WB = value.X_WL[0];
+      k = 0;
+    }
     std::string_view name = in.read_text();
     if (name.starts_with(frames.prefix)) name.remove_prefix(frames.prefix.size());
-    value.names[i].assign(name.data(), name.size());
-    read_pose(in, value.X_WL[i]);
+    value.names[k].assign(name.data(), name.size());
+    read_pose(in, value.X_WL[k]);
+    if (is_in_body) value.X_WL[k] = X_WB * value.X_WL[k];
+    ++k;
   }
+  value.names.resize(k);
+  value.X_WL.resize(k);
   return in.ok();
 }
 
-void RosMapping<PlannedPath>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<PlannedPath>::write(CdrWriter& out, const WriteContext& to,
                                     const PlannedPath& value) {
-  write_header(out, stamp, frames.world);
+  write_header(out, to.stamp, to.frames.world);
   out.add_count(value.points.size());
   for (const PathPoint& point : value.points) {
-    write_header(out, stamp, frames.world);
+    write_header(out, to.stamp, to.frames.world);
     write_pose(out, {quaternion_from_rpy({0, 0, point.yaw_rad}), point.p_W});
   }
 }
 
-void RosMapping<PlannedPath>::write_exact(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<PlannedPath>::write_exact(CdrWriter& out, const WriteContext& to,
                                           const PlannedPath& value) {
-  write_header(out, stamp, frames.world);
+  write_header(out, to.stamp, to.frames.world);
   out.add(value.length_m);
   out.add_count(value.points.size());
   for (const PathPoint& point : value.points) {
@@ -160,9 +177,9 @@ bool RosMapping<PlannedPath>::read(CdrReader& in, const FrameNames&, PlannedPath
   return in.ok();
 }
 
-void RosMapping<FollowerState>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<FollowerState>::write(CdrWriter& out, const WriteContext& to,
                                       const FollowerState& value) {
-  write_header(out, stamp, frames.body);
+  write_header(out, to.stamp, to.frames.body);
   out.add(value.lateral_error_m);
   out.add(value.heading_error_rad);
   out.add(value.distance_m);

@@ -23,9 +23,8 @@ constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
-void RosMapping<ImuSample>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
-                                  const ImuSample& value) {
-  write_header(out, stamp, frames.own);
+void RosMapping<ImuSample>::write(CdrWriter& out, const WriteContext& to, const ImuSample& value) {
+  write_header(out, to.stamp, to.frames.own);
   // No orientation: identity, and -1 as its first covariance says so.
   const double orientation[4 + 9] = {0, 0, 0, 1, -1};
   out.add_doubles(orientation, 4 + 9);
@@ -45,9 +44,8 @@ bool RosMapping<ImuSample>::read(CdrReader& in, const FrameNames&, ImuSample& va
   return in.ok();
 }
 
-void RosMapping<GnssFix>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
-                                const GnssFix& value) {
-  write_header(out, stamp, frames.own);
+void RosMapping<GnssFix>::write(CdrWriter& out, const WriteContext& to, const GnssFix& value) {
+  write_header(out, to.stamp, to.frames.own);
   out.add(value.valid ? kStatusFix : kStatusNoFix);
   out.add(kServiceGps);
   out.add(deg_from_rad(value.latitude_rad));
@@ -60,9 +58,9 @@ void RosMapping<GnssFix>::write(CdrWriter& out, const FrameNames& frames, Time s
   out.add(kCovarianceDiagonalKnown);
 }
 
-void RosMapping<GnssFix>::write_exact(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<GnssFix>::write_exact(CdrWriter& out, const WriteContext& to,
                                       const GnssFix& value) {
-  write_header(out, stamp, frames.world);
+  write_header(out, to.stamp, to.frames.world);
   out.add(value.valid);
   out.add(value.latitude_rad);
   out.add(value.longitude_rad);
@@ -84,9 +82,9 @@ bool RosMapping<GnssFix>::read(CdrReader& in, const FrameNames&, GnssFix& value)
   return in.ok();
 }
 
-void RosMapping<RangeSample>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<RangeSample>::write(CdrWriter& out, const WriteContext& to,
                                     const RangeSample& value) {
-  write_header(out, stamp, frames.own);
+  write_header(out, to.stamp, to.frames.own);
   out.add(kUltrasound);
   out.add(static_cast<float>(2 * value.half_angle_rad));
   out.add(static_cast<float>(value.min_range_m));
@@ -94,14 +92,16 @@ void RosMapping<RangeSample>::write(CdrWriter& out, const FrameNames& frames, Ti
   out.add(static_cast<float>(value.range_m));
 }
 
-void RosMapping<RangeSample>::write_exact(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<RangeSample>::write_exact(CdrWriter& out, const WriteContext& to,
                                           const RangeSample& value) {
-  write_header(out, stamp, frames.world);
+  write_header(out, to.stamp, to.frames.world);
   out.add(value.range_m);
   out.add(value.min_range_m);
   out.add(value.max_range_m);
   out.add(value.half_angle_rad);
-  write_pose(out, value.X_WS);
+  // The body's pose is the same bytes as in the truth beside it, which compresses to nothing.
+  write_pose(out, to.X_WB ? *to.X_WB : Pose{});
+  write_pose(out, to.X_WB ? pose_in_body(*to.X_WB, value.X_WS) : value.X_WS);
 }
 
 bool RosMapping<RangeSample>::read(CdrReader& in, const FrameNames&, RangeSample& value) {
@@ -110,13 +110,18 @@ bool RosMapping<RangeSample>::read(CdrReader& in, const FrameNames&, RangeSample
   value.min_range_m = in.read<double>();
   value.max_range_m = in.read<double>();
   value.half_angle_rad = in.read<double>();
+  Pose X_WB;
+  read_pose(in, X_WB);
   read_pose(in, value.X_WS);
+  // Not multiplied by the identity, which would turn -0 into 0.
+  const bool is_in_world = X_WB.p.isZero(0) && X_WB.q.coeffs() == Pose{}.q.coeffs();
+  if (!is_in_world) value.X_WS = X_WB * value.X_WS;
   return in.ok();
 }
 
-void RosMapping<BatteryState>::write(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<BatteryState>::write(CdrWriter& out, const WriteContext& to,
                                      const BatteryState& value) {
-  write_header(out, stamp, frames.body);
+  write_header(out, to.stamp, to.frames.body);
   // voltage, temperature, current, charge, capacity, design_capacity: the model has power and
   // energy.
   for (int i = 0; i < 6; ++i) out.add(kNotMeasured);
@@ -131,9 +136,9 @@ void RosMapping<BatteryState>::write(CdrWriter& out, const FrameNames& frames, T
   out.add(std::string_view());
 }
 
-void RosMapping<BatteryState>::write_exact(CdrWriter& out, const FrameNames& frames, Time stamp,
+void RosMapping<BatteryState>::write_exact(CdrWriter& out, const WriteContext& to,
                                            const BatteryState& value) {
-  write_header(out, stamp, frames.body);
+  write_header(out, to.stamp, to.frames.body);
   out.add(value.power_W);
   out.add(value.energy_used_J);
   out.add(value.charge);
@@ -147,8 +152,8 @@ bool RosMapping<BatteryState>::read(CdrReader& in, const FrameNames&, BatterySta
   return in.ok();
 }
 
-void RosMapping<Event>::write(CdrWriter& out, const FrameNames&, Time stamp, const Event& value) {
-  write_time(out, stamp);
+void RosMapping<Event>::write(CdrWriter& out, const WriteContext& to, const Event& value) {
+  write_time(out, to.stamp);
   out.add(static_cast<std::uint8_t>(value.level));
   out.add(std::string_view(value.source));
   out.add(std::string_view(value.text));

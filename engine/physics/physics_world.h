@@ -3,8 +3,8 @@
 /// meets the engine.
 ///
 /// Static geometry comes from the WorldModel: the height field and every mesh with `collides`
-/// (canopy excepted: it is seen by rays and distances but does not push). Dynamic bodies are added
-/// by vehicles and tests.
+/// (canopy excepted: it is seen by rays and distances but does not push; wires are drawn only).
+/// Dynamic bodies are added by vehicles and tests. README.md tells accuracy and limits.
 
 #include <cstdint>
 #include <memory>
@@ -44,6 +44,16 @@ struct PlacedShape {
   Pose X_BS;
 };
 
+/// How the forces on a body are read between two steps.
+enum class ForceSampling : std::uint8_t {
+  /// Samples of a smooth course, as from springs, tyres, rotors, wings: steps are velocity Verlet,
+  /// second order, and springs keep their energy. A force that jumps acts half a step early.
+  kSmooth,
+  /// Constant over each step: exact for forces that really are. A spring sampled like this gains
+  /// energy at the rate w^2 dt / 2.
+  kHeld,
+};
+
 struct BodySpec {
   std::string name;      ///< for contacts and errors, e.g. "rover"
   double mass_kg = 1.0;  ///< > 0
@@ -53,8 +63,11 @@ struct BodySpec {
   Eigen::Vector3d v_WB_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d w_WB_W = Eigen::Vector3d::Zero();
   std::vector<PlacedShape> shapes;  ///< empty: collides with nothing
+  /// Coulomb coefficient against static geometry; between two bodies the product of both. >= 0
   double friction = 0.6;
+  /// Rebound speed / impact speed against static geometry; between two bodies the product. 0..1
   double restitution = 0.0;
+  ForceSampling force_sampling = ForceSampling::kSmooth;
 };
 
 struct BodyId {
@@ -73,10 +86,10 @@ struct Contact {
   BodyId other;          ///< index -1: static geometry
   SurfaceClass surface;  ///< of the other side (kVehicle for bodies)
   Eigen::Vector3d p_W;
-  Eigen::Vector3d normal_W;  ///< from other to body
+  Eigen::Vector3d normal_W;  ///< unit, from other to body
   double depth_m;            ///< > 0: overlapping
-  double impulse_Ns;
-  int mesh = -1;  ///< index into WorldModel::meshes; -1: height field or another body
+  double impulse_Ns;         ///< along the normal; 0 for kinematic bodies
+  int mesh = -1;             ///< index into WorldModel::meshes; -1: height field or another body
 };
 
 /// What a wheel stands on.
@@ -88,15 +101,19 @@ struct GroundHit {
 
 class PhysicsWorld {
  public:
-  /// @throws ConfigError on a mesh without triangles or a mass that is not > 0
+  /// @param world  outlives this object, which reads its heights and meshes in place
+  /// @throws ConfigError on bad geometry, e.g. "mesh 'x' has no triangles"
   PhysicsWorld(const PhysicsSettings& settings, const WorldModel& world);
   ~PhysicsWorld();
 
+  /// @throws ConfigError on a mass, inertia, shape or state out of range, naming the body
   BodyId add_body(const BodySpec& spec);
   BodyState state(BodyId body) const;
-  /// Used at the start and by kinematic vehicles, which place their body themselves.
+  /// Used at the start and by kinematic vehicles, which place their body themselves. A dynamic
+  /// body forgets its contacts and the course of its forces.
   void set_state(BodyId body, const BodyState& state);
-  /// A body that is placed by set_state each step and pushes nothing (kinematic fidelity).
+  /// A body that is placed by set_state each step and pushes nothing (kinematic fidelity). Its
+  /// overlaps are reported as contacts.
   void set_kinematic(BodyId body, bool kinematic);
 
   /// Accumulate until the next step. Forces in W at a point in W. Gravity is added by the world.
@@ -104,8 +121,11 @@ class PhysicsWorld {
   void add_central_force_W(BodyId body, const Eigen::Vector3d& f_W);
   void add_torque_W(BodyId body, const Eigen::Vector3d& tau_W);
 
-  /// One step of exactly dt.
+  /// One step of exactly dt. Does not throw; a state that is not finite stays so, for the caller
+  /// to find.
   void step(Duration dt);
+  /// Mean acceleration of the centre of mass over the last step: gravity, forces added, contacts.
+  Eigen::Vector3d acceleration_W(BodyId body) const;
 
   /// First rigid ground (terrain, obstacle, post, trunk) along a short ray: what a wheel asks
   /// several times a step. About 50 ns on a height field away from meshes. No heap.

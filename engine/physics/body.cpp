@@ -1,0 +1,139 @@
+#include "engine/physics/body.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/physics/body_shape.h"
+#include "engine/physics/bullet_convert.h"
+
+namespace vinerow::physics {
+namespace {
+
+using Eigen::Vector3d;
+
+void check_spec(const BodySpec& spec) {
+  const auto refuse = [&](const std::string& what) {
+    throw ConfigError(fmt::format("body '{}': {}", spec.name, what));
+  };
+  if (!(spec.mass_kg > 0.0) || !std::isfinite(spec.mass_kg)) {
+    refuse(fmt::format("mass_kg = {}, must be > 0", spec.mass_kg));
+  }
+  const double asymmetry = (spec.inertia_B - spec.inertia_B.transpose()).cwiseAbs().maxCoeff();
+  if (!spec.inertia_B.allFinite() || asymmetry > 1e-9 * spec.inertia_B.cwiseAbs().maxCoeff() ||
+      spec.inertia_B.llt().info() != Eigen::Success) {
+    refuse("inertia_B must be symmetric and positive definite");
+  }
+  if (!spec.X_WB.p.allFinite() || !(std::abs(spec.X_WB.q.norm() - 1.0) < 1e-6)) {
+    refuse("X_WB must be finite with a unit quaternion");
+  }
+  if (!spec.v_WB_W.allFinite() || !spec.w_WB_W.allFinite()) refuse("velocities must be finite");
+  if (!(spec.friction >= 0.0) || !std::isfinite(spec.friction)) {
+    refuse(fmt::format("friction = {}, must be >= 0", spec.friction));
+  }
+  if (!(spec.restitution >= 0.0 && spec.restitution <= 1.0)) {
+    refuse(fmt::format("restitution = {}, must be in 0..1", spec.restitution));
+  }
+}
+
+}  // namespace
+
+Body::Body(const BodySpec& spec, int index) : name_(spec.name), sampling_(spec.force_sampling) {
+  check_spec(spec);
+  inertia_ = PrincipalInertia::from_matrix(spec.mass_kg, spec.inertia_B);
+  axes_are_principal_ = inertia_.q_BP.vec().isZero(0.0);
+  shapes_ = make_body_shape(name_, spec.shapes, inertia_.q_BP);
+  if (!shapes_.empty()) {
+    btRigidBody::btRigidBodyConstructionInfo info(spec.mass_kg, nullptr, shapes_.back().get(),
+                                                  to_bullet(inertia_.moments_kgm2));
+    info.m_friction = spec.friction;
+    info.m_restitution = spec.restitution;
+    bullet_ = std::make_unique<btRigidBody>(info);
+    bullet_->setActivationState(DISABLE_DEACTIVATION);
+    bullet_->setFlags(0);  // no gyroscopic term of Bullet's: free_motion.h has it
+    bullet_->setUserIndex2(index);
+  }
+  set_state({spec.X_WB, spec.v_WB_W, spec.w_WB_W});
+}
+
+BodyState Body::state() const {
+  BodyState result;
+  result.X_WB.p = motion_.p_WP;
+  result.X_WB.q = axes_are_principal_ ? motion_.q_WP : motion_.q_WP * inertia_.q_BP.conjugate();
+  result.v_WB_W = motion_.v_WP_W;
+  result.w_WB_W = motion_.w_WP_W;
+  return result;
+}
+
+void Body::set_state(const BodyState& state) {
+  motion_.p_WP = state.X_WB.p;
+  motion_.q_WP = axes_are_principal_ ? state.X_WB.q : state.X_WB.q * inertia_.q_BP;
+  motion_.v_WP_W = state.v_WB_W;
+  motion_.w_WP_W = state.w_WB_W;
+  has_load_before_ = false;
+  if (bullet_) place_bullet(motion_);
+}
+
+void Body::set_kinematic(bool kinematic) {
+  kinematic_ = kinematic;
+  has_load_before_ = false;
+  if (!bullet_) return;
+  const int flags = bullet_->getCollisionFlags();
+  bullet_->setCollisionFlags(kinematic ? flags | btCollisionObject::CF_NO_CONTACT_RESPONSE
+                                       : flags & ~btCollisionObject::CF_NO_CONTACT_RESPONSE);
+}
+
+void Body::place_bullet(const MotionState& motion) {
+  placed_ = btTransform(to_bullet(motion.q_WP), to_bullet(motion.p_WP));
+  bullet_->setWorldTransform(placed_);
+  bullet_->updateInertiaTensor();
+}
+
+void Body::begin_step(const Vector3d& gravity_W, double dt_s) {
+  load_.a_W = gravity_W + force_W_ / inertia_.mass_kg;
+  load_.tau_W = torque_W_;
+  force_W_.setZero();
+  torque_W_.setZero();
+  if (kinematic_) {
+    if (bullet_) place_bullet(motion_);
+    return;
+  }
+  const bool smooth = sampling_ == ForceSampling::kSmooth && has_load_before_;
+  free_end_ = advance_free(motion_, inertia_, load_, smooth ? load_before_ : load_, dt_s);
+  if (bullet_) {
+    place_bullet(motion_);
+    bullet_->setLinearVelocity(to_bullet(free_end_.v_WP_W));
+    bullet_->setAngularVelocity(to_bullet(free_end_.w_WP_W));
+  }
+}
+
+void Body::end_step(double dt_s, bool contacts_solved) {
+  if (kinematic_) {
+    acceleration_W_.setZero();
+    return;
+  }
+  load_before_ = load_;
+  has_load_before_ = true;
+  acceleration_W_ = load_.a_W;
+  if (bullet_ && contacts_solved) {
+    const Vector3d v_W = from_bullet(bullet_->getLinearVelocity());
+    const Vector3d w_W = from_bullet(bullet_->getAngularVelocity());
+    const bool moved = !(bullet_->getWorldTransform() == placed_);
+    // The solver leaves the velocities of an untouched body as they are, to the bit.
+    if (moved || v_W != free_end_.v_WP_W || w_W != free_end_.w_WP_W) {
+      acceleration_W_ += (v_W - free_end_.v_WP_W) / dt_s;
+      if (moved) {  // an overlap was undone
+        motion_.p_WP = from_bullet(bullet_->getWorldTransform().getOrigin());
+        motion_.q_WP = from_bullet(bullet_->getWorldTransform().getRotation()).normalized();
+      }
+      // The end velocity moves the body, as in Bullet: what rests has none and stays where it is.
+      motion_ = advance_at_velocity(motion_, v_W, w_W, dt_s);
+      return;
+    }
+  }
+  motion_ = free_end_;
+}
+
+}  // namespace vinerow::physics

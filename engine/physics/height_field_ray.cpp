@@ -1,0 +1,236 @@
+#include "engine/physics/height_field_ray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vinerow::physics {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kBlockCells = 16;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Steps through squares of a grid along a line: which square, and from which t to which t.
+class GridWalk {
+ public:
+  /// Position g + t d in units of squares; squares [low, high) along each axis.
+  GridWalk(const double g[2], const double d[2], const int low[2], const int high[2], double t0) {
+    for (int axis = 0; axis < 2; ++axis) {
+      low_[axis] = low[axis];
+      high_[axis] = high[axis];
+      index_[axis] = std::clamp(static_cast<int>(std::floor(g[axis] + t0 * d[axis])), low[axis],
+                                high[axis] - 1);
+      step_[axis] = d[axis] > 0.0 ? 1 : -1;
+      const double inverse = d[axis] == 0.0 ? kInfinity : 1.0 / d[axis];
+      per_square_[axis] = std::abs(inverse);
+      const int edge = index_[axis] + (d[axis] > 0.0 ? 1 : 0);
+      next_[axis] = d[axis] == 0.0 ? kInfinity : (edge - g[axis]) * inverse;
+    }
+  }
+  int i() const { return index_[0]; }
+  int j() const { return index_[1]; }
+  /// Where the line leaves this square.
+  double exit_t() const { return std::min(next_[0], next_[1]); }
+  /// To the next square. @returns false at the border
+  bool advance() {
+    const int axis = next_[0] <= next_[1] ? 0 : 1;
+    index_[axis] += step_[axis];
+    next_[axis] += per_square_[axis];
+    return index_[axis] >= low_[axis] && index_[axis] < high_[axis];
+  }
+
+ private:
+  int low_[2], high_[2], index_[2], step_[2];
+  double per_square_[2], next_[2];
+};
+
+}  // namespace
+
+/// The ray in grid units (x, y in cells, z in metres) and what was found.
+struct HeightFieldRay::Walk {
+  double g[2], d[2];  // cells, cells per metre of ray
+  double z, dz;
+  int side = 0;  // sign of D so far, 0 before the first look
+  double hit_t = 0.0;
+  double slope_x = 0.0, slope_y = 0.0;  // dh per cell of the triangle that was hit
+};
+
+HeightFieldRay::HeightFieldRay(const HeightField& field)
+    : field_(field), inverse_cell_per_m_(1.0 / field.cell_m) {
+  block_columns_ = (field.columns - 2) / kBlockCells + 1;
+  block_rows_ = (field.rows - 2) / kBlockCells + 1;
+  blocks_.reserve(static_cast<std::size_t>(block_columns_) * block_rows_);
+  lowest_m_ = kInfinity;
+  highest_m_ = -kInfinity;
+  for (int bj = 0; bj < block_rows_; ++bj) {
+    for (int bi = 0; bi < block_columns_; ++bi) {
+      Range range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+      const int last_j = std::min((bj + 1) * kBlockCells, field.rows - 1);
+      const int last_i = std::min((bi + 1) * kBlockCells, field.columns - 1);
+      for (int j = bj * kBlockCells; j <= last_j; ++j) {
+        for (int i = bi * kBlockCells; i <= last_i; ++i) {
+          const float h = field.heights_m[static_cast<std::size_t>(j) * field.columns + i];
+          range.low_m = std::min(range.low_m, h);
+          range.high_m = std::max(range.high_m, h);
+        }
+      }
+      blocks_.push_back(range);
+      lowest_m_ = std::min<double>(lowest_m_, range.low_m);
+      highest_m_ = std::max<double>(highest_m_, range.high_m);
+    }
+  }
+}
+
+/// Looks for the crossing inside one cell. @returns true if found
+bool HeightFieldRay::cross_cell(Walk& walk, int i, int j, double t0, double t1) const {
+  const float* row = field_.heights_m.data() + static_cast<std::size_t>(j) * field_.columns + i;
+  const double h00 = row[0];
+  const double h10 = row[1];
+  const double h01 = row[field_.columns];
+  const double h11 = row[field_.columns + 1];
+
+  // D(t) = d0 + rate * t for the planes of the lower right (u >= v) and the upper left triangle.
+  const double u = walk.g[0] - i;
+  const double v = walk.g[1] - j;
+  const auto look = [&](bool lower, double from, double to) {
+    const double slope_x = lower ? h10 - h00 : h11 - h01;
+    const double slope_y = lower ? h11 - h10 : h01 - h00;
+    const double d0 = walk.z - (h00 + u * slope_x + v * slope_y);
+    const double rate = walk.dz - (walk.d[0] * slope_x + walk.d[1] * slope_y);
+    const double d_from = d0 + rate * from;
+    const double d_to = d0 + rate * to;
+    if (walk.side == 0) walk.side = d_from > 0.0 ? 1 : (d_from < 0.0 ? -1 : 0);
+    // side is still 0 where the ray starts on the surface: that is a hit at once. A change of sign
+    // between two pieces is rounding, and a hit at their border.
+    const bool changed = walk.side == 0 || d_from * walk.side <= 0.0;
+    if (!changed && d_to * walk.side > 0.0) return false;
+    walk.hit_t = changed || rate == 0.0 ? from : std::clamp(-d0 / rate, from, to);
+    walk.slope_x = slope_x;
+    walk.slope_y = slope_y;
+    return true;
+  };
+
+  // u - v along the ray decides the triangle; it changes at most once.
+  const double across = u - v;
+  const double across_rate = walk.d[0] - walk.d[1];
+  const double across0 = across + across_rate * t0;
+  const double across1 = across + across_rate * t1;
+  const bool lower0 = across0 >= 0.0;
+  const bool lower1 = across1 >= 0.0;
+  if (lower0 == lower1) return look(lower0, t0, t1);
+  const double t_mid = std::clamp(-across / across_rate, t0, t1);
+  return look(lower0, t0, t_mid) || look(lower1, t_mid, t1);
+}
+
+bool HeightFieldRay::cross_block(Walk& walk, int bi, int bj, double t0, double t1) const {
+  const Range range = blocks_[static_cast<std::size_t>(bj) * block_columns_ + bi];
+  const double z0 = walk.z + walk.dz * t0;
+  const double z1 = walk.z + walk.dz * t1;
+  // Strictly above or below all of the block: no crossing, and the side is known.
+  const int whole_side =
+      std::min(z0, z1) > range.high_m ? 1 : (std::max(z0, z1) < range.low_m ? -1 : 0);
+  if (whole_side != 0 && (walk.side == 0 || walk.side == whole_side)) {
+    walk.side = whole_side;
+    return false;
+  }
+  const int low[2] = {bi * kBlockCells, bj * kBlockCells};
+  const int high[2] = {std::min(low[0] + kBlockCells, field_.columns - 1),
+                       std::min(low[1] + kBlockCells, field_.rows - 1)};
+  GridWalk cells(walk.g, walk.d, low, high, t0);
+  double from = t0;
+  do {
+    const double to = std::clamp(cells.exit_t(), from, t1);
+    if (cross_cell(walk, cells.i(), cells.j(), from, to)) return true;
+    from = to;
+  } while (from < t1 && cells.advance());
+  return false;
+}
+
+std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, const Vector3d& dir_W,
+                                                        double max_distance_m) const {
+  Walk walk;
+  walk.g[0] = (p_W.x() - field_.corner_W.x()) * inverse_cell_per_m_;
+  walk.g[1] = (p_W.y() - field_.corner_W.y()) * inverse_cell_per_m_;
+  walk.d[0] = dir_W.x() * inverse_cell_per_m_;
+  walk.d[1] = dir_W.y() * inverse_cell_per_m_;
+  walk.z = p_W.z();
+  walk.dz = dir_W.z();
+
+  // Not finite or far beyond any grid: nothing to hit, and no cell index to be made from it.
+  constexpr double kFarAway = 1e9;
+  if (!(std::abs(walk.g[0]) < kFarAway && std::abs(walk.g[1]) < kFarAway &&
+        std::abs(walk.z) < kFarAway && dir_W.squaredNorm() < 2.0 && max_distance_m >= 0.0)) {
+    return std::nullopt;
+  }
+
+  // The part of the ray over the grid.
+  double t0 = 0.0;
+  double t1 = max_distance_m;
+  const double extent[2] = {field_.columns - 1.0, field_.rows - 1.0};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (walk.d[axis] == 0.0) {
+      if (walk.g[axis] < 0.0 || walk.g[axis] > extent[axis]) return std::nullopt;
+      continue;
+    }
+    const double at_low = -walk.g[axis] / walk.d[axis];
+    const double at_high = (extent[axis] - walk.g[axis]) / walk.d[axis];
+    t0 = std::max(t0, std::min(at_low, at_high));
+    t1 = std::min(t1, std::max(at_low, at_high));
+  }
+  if (!(t0 <= t1)) return std::nullopt;
+
+  // The part of it within the heights: before that the side is constant, so it need not be walked.
+  // The margin keeps rounding from cutting off a crossing of the highest or lowest sample.
+  constexpr double kMargin_m = 1e-3;
+  const double low_m = lowest_m_ - kMargin_m;
+  const double high_m = highest_m_ + kMargin_m;
+  if (walk.dz != 0.0) {
+    const double at_low = (low_m - walk.z) / walk.dz;
+    const double at_high = (high_m - walk.z) / walk.dz;
+    const double enter = std::min(at_low, at_high);
+    if (enter > t0) {
+      walk.side = walk.dz < 0.0 ? 1 : -1;
+      t0 = enter;
+    }
+    t1 = std::min(t1, std::max(at_low, at_high));
+    if (!(t0 <= t1)) return std::nullopt;
+  } else if (walk.z > high_m || walk.z < low_m) {
+    return std::nullopt;
+  }
+
+  // A short ray inside one cell, as a wheel's is, needs no walk.
+  const auto cell_of = [&](int axis, double t, int last) {
+    return std::clamp(static_cast<int>(walk.g[axis] + t * walk.d[axis]), 0, last);
+  };
+  const int i = cell_of(0, t0, field_.columns - 2);
+  const int j = cell_of(1, t0, field_.rows - 2);
+  bool found = false;
+  if (i == cell_of(0, t1, field_.columns - 2) && j == cell_of(1, t1, field_.rows - 2)) {
+    found = cross_cell(walk, i, j, t0, t1);
+  } else {
+    const double g_blocks[2] = {walk.g[0] / kBlockCells, walk.g[1] / kBlockCells};
+    const double d_blocks[2] = {walk.d[0] / kBlockCells, walk.d[1] / kBlockCells};
+    const int low[2] = {0, 0};
+    const int high[2] = {block_columns_, block_rows_};
+    GridWalk blocks(g_blocks, d_blocks, low, high, t0);
+    double from = t0;
+    do {
+      const double to = std::clamp(blocks.exit_t(), from, t1);
+      found = cross_block(walk, blocks.i(), blocks.j(), from, to);
+      from = to;
+    } while (!found && from < t1 && blocks.advance());
+  }
+  if (!found) return std::nullopt;
+
+  Hit hit;
+  hit.distance_m = walk.hit_t;
+  hit.normal_W =
+      Vector3d(-walk.slope_x * inverse_cell_per_m_, -walk.slope_y * inverse_cell_per_m_, 1.0)
+          .normalized();
+  if (hit.normal_W.dot(dir_W) > 0.0) hit.normal_W = -hit.normal_W;
+  return hit;
+}
+
+}  // namespace vinerow::physics

@@ -1,0 +1,47 @@
+#pragma once
+/// Rays against the triangle surface of a HeightField, in double and without a copy of it.
+///
+/// Along a ray the height above the surface, D(t) = z(t) - h(x(t), y(t)), is continuous and, cell
+/// by cell, linear on either side of the diagonal. The ray walks the cells it crosses and stops
+/// where D changes sign. Blocks of cells whose height range the ray does not meet are skipped.
+/// The surface is seen from both sides; it ends at the grid's edge.
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "engine/api/world_model.h"
+
+namespace vinerow::physics {
+
+class HeightFieldRay {
+ public:
+  /// @param field  valid, outlives this object
+  explicit HeightFieldRay(const HeightField& field);
+
+  struct Hit {
+    double distance_m = 0.0;
+    Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();  ///< unit, towards the ray's origin
+  };
+  /// First crossing within max_distance_m. @param dir_W unit. No heap, thread safe.
+  std::optional<Hit> cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
+                          double max_distance_m) const;
+
+  const HeightField& field() const { return field_; }
+
+ private:
+  struct Range {
+    float low_m, high_m;
+  };
+  struct Walk;
+  bool cross_cell(Walk& walk, int i, int j, double t0, double t1) const;
+  bool cross_block(Walk& walk, int bi, int bj, double t0, double t1) const;
+
+  const HeightField& field_;
+  double inverse_cell_per_m_;
+  int block_columns_, block_rows_;
+  std::vector<Range> blocks_;  ///< heights of kBlockCells x kBlockCells cells, x fastest
+  double lowest_m_, highest_m_;
+};
+
+}  // namespace vinerow::physics

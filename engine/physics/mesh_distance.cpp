@@ -1,0 +1,124 @@
+#include "engine/physics/mesh_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "engine/physics/check_world.h"
+#include "engine/physics/triangle_box.h"
+
+namespace vinerow::physics {
+namespace {
+
+using Eigen::Vector3d;
+
+Eigen::AlignedBox3f calc_bounds_W(const MeshInstance& instance) {
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+    bounds.extend(instance.X_WM * v.cast<double>());
+  }
+  // Rounded outwards: the tree's bounds must never be inside the triangles'.
+  const Vector3d margin =
+      Vector3d::Constant(1e-5) + 1e-6 * bounds.max().cwiseAbs().cwiseMax(bounds.min().cwiseAbs());
+  return {(bounds.min() - margin).cast<float>(), (bounds.max() + margin).cast<float>()};
+}
+
+std::unique_ptr<BoxTree> make_tree(const TriangleMesh& mesh) {
+  std::vector<Eigen::AlignedBox3f> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    Eigen::AlignedBox3f box;
+    for (const std::uint32_t v : triangle) box.extend(mesh.vertices[v]);
+    boxes.push_back(box);
+  }
+  return std::make_unique<BoxTree>(boxes);
+}
+
+QueryBox look_from(const Pose& X_OT, const Vector3d& half_extents_m) {
+  return {X_OT.q.toRotationMatrix(), X_OT.p, half_extents_m};
+}
+
+void lower_to(double candidate2, const Vector3d& a, const Vector3d& b, const Vector3d& c,
+              const Vector3d& h, double& best2) {
+  if (candidate2 < best2) best2 = std::min(best2, triangle_box_distance2(a, b, c, h));
+}
+
+/// The cells of the terrain under the box widened by the search radius.
+void search_terrain(const HeightField& field, const Pose& X_WBox, const Vector3d& h,
+                    double& best2) {
+  const Eigen::Matrix3d R_WO = X_WBox.q.toRotationMatrix();
+  const Vector3d reach = R_WO.cwiseAbs() * h + Vector3d::Constant(std::sqrt(best2));
+  const auto index = [&](double x, int last) {
+    return static_cast<int>(
+        std::clamp(std::floor(x / field.cell_m), 0.0, static_cast<double>(last)));
+  };
+  const Eigen::Vector2d low = (X_WBox.p - reach).head<2>() - field.corner_W;
+  const Eigen::Vector2d high = (X_WBox.p + reach).head<2>() - field.corner_W;
+  if (high.x() < 0.0 || high.y() < 0.0 || low.x() > field.width_m() || low.y() > field.depth_m()) {
+    return;
+  }
+  const Pose X_OW = X_WBox.inverse();
+  const Eigen::Matrix3d R_OW = R_WO.transpose();
+  const auto point_O = [&](int i, int j) {
+    const double z = field.heights_m[static_cast<std::size_t>(j) * field.columns + i];
+    return Vector3d(R_OW * Vector3d(field.corner_W.x() + i * field.cell_m,
+                                    field.corner_W.y() + j * field.cell_m, z) +
+                    X_OW.p);
+  };
+  const int last_i = index(high.x(), field.columns - 2);
+  const int last_j = index(high.y(), field.rows - 2);
+  for (int j = index(low.y(), field.rows - 2); j <= last_j; ++j) {
+    for (int i = index(low.x(), field.columns - 2); i <= last_i; ++i) {
+      const Vector3d p00 = point_O(i, j), p10 = point_O(i + 1, j);
+      const Vector3d p01 = point_O(i, j + 1), p11 = point_O(i + 1, j + 1);
+      lower_to(triangle_box_bound2(p00, p10, p11, h), p00, p10, p11, h, best2);
+      lower_to(triangle_box_bound2(p00, p11, p01, h), p00, p11, p01, h, best2);
+    }
+  }
+}
+
+}  // namespace
+
+MeshDistance::MeshDistance(const WorldModel& world) : world_(world) {
+  std::map<const TriangleMesh*, const BoxTree*> known;
+  std::vector<Eigen::AlignedBox3f> boxes;
+  for (const MeshInstance& instance : world.meshes) {
+    if (!is_seen_by_rays(instance)) continue;
+    const BoxTree*& tree = known[instance.mesh.get()];
+    if (!tree) {
+      trees_.push_back(make_tree(*instance.mesh));
+      tree = trees_.back().get();
+    }
+    entries_.push_back({&instance, tree});
+    boxes.push_back(calc_bounds_W(instance));
+  }
+  instances_ = BoxTree(boxes);
+}
+
+MeshDistance::~MeshDistance() = default;
+
+double MeshDistance::to_box_m(const Pose& X_WBox, const Vector3d& h, double max_distance_m,
+                              SurfaceMask mask) const {
+  double best2 = max_distance_m * max_distance_m;
+  const Pose X_OW = X_WBox.inverse();
+  instances_.search(look_from(X_OW, h), best2, [&](std::uint32_t item) {
+    const Entry& entry = entries_[item];
+    if ((mask & mask_of(entry.instance->surface)) == 0) return;
+    const QueryBox query = look_from(X_OW * entry.instance->X_WM, h);
+    const TriangleMesh& mesh = *entry.instance->mesh;
+    entry.tree->search(query, best2, [&](std::uint32_t triangle) {
+      const auto& [i, j, k] = mesh.triangles[triangle];
+      const Vector3d a = query.R_OT * mesh.vertices[i].cast<double>() + query.p_OT;
+      const Vector3d b = query.R_OT * mesh.vertices[j].cast<double>() + query.p_OT;
+      const Vector3d c = query.R_OT * mesh.vertices[k].cast<double>() + query.p_OT;
+      lower_to(triangle_box_bound2(a, b, c, h), a, b, c, h, best2);
+    });
+  });
+  if (world_.terrain && (mask & mask_of(SurfaceClass::kTerrain)) != 0 && best2 > 0.0) {
+    search_terrain(*world_.terrain, X_WBox, h, best2);
+  }
+  return best2 < max_distance_m * max_distance_m ? std::sqrt(best2) : max_distance_m;
+}
+
+}  // namespace vinerow::physics

@@ -1,0 +1,37 @@
+#pragma once
+/// True distance from an oriented box to the triangles of a world.
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "engine/api/scene_query.h"
+#include "engine/api/world_model.h"
+#include "engine/physics/box_tree.h"
+
+namespace vinerow::physics {
+
+/// A tree over the instances, and one tree per mesh, shared between its instances. Triangles and
+/// vertices are read where the WorldModel holds them; the search is exact, in double.
+class MeshDistance {
+ public:
+  /// @param world  checked; outlives this object
+  explicit MeshDistance(const WorldModel& world);
+  ~MeshDistance();
+
+  /// SceneQuery::distance_to_box_m.
+  double to_box_m(const Pose& X_WBox, const Eigen::Vector3d& half_extents_m, double max_distance_m,
+                  SurfaceMask mask) const;
+
+ private:
+  struct Entry {
+    const MeshInstance* instance;
+    const BoxTree* tree;
+  };
+  const WorldModel& world_;
+  std::vector<std::unique_ptr<BoxTree>> trees_;
+  std::vector<Entry> entries_;
+  BoxTree instances_;
+};
+
+}  // namespace vinerow::physics

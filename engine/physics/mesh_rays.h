@@ -1,0 +1,33 @@
+#pragma once
+/// Rays against the triangle meshes of a world, on Embree. The only class that includes it.
+///
+/// Embree finds the triangle in single precision; the distance is then computed again in double
+/// from the triangle's own vertices, so that a parcel hundreds of metres wide costs no accuracy.
+/// A mesh that stands in several places is held once (instances).
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+
+#include "engine/api/scene_query.h"
+#include "engine/api/world_model.h"
+
+namespace vinerow::physics {
+
+class MeshRays {
+ public:
+  /// @param world  checked (check_world.h); outlives this object
+  explicit MeshRays(const WorldModel& world);
+  ~MeshRays();
+
+  bool empty() const;
+  /// First hit. @param dir_W unit. No heap, thread safe.
+  std::optional<RayHit> cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
+                             double max_distance_m, SurfaceMask mask) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vinerow::physics

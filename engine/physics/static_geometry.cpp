@@ -1,0 +1,81 @@
+#include "engine/physics/static_geometry.h"
+
+#include <algorithm>
+
+#include "engine/physics/bullet_convert.h"
+#include "engine/physics/check_world.h"
+
+namespace vinerow::physics {
+namespace {
+
+// Bullet widens concave shapes by their margin (4 cm by default), which would lift everything off
+// the ground. The bodies' own margins keep the narrow phase well conditioned.
+constexpr double kStaticMargin_m = 0.0;
+// Largest number of triangles that the quantized tree's node index can name.
+constexpr std::size_t kMostQuantizedTriangles = 2'000'000;
+
+}  // namespace
+
+StaticGeometry::StaticGeometry(const WorldModel& world) {
+  if (world.terrain) add_terrain(*world.terrain);
+  for (std::size_t i = 0; i < world.meshes.size(); ++i) {
+    const MeshInstance& instance = world.meshes[i];
+    if (!is_rigid(instance)) continue;
+    auto found = meshes_.find(instance.mesh.get());
+    if (found == meshes_.end()) {
+      found = meshes_.emplace(instance.mesh.get(), make_mesh_shape(*instance.mesh)).first;
+    }
+    add_object(*found->second.shape, to_bullet(instance.X_WM), static_cast<int>(i));
+  }
+}
+
+void StaticGeometry::add_terrain(const HeightField& field) {
+  const auto [low, high] = std::minmax_element(field.heights_m.begin(), field.heights_m.end());
+  constexpr int kUpAxis = 2;
+  // Not flipped, Bullet splits a cell along the other diagonal than HeightField does.
+  constexpr bool kFlipQuadEdges = true;
+  terrain_ = std::make_unique<btHeightfieldTerrainShape>(
+      field.columns, field.rows, field.heights_m.data(), *low, *high, kUpAxis, kFlipQuadEdges);
+  terrain_->setLocalScaling({field.cell_m, field.cell_m, 1.0});
+  terrain_->setMargin(kStaticMargin_m);
+  // Bullet puts the middle of the grid and of the height range at the shape's origin.
+  const btVector3 origin(field.corner_W.x() + 0.5 * field.width_m(),
+                         field.corner_W.y() + 0.5 * field.depth_m(),
+                         0.5 * (static_cast<double>(*low) + static_cast<double>(*high)));
+  add_object(*terrain_, btTransform(btQuaternion::getIdentity(), origin), kTerrainIndex);
+}
+
+void StaticGeometry::add_object(btCollisionShape& shape, const btTransform& X_WM, int user_index) {
+  auto object = std::make_unique<btCollisionObject>();
+  object->setCollisionShape(&shape);
+  object->setWorldTransform(X_WM);
+  object->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+  object->setUserIndex(user_index);
+  // A contact's coefficient is the product of both sides': 1 leaves the body's own.
+  object->setFriction(1.0);
+  object->setRestitution(1.0);
+  objects_.push_back(std::move(object));
+}
+
+StaticGeometry::MeshShape StaticGeometry::make_mesh_shape(const TriangleMesh& mesh) {
+  btIndexedMesh part;
+  part.m_numTriangles = static_cast<int>(mesh.triangles.size());
+  part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(mesh.triangles.data());
+  part.m_triangleIndexStride = sizeof(mesh.triangles[0]);
+  part.m_numVertices = static_cast<int>(mesh.vertices.size());
+  part.m_vertexBase = reinterpret_cast<const unsigned char*>(mesh.vertices.data());
+  part.m_vertexStride = sizeof(Eigen::Vector3f);
+  part.m_indexType = PHY_INTEGER;
+  part.m_vertexType = PHY_FLOAT;
+  MeshShape result;
+  result.arrays = std::make_unique<btTriangleIndexVertexArray>();
+  result.arrays->addIndexedMesh(part, PHY_INTEGER);
+  // addIndexedMesh takes the type of the library's build for the vertices.
+  result.arrays->getIndexedMeshArray()[0].m_vertexType = PHY_FLOAT;
+  const bool quantized = mesh.triangles.size() <= kMostQuantizedTriangles;
+  result.shape = std::make_unique<btBvhTriangleMeshShape>(result.arrays.get(), quantized);
+  result.shape->setMargin(kStaticMargin_m);
+  return result;
+}
+
+}  // namespace vinerow::physics

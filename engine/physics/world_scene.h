@@ -1,0 +1,57 @@
+#pragma once
+/// The static world's answers to rays, distances and ground probes.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/api/scene_query.h"
+#include "engine/api/world_model.h"
+#include "engine/physics/height_field_ray.h"
+#include "engine/physics/mesh_distance.h"
+#include "engine/physics/mesh_rays.h"
+
+namespace vinerow::physics {
+
+/// Which square metres of the plan have a rigid mesh above or below them, so that a wheel asks
+/// Embree only there.
+class RigidMap {
+ public:
+  explicit RigidMap(const WorldModel& world);
+  bool any_near(double x0, double y0, double x1, double y1) const;
+
+ private:
+  void mark(double x0, double y0, double x1, double y1);
+  int column_of(double x) const;
+  int row_of(double y) const;
+
+  Eigen::Vector2d corner_W_ = {0, 0};
+  double cell_m_ = 1.0;
+  int columns_ = 0, rows_ = 0;
+  std::vector<bool> marked_;
+};
+
+class WorldScene : public SceneQuery {
+ public:
+  /// @param world  checked; outlives this object
+  explicit WorldScene(const WorldModel& world);
+
+  std::optional<RayHit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
+                                 double max_distance_m, SurfaceMask mask) const override;
+  std::optional<double> ground_height_m(double x, double y, double z_from) const override;
+  double distance_to_box_m(const Pose& X_WBox, const Eigen::Vector3d& half_extents_m,
+                           double max_distance_m, SurfaceMask mask) const override;
+
+  /// PhysicsWorld::probe_ground.
+  std::optional<RayHit> probe_rigid(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
+                                    double max_distance_m) const;
+
+ private:
+  std::optional<HeightFieldRay> terrain_;
+  MeshRays mesh_rays_;
+  MeshDistance mesh_distance_;
+  RigidMap rigid_map_;
+};
+
+}  // namespace vinerow::physics

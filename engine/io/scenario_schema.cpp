@@ -327,8 +327,14 @@ class SchemaBuilder {
     define(kind_name, [&](bool partial) -> Json {
       // Without types nothing is allowed, and an empty enum is no schema.
       if (types.empty()) return {{"not", Json::object()}};
-      const Json untagged =
-          partial ? Json{{"propertyNames", {{"enum", all_keys}}}} : Json{{"required", {"type"}}};
+      Json untagged = {{"required", {"type"}}};
+      if (partial) {
+        untagged = {{"propertyNames", {{"enum", all_keys}}}};
+        if (kind == PartKind::kVehicle) {
+          // What a vehicle carries is known even where its type comes from an included file.
+          untagged["properties"] = keys_schema(vehicle_keys(), {}, true)["properties"];
+        }
+      }
       return choose("type", types, kind_name, partial, untagged);
     });
   }

@@ -1,6 +1,9 @@
 #include "tests/engine/io/scenario_schema_validator.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
 
 #include "engine/io/yaml.h"
 #include "tests/engine/io/scenario_fakes.h"
@@ -248,6 +251,28 @@ TEST(ScenarioSchema, IncludeMayGiveWhatIsMissing) {
     EXPECT_NE(fault_of(yaml, {}, folder.path()), "") << yaml;
     EXPECT_FALSE(schema_accepts(yaml)) << yaml;
   }
+}
+
+TEST(ScenarioSchema, JudgesTheSameInAnotherValidator) {
+  nlohmann::json cases = nlohmann::json::array();
+  const auto add = [&](bool accepted, const Variant& variant) {
+    const std::string yaml = with_line(variant.line, variant.text);
+    cases.push_back({accepted, json_of(parse_yaml(yaml, "text", "/"))});
+  };
+  for (const Variant& variant : kGood) add(true, variant);
+  for (const Variant& variant : kBad) add(false, variant);
+  const TemporaryFolder folder;
+  folder.write("schema.json", scenario_json_schema(fake_registry()));
+  folder.write("cases.json", cases.dump());
+  const std::string command = "python3 " VINEROW_SOURCE_DIR
+                              "/tests/engine/io/scenario_schema_check.py " +
+                              folder.path().string();
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) {
+    GTEST_SKIP() << "python3-jsonschema is not installed";
+  }
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST(ScenarioSchema, TellsUnitsRangesAndDefaults) {

@@ -1,0 +1,224 @@
+#include "vehicles/diff_drive_rover/diff_drive_rover.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.h"
+#include "engine/math/angles.h"
+#include "vehicles/diff_drive_rover/rover_mesh.h"
+#include "vehicles/parts/wheel_mesh.h"
+#include "vehicles/parts/wheel_parameters.h"
+
+namespace vinerow::vehicles {
+namespace {
+
+constexpr std::size_t kWheels = 4;
+/// Front left, front right, rear left, rear right: name, side along x, side along y.
+constexpr const char* kWheelNames[kWheels] = {"fl", "fr", "rl", "rr"};
+constexpr double kAlong[kWheels] = {1.0, 1.0, -1.0, -1.0};
+constexpr double kAcross[kWheels] = {1.0, -1.0, 1.0, -1.0};
+/// The hull as a box above the ground: lower and upper edge. What is lower is met by the wheels.
+constexpr double kHullBottom_m = 0.22;
+constexpr double kHullTop_m = 0.82;
+
+Eigen::Vector3d hub_B(const DiffDriveRoverParams& p, std::size_t i) {
+  return {0.5 * kAlong[i] * p.wheel_base_m, 0.5 * kAcross[i] * p.track_m,
+          p.wheel_radius_m - p.com_height_m};
+}
+
+WheeledPlatformParams platform_params(const DiffDriveRoverParams& p, double gravity_mps2) {
+  WheeledPlatformParams platform;
+  platform.name = p.name;
+  platform.mass_kg = p.mass_kg;
+  platform.inertia_B = p.inertia_kgm2.asDiagonal();
+  platform.battery = p.battery;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    WheelParams wheel;
+    wheel.name = kWheelNames[i];
+    wheel.hub_B = hub_B(p, i);
+    wheel.radius_m = p.wheel_radius_m;
+    wheel.spin_inertia_kgm2 = p.wheel_inertia_kgm2;
+    wheel.probes = p.wheel_probes;
+    wheel.tyre = p.tyre;
+    wheel.motor = p.motor;
+    wheel.suspension.stiffness_N_per_m = p.suspension_stiffness_N_per_m;
+    wheel.suspension.damping_Ns_per_m = p.suspension_damping_Ns_per_m;
+    wheel.suspension.design_load_N = 0.25 * p.mass_kg * gravity_mps2;
+    platform.wheels.push_back(wheel);
+  }
+  return platform;
+}
+
+}  // namespace
+
+DiffDriveRover::DiffDriveRover(const DiffDriveRoverParams& params, double gravity_mps2)
+    : params_(params) {
+  params_.validate();
+  describe();
+  make_links();
+  WheeledPlatformParams platform = platform_params(params_, gravity_mps2);
+  platform.shapes = {{physics::BoxShape{description_.collision_half_extents_m},
+                      Pose{Eigen::Quaterniond::Identity(), description_.collision_centre_B}}};
+  if (!params_.kinematic) {
+    physics_.emplace(std::move(platform));
+    return;
+  }
+  KinematicPlatformParams kinematic;
+  kinematic.name = params_.name;
+  kinematic.mass_kg = params_.mass_kg;
+  kinematic.inertia_B = platform.inertia_B;
+  kinematic.shapes = platform.shapes;
+  kinematic.track_m = params_.track_m;
+  kinematic.wheel_base_m = params_.wheel_base_m;
+  kinematic.height_above_ground_m = params_.com_height_m;
+  kinematic_.emplace(std::move(kinematic));
+  for (const char* wheel : kWheelNames) {
+    wheels_message_.names.push_back(fmt::format("wheel_{}_speed_radps", wheel));
+  }
+  wheels_message_.values.assign(kWheels, 0.0);
+}
+
+void DiffDriveRover::describe() {
+  const DiffDriveRoverParams& p = params_;
+  description_.type = "diff_drive_rover";
+  for (const char* wheel : kWheelNames) {
+    description_.actuators.push_back({fmt::format("wheel_{}_speed_radps", wheel), "rad/s",
+                                      -p.wheel_speed_limit_radps, p.wheel_speed_limit_radps});
+  }
+  description_.mass_kg = p.mass_kg;
+  description_.height_above_ground_m = p.com_height_m;
+  description_.collision_half_extents_m = {0.5 * p.wheel_base_m + p.wheel_radius_m,
+                                           0.5 * (p.track_m + p.tyre_width_m),
+                                           0.5 * (kHullTop_m - kHullBottom_m)};
+  description_.collision_centre_B = {0.0, 0.0, 0.5 * (kHullTop_m + kHullBottom_m) - p.com_height_m};
+  description_.numbers = {
+      {"track_m", p.track_m},
+      {"wheel_base_m", p.wheel_base_m},
+      {"wheel_radius_m", p.wheel_radius_m},
+      {"max_speed_mps", p.max_speed_mps},
+      {"min_turning_radius_m", p.min_turning_radius_m},
+      {"wheel_speed_limit_radps", p.wheel_speed_limit_radps},
+      {"effective_track_m",
+       p.kinematic ? p.track_m : calc_effective_track_m(p.track_m, p.wheel_base_m, Soil{})},
+  };
+}
+
+void DiffDriveRover::make_links() {
+  RoverMeshParams body;
+  body.wheel_base_m = params_.wheel_base_m;
+  body.track_m = params_.track_m;
+  body.wheel_radius_m = params_.wheel_radius_m;
+  body.tyre_width_m = params_.tyre_width_m;
+  body.ground_to_origin_m = params_.com_height_m;
+  Material material;
+  material.name = "rover";
+  material.colour = {1.0f, 1.0f, 1.0f};  // the meshes carry their colours
+  material.roughness = 0.6f;
+  links_.push_back({"body", std::make_shared<TriangleMesh>(make_rover_mesh(body)), material});
+  WheelMeshParams wheel;
+  wheel.radius_m = params_.wheel_radius_m;
+  wheel.width_m = params_.tyre_width_m;
+  wheel.rim_radius_m = 0.53 * params_.wheel_radius_m;
+  wheel.lug_height_m = 0.08 * params_.wheel_radius_m;
+  const auto left = std::make_shared<TriangleMesh>(make_wheel_mesh(wheel));
+  wheel.left = false;
+  const auto right = std::make_shared<TriangleMesh>(make_wheel_mesh(wheel));
+  material.roughness = 0.9f;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    links_.push_back(
+        {fmt::format("wheel_{}", kWheelNames[i]), kAcross[i] > 0.0 ? left : right, material});
+  }
+}
+
+void DiffDriveRover::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
+  world_ = &world;
+  if (physics_) {
+    physics_->spawn(world, X_WB);
+  } else {
+    kinematic_->spawn(world, X_WB);
+  }
+}
+
+void DiffDriveRover::connect(Ports& ports) {
+  if (physics_) {
+    physics_->connect(ports);
+    return;
+  }
+  wheels_writer_ = ports.write<NamedValues>("wheels");
+  battery_writer_ = ports.write<BatteryState>("battery");
+}
+
+void DiffDriveRover::actuate(std::span<const double> values) {
+  VINEROW_ASSERT(values.size() == kWheels);
+  if (physics_) {
+    for (std::size_t i = 0; i < kWheels; ++i) physics_->command_speed(i, values[i]);
+    return;
+  }
+  std::copy(values.begin(), values.end(), spin_radps_.begin());
+  kinematic_->command(0.5 * (values[0] + values[2]) * params_.wheel_radius_m,
+                      0.5 * (values[1] + values[3]) * params_.wheel_radius_m);
+}
+
+void DiffDriveRover::before_physics(Time /*now*/, Duration dt) {
+  if (physics_) {
+    physics_->before_physics(dt);
+    return;
+  }
+  kinematic_->before_physics(dt);
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    angle_rad_[i] = wrap_angle(angle_rad_[i] + spin_radps_[i] * dt.s());
+  }
+  const double resistance_N = world_->world_model().soil.rolling_resistance * params_.mass_kg *
+                              world_->settings().gravity_mps2;
+  const double drive_W = resistance_N * std::abs(kinematic_->state().planar.v_mps);
+  advance_battery(params_.battery, drive_W / params_.motor.efficiency, dt.s(), battery_);
+}
+
+void DiffDriveRover::after_physics(Time /*now*/, Duration dt) {
+  if (physics_) physics_->after_physics(dt);
+}
+
+void DiffDriveRover::read_truth(Odometry& truth) const {
+  if (physics_) {
+    physics_->read_truth(truth);
+  } else {
+    kinematic_->read_truth(truth);
+  }
+}
+
+Eigen::Vector3d DiffDriveRover::specific_force_B() const {
+  return physics_ ? physics_->state().specific_force_B : kinematic_->state().specific_force_B;
+}
+
+void DiffDriveRover::read_links(std::vector<Pose>& X_WL) const {
+  const Pose& X_WB = physics_ ? physics_->state().body.X_WB : kinematic_->state().body.X_WB;
+  X_WL[0] = X_WB;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    if (physics_) {
+      X_WL[i + 1] = X_WB * physics_->wheel(i).link_pose_B(physics_->state().wheels[i]);
+    } else {
+      const Eigen::AngleAxisd turned(angle_rad_[i], Eigen::Vector3d::UnitY());
+      X_WL[i + 1] = X_WB * Pose{Eigen::Quaterniond(turned), hub_B(params_, i)};
+    }
+  }
+}
+
+void DiffDriveRover::publish(Time now) {
+  if (physics_) {
+    physics_->publish(now);
+    return;
+  }
+  std::copy(spin_radps_.begin(), spin_radps_.end(), wheels_message_.values.begin());
+  if (wheels_writer_.connected()) wheels_writer_.write(now, wheels_message_);
+  if (battery_writer_.connected()) battery_writer_.write(now, battery_);
+}
+
+std::unique_ptr<Vehicle> make_diff_drive_rover(const ParameterSet& parameters,
+                                               const VehicleContext& context) {
+  return std::make_unique<DiffDriveRover>(read_diff_drive_rover_params(parameters, context.vehicle),
+                                          context.gravity_mps2);
+}
+
+}  // namespace vinerow::vehicles

@@ -1,0 +1,60 @@
+#pragma once
+/// Paper B's rover: four driven wheels, no steering, turned by the difference of its sides.
+///
+/// Actuators: wheel_fl_speed_radps, wheel_fr_..., wheel_rl_..., wheel_rr_..., positive forward.
+/// Kinematic fidelity takes the mean of each side. Signals: "wheels" (NamedValues), "battery".
+/// B: centre of mass, in the middle between the wheels, com_height_m above level ground.
+
+#include <memory>
+#include <optional>
+
+#include "engine/api/registry.h"
+#include "vehicles/diff_drive_rover/diff_drive_rover_params.h"
+#include "vehicles/parts/kinematic_platform.h"
+#include "vehicles/parts/wheeled_platform.h"
+
+namespace vinerow::vehicles {
+
+class DiffDriveRover final : public Vehicle {
+ public:
+  /// @throws ConfigError
+  explicit DiffDriveRover(const DiffDriveRoverParams& params, double gravity_mps2 = 9.80665);
+
+  const VehicleDescription& description() const override { return description_; }
+  const std::vector<VehicleLink>& links() const override { return links_; }
+  void spawn(physics::PhysicsWorld& world, const Pose& X_WB) override;
+  void connect(Ports& ports) override;
+  void actuate(std::span<const double> values) override;
+  void before_physics(Time now, Duration dt) override;
+  void after_physics(Time now, Duration dt) override;
+  void read_truth(Odometry& truth) const override;
+  Eigen::Vector3d specific_force_B() const override;
+  void read_links(std::vector<Pose>& X_WL) const override;
+  void publish(Time now) override;
+
+  /// For tests. Empty with kinematic fidelity.
+  const WheeledPlatform* platform() const { return physics_ ? &*physics_ : nullptr; }
+
+ private:
+  void describe();
+  void make_links();
+
+  DiffDriveRoverParams params_;
+  VehicleDescription description_;
+  std::vector<VehicleLink> links_;
+  std::optional<WheeledPlatform> physics_;
+  std::optional<KinematicPlatform> kinematic_;
+  // With kinematic fidelity the wheels turn as commanded and the battery pays rolling resistance.
+  std::array<double, 4> spin_radps_{};
+  std::array<double, 4> angle_rad_{};
+  BatteryState battery_;
+  NamedValues wheels_message_;
+  SignalWriter<NamedValues> wheels_writer_;
+  SignalWriter<BatteryState> battery_writer_;
+  physics::PhysicsWorld* world_ = nullptr;
+};
+
+std::unique_ptr<Vehicle> make_diff_drive_rover(const ParameterSet& parameters,
+                                               const VehicleContext& context);
+
+}  // namespace vinerow::vehicles

@@ -1,0 +1,22 @@
+#pragma once
+/// Battery as an energy count.
+
+#include <string>
+
+#include "engine/api/messages.h"
+
+namespace vinerow::vehicles {
+
+struct BatteryParams {
+  double capacity_Wh = 1000.0;  ///< > 0
+  double electronics_W = 30.0;  ///< computers, sensors, radio; always drawn, >= 0
+
+  void validate(const std::string& who) const;
+};
+
+/// Draws power for a while; energy won back raises the charge, up to full.
+/// @param motors_W  sum of the motors, negative when braking wins energy
+void advance_battery(const BatteryParams& params, double motors_W, double dt_s,
+                     BatteryState& state);
+
+}  // namespace vinerow::vehicles

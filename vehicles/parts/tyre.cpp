@@ -1,0 +1,88 @@
+#include "vehicles/parts/tyre.h"
+
+#include <cmath>
+
+#include "vehicles/parts/validation.h"
+
+namespace vinerow::vehicles {
+namespace {
+
+/// rho / (1 - exp(-rho)) times v: the relaxation speed, without division by zero at either end.
+double calc_relaxation_speed(double rolling_mps, double sliding_mps) {
+  // sliding_mps = rho * rolling_mps. For rho -> 0 the limit is v (1 + rho / 2); for large rho it is
+  // sliding_mps itself.
+  if (sliding_mps < 1e-5 * rolling_mps) return rolling_mps + 0.5 * sliding_mps;
+  if (sliding_mps > 40.0 * rolling_mps) return sliding_mps;
+  return sliding_mps / -std::expm1(-sliding_mps / rolling_mps);
+}
+
+}  // namespace
+
+void TyreParams::validate(const std::string& who) const {
+  demand_positive(who, "relaxation_length_m", relaxation_length_m);
+  demand_not_negative(who, "damping_time_s", damping_time_s);
+  demand_positive(who, "lateral_friction_ratio", lateral_friction_ratio);
+  demand_positive(who, "stribeck_speed_mps", stribeck_speed_mps);
+}
+
+double Tyre::calc_steady_force_ratio(double slip, double stiffness, double friction) {
+  return friction * -std::expm1(-stiffness * slip / friction);
+}
+
+double Tyre::calc_friction(const Soil& soil, double sliding_speed_mps, double stribeck_mps) {
+  const double ratio = sliding_speed_mps / stribeck_mps;
+  return soil.sliding_friction +
+         (soil.peak_friction - soil.sliding_friction) * std::exp(-ratio * ratio);
+}
+
+TyreStep Tyre::begin(const TyreState& state, const Eigen::Vector2d& velocity_C, double spin_radps,
+                     double load_N, const Soil& soil, double dt_s) const {
+  const double lateral = params_.lateral_friction_ratio;
+  TyreStep step;
+  step.load_N = load_N;
+  step.velocity = velocity_C;
+  step.stiffness = {soil.slip_stiffness, soil.cornering_stiffness_per_rad};
+  step.peak = {soil.peak_friction, soil.peak_friction * lateral};
+
+  const double v_sx = velocity_C.x() - radius_m_ * spin_radps;
+  const double v_sy = velocity_C.y();
+  const double rolling = std::abs(radius_m_ * spin_radps);
+  const double mu_x = calc_friction(soil, std::hypot(v_sx, v_sy), params_.stribeck_speed_mps);
+  const double mu_y = mu_x * lateral;
+  const double s = std::hypot(mu_x * v_sx, mu_y * v_sy);
+  const double relax_x = calc_relaxation_speed(rolling, step.stiffness.x() * s / (mu_x * mu_x));
+  const double relax_y = calc_relaxation_speed(rolling, step.stiffness.y() * s / (mu_y * mu_y));
+
+  // Implicit Euler in xi: stable for any speed and step.
+  const double h = dt_s / params_.relaxation_length_m;
+  step.gain = {1.0 / (1.0 + h * relax_x), 1.0 / (1.0 + h * relax_y)};
+
+  // F_x = N c (xi+ + tau (xi+ - xi) / dt),  xi+ = gain (xi - h (v_x - R omega+))
+  const double scale = load_N * step.stiffness.x();
+  const double per_xi = 1.0 + params_.damping_time_s / dt_s;
+  const double xi_at_zero_spin = step.gain.x() * (state.xi.x() - h * velocity_C.x());
+  step.fx0_N = scale * (per_xi * xi_at_zero_spin - (params_.damping_time_s / dt_s) * state.xi.x());
+  step.fx1_Ns = scale * per_xi * step.gain.x() * h * radius_m_;
+  return step;
+}
+
+Eigen::Vector2d Tyre::finish(const TyreStep& step, double spin_radps, double dt_s,
+                             TyreState& state) const {
+  const double h = dt_s / params_.relaxation_length_m;
+  const Eigen::Vector2d sliding(step.velocity.x() - radius_m_ * spin_radps, step.velocity.y());
+  Eigen::Vector2d xi = step.gain.cwiseProduct(state.xi - h * sliding);
+
+  // The spring alone stays inside the ellipse in steady state; a change of friction or direction
+  // within one step could leave it, and the damper could add to it.
+  const Eigen::Vector2d unit = step.stiffness.cwiseQuotient(step.peak);
+  const double spring = unit.cwiseProduct(xi).norm();
+  if (spring > 1.0) xi /= spring;
+  Eigen::Vector2d ratio =
+      step.stiffness.cwiseProduct(xi + (params_.damping_time_s / dt_s) * (xi - state.xi));
+  const double total = ratio.cwiseQuotient(step.peak).norm();
+  if (total > 1.0) ratio /= total;
+  state.xi = xi;
+  return step.load_N * ratio;
+}
+
+}  // namespace vinerow::vehicles

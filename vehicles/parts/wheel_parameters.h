@@ -1,0 +1,28 @@
+#pragma once
+/// The parameters that every wheeled vehicle offers in scenario files, with units, ranges and
+/// defaults.
+
+#include <vector>
+
+#include "engine/api/parameters.h"
+#include "vehicles/parts/battery.h"
+#include "vehicles/parts/wheel.h"
+
+namespace vinerow::vehicles {
+
+/// Motor, brake, tyre and battery. A vehicle appends them to its own specs.
+/// @param motor  the defaults
+std::vector<ParameterSpec> drive_parameter_specs(const MotorParams& motor, const TyreParams& tyre,
+                                                 const BatteryParams& battery);
+
+MotorParams read_motor_params(const ParameterSet& parameters);
+TyreParams read_tyre_params(const ParameterSet& parameters);
+BatteryParams read_battery_params(const ParameterSet& parameters);
+
+/// The track that a four-wheeled skid-steered vehicle seems to have, because its wheels slide
+/// sideways in a turn: yaw rate = (v_right - v_left) / track_effective for small slip,
+///   track_effective = track (1 + (c_y / c_x) (wheel base / track)^2).
+/// Derivation in vehicles/parts/README.md.
+double calc_effective_track_m(double track_m, double wheel_base_m, const Soil& soil);
+
+}  // namespace vinerow::vehicles

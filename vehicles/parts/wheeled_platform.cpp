@@ -1,0 +1,140 @@
+#include "vehicles/parts/wheeled_platform.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "vehicles/parts/validation.h"
+
+namespace vinerow::vehicles {
+
+void WheeledPlatformParams::validate() const {
+  demand_positive(name, "mass_kg", mass_kg);
+  if (!inertia_B.allFinite() || Eigen::LLT<Eigen::Matrix3d>(inertia_B).info() != Eigen::Success) {
+    throw ConfigError(fmt::format("{}: inertia must be finite and positive definite", name));
+  }
+  if (wheels.size() < 3) {
+    throw ConfigError(fmt::format("{}: {} wheels, must be at least 3", name, wheels.size()));
+  }
+  battery.validate(name);
+}
+
+std::vector<double> calc_static_loads(std::span<const Eigen::Vector3d> hubs_B, double weight_N) {
+  // Smallest-norm solution of [1; x; y] N = [W; 0; 0]: what equal springs under a rigid body give.
+  const auto count = static_cast<Eigen::Index>(hubs_B.size());
+  Eigen::MatrixXd A(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Vector3d& hub = hubs_B[static_cast<std::size_t>(i)];
+    A.col(i) = Eigen::Vector3d(1.0, hub.x(), hub.y());
+  }
+  const Eigen::VectorXd loads =
+      A.completeOrthogonalDecomposition().solve(Eigen::Vector3d(weight_N, 0.0, 0.0));
+  const bool balanced = (A * loads - Eigen::Vector3d(weight_N, 0, 0)).norm() < 1e-6 * weight_N;
+  if (!balanced || loads.minCoeff() <= 0.0) return {};
+  return {loads.data(), loads.data() + count};
+}
+
+WheeledPlatform::WheeledPlatform(WheeledPlatformParams params) : params_(std::move(params)) {
+  params_.validate();
+  for (const WheelParams& wheel : params_.wheels) wheels_.emplace_back(wheel, params_.name);
+  state_.wheels.resize(wheels_.size());
+  commands_.assign(wheels_.size(), 0.0);
+  outputs_.resize(wheels_.size());
+  for (const WheelParams& wheel : params_.wheels) {
+    for (std::string& name : wheel_value_names(wheel.name)) {
+      wheels_message_.names.push_back(std::move(name));
+    }
+  }
+  wheels_message_.values.assign(wheels_message_.names.size(), 0.0);
+}
+
+void WheeledPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
+  world_ = &world;
+  physics::BodySpec spec;
+  spec.name = params_.name;
+  spec.mass_kg = params_.mass_kg;
+  spec.inertia_B = params_.inertia_B;
+  spec.X_WB = X_WB;
+  spec.shapes = params_.shapes;
+  body_ = world.add_body(spec);
+  state_.body = world.state(body_);
+  state_.specific_force_B =
+      X_WB.q.conjugate() * Eigen::Vector3d(0.0, 0.0, world.settings().gravity_mps2);
+}
+
+void WheeledPlatform::before_physics(Duration dt) {
+  const double dt_s = dt.s();
+  const physics::BodyState& body = state_.body;
+  const Eigen::Matrix3d R_WB = body.X_WB.q.toRotationMatrix();
+  const Soil& soil = world_->world_model().soil;
+  const auto probe = [this](const Eigen::Vector3d& p, const Eigen::Vector3d& dir, double reach) {
+    return world_->probe_ground(p, dir, reach);
+  };
+
+  // All wheels push the body through one force and one moment about its centre of mass.
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero(), torque_W = Eigen::Vector3d::Zero();
+  double motors_W = 0.0;
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    WheelState& wheel_state = state_.wheels[i];
+    const WheelDisc disc = wheels_[i].disc(wheel_state, body.X_WB.p, R_WB);
+    const WheelContact contact = find_wheel_contact(disc, probe);
+    outputs_[i] = wheels_[i].step(disc, contact, body.X_WB.p, body.v_WB_W, body.w_WB_W, soil,
+                                  commands_[i], dt_s, wheel_state);
+    const WheelOutput& out = outputs_[i];
+    force_W += out.force_W;
+    torque_W += (out.p_W - body.X_WB.p).cross(out.force_W) + out.body_torque_W;
+    motors_W += wheel_state.motor.power_W;
+  }
+  world_->add_central_force_W(body_, force_W);
+  world_->add_torque_W(body_, torque_W);
+  advance_battery(params_.battery, motors_W, dt_s, state_.battery);
+}
+
+void WheeledPlatform::after_physics(Duration dt) {
+  const physics::BodyState now = world_->state(body_);
+  Eigen::Vector3d f_W = (now.v_WB_W - state_.body.v_WB_W) / dt.s();
+  f_W.z() += world_->settings().gravity_mps2;
+  state_.specific_force_B = now.X_WB.q.conjugate() * f_W;
+  state_.body = now;
+}
+
+void WheeledPlatform::read_truth(Odometry& truth) const {
+  const Eigen::Quaterniond q_BW = state_.body.X_WB.q.conjugate();
+  truth.X_WB = state_.body.X_WB;
+  truth.v_WB_B = q_BW * state_.body.v_WB_W;
+  truth.w_WB_B = q_BW * state_.body.w_WB_W;
+}
+
+std::vector<std::string> wheel_value_names(const std::string& wheel_name) {
+  std::vector<std::string> names;
+  for (const char* what : {"speed_radps", "steer_rad", "torque_Nm", "load_N", "slip",
+                           "slip_angle_rad", "force_x_N", "force_y_N"}) {
+    names.push_back(fmt::format("wheel_{}_{}", wheel_name, what));
+  }
+  VINEROW_DEMAND(names.size() == kWheelValues);
+  return names;
+}
+
+void WheeledPlatform::connect(Ports& ports) {
+  wheels_writer_ = ports.write<NamedValues>("wheels");
+  battery_writer_ = ports.write<BatteryState>("battery");
+}
+
+void WheeledPlatform::publish(Time now) {
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const WheelState& state = state_.wheels[i];
+    const WheelOutput& out = outputs_[i];
+    for (const double value : {state.spin_radps, state.steer_rad, state.motor.torque_Nm, out.load_N,
+                               out.slip, out.slip_angle_rad, out.force_x_N, out.force_y_N}) {
+      wheels_message_.values[k++] = value;
+    }
+  }
+  if (wheels_writer_.connected()) wheels_writer_.write(now, wheels_message_);
+  if (battery_writer_.connected()) battery_writer_.write(now, state_.battery);
+}
+
+}  // namespace vinerow::vehicles

@@ -1,0 +1,85 @@
+#pragma once
+/// A rigid body on any number of shared wheels, with a battery: the mechanics of every ground
+/// vehicle of the project. A vehicle class adds its actuators, meshes and parameters.
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/api/vehicle.h"
+#include "engine/physics/physics_world.h"
+#include "vehicles/parts/battery.h"
+#include "vehicles/parts/wheel.h"
+
+namespace vinerow::vehicles {
+
+struct WheeledPlatformParams {
+  std::string name;      ///< of the vehicle, for contacts and errors
+  double mass_kg = 0.0;  ///< wheels included
+  Eigen::Matrix3d inertia_B = Eigen::Matrix3d::Identity();  ///< about B, wheels included, kg m2
+  std::vector<physics::PlacedShape> shapes;
+  std::vector<WheelParams> wheels;  ///< at least 3, around B
+  BatteryParams battery;
+
+  /// @throws ConfigError
+  void validate() const;
+};
+
+/// Static load of each wheel on level ground, N: equilibrium of force and moment, least squares
+/// where there are more than three wheels. @param hubs_B  positions relative to the centre of mass
+/// @returns empty if the centre of mass is outside the wheels
+std::vector<double> calc_static_loads(std::span<const Eigen::Vector3d> hubs_B, double weight_N);
+
+struct WheeledPlatformState {
+  physics::BodyState body;         ///< as of the last step
+  std::vector<WheelState> wheels;  ///< same order as the params
+  BatteryState battery;
+  Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();
+};
+
+class WheeledPlatform {
+ public:
+  /// @throws ConfigError
+  explicit WheeledPlatform(WheeledPlatformParams params);
+
+  void spawn(physics::PhysicsWorld& world, const Pose& X_WB);
+  /// @param wheel  index  @param speed_radps  wanted spin; exactly 0 lets the parking brake close
+  void command_speed(std::size_t wheel, double speed_radps) { commands_[wheel] = speed_radps; }
+  /// Turns the axle about the strut, at once (a steering motor's lag is the vehicle's affair).
+  void set_steer(std::size_t wheel, double steer_rad) {
+    state_.wheels[wheel].steer_rad = steer_rad;
+  }
+
+  void before_physics(Duration dt);
+  void after_physics(Duration dt);
+
+  void read_truth(Odometry& truth) const;
+  /// Signals "wheels" (NamedValues) and "battery".
+  void connect(Ports& ports);
+  void publish(Time now);
+
+  const WheeledPlatformParams& params() const { return params_; }
+  const WheeledPlatformState& state() const { return state_; }
+  std::span<const WheelOutput> outputs() const { return outputs_; }
+  const Wheel& wheel(std::size_t index) const { return wheels_[index]; }
+  physics::BodyId body() const { return body_; }
+
+ private:
+  WheeledPlatformParams params_;
+  std::vector<Wheel> wheels_;
+  WheeledPlatformState state_;
+  std::vector<double> commands_;
+  std::vector<WheelOutput> outputs_;
+  physics::PhysicsWorld* world_ = nullptr;
+  physics::BodyId body_;
+  NamedValues wheels_message_;
+  SignalWriter<NamedValues> wheels_writer_;
+  SignalWriter<BatteryState> battery_writer_;
+};
+
+/// Names of a wheel's published values.
+std::vector<std::string> wheel_value_names(const std::string& wheel_name);
+constexpr std::size_t kWheelValues = 8;
+
+}  // namespace vinerow::vehicles

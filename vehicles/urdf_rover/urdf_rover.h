@@ -1,0 +1,69 @@
+#pragma once
+/// Any skid-steered robot from a URDF file, on the shared wheel, with the file's own masses.
+///
+/// Actuators: wheel_<name>_speed_radps for each wheel joint, positive forward whatever the sign of
+/// the joint's axis; names fl, fr, rl, rr with two wheels a side, else l1.., r1... Signals:
+/// "wheels", "battery". B: centre of mass of the whole robot, axes of the root link.
+
+#include <memory>
+
+#include "engine/api/registry.h"
+#include "vehicles/parts/wheeled_platform.h"
+#include "vehicles/urdf_rover/urdf_rover_model.h"
+
+namespace vinerow::vehicles {
+
+struct UrdfRoverParams {
+  std::string name = "rover";
+  std::filesystem::path urdf;
+  std::map<std::string, std::filesystem::path> packages;
+  UrdfRoverOptions options;
+  double max_speed_mps = 1.0;
+  double min_turning_radius_m = 0.5;
+  double wheel_speed_limit_radps = 10.0;
+  double static_deflection_m = 0.008;  ///< of the wheels' springs under the robot's weight
+  double damping_ratio = 0.5;          ///< of the heave on them
+  int wheel_probes = 3;
+  MotorParams motor;
+  TyreParams tyre;
+  BatteryParams battery;
+
+  /// @throws ConfigError
+  void validate() const;
+};
+
+PartSpec urdf_rover_spec();
+UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std::string& name);
+
+class UrdfRover final : public Vehicle {
+ public:
+  /// @throws ConfigError
+  explicit UrdfRover(const UrdfRoverParams& params, double gravity_mps2 = 9.80665);
+
+  const VehicleDescription& description() const override { return description_; }
+  const std::vector<VehicleLink>& links() const override { return model_.links; }
+  void spawn(physics::PhysicsWorld& world, const Pose& X_WB) override;
+  void connect(Ports& ports) override;
+  void actuate(std::span<const double> values) override;
+  void before_physics(Time now, Duration dt) override;
+  void after_physics(Time now, Duration dt) override;
+  void read_truth(Odometry& truth) const override;
+  Eigen::Vector3d specific_force_B() const override;
+  void read_links(std::vector<Pose>& X_WL) const override;
+  void publish(Time now) override;
+
+  const UrdfRoverModel& model() const { return model_; }
+  const WheeledPlatform& platform() const { return platform_; }
+
+ private:
+  void describe(const UrdfRoverParams& params);
+
+  UrdfRoverModel model_;
+  VehicleDescription description_;
+  WheeledPlatform platform_;
+};
+
+std::unique_ptr<Vehicle> make_urdf_rover(const ParameterSet& parameters,
+                                         const VehicleContext& context);
+
+}  // namespace vinerow::vehicles

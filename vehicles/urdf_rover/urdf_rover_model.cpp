@@ -1,0 +1,314 @@
+#include "vehicles/urdf_rover/urdf_rover_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+#include "engine/io/mesh_file.h"
+#include "engine/math/angles.h"
+#include "vehicles/parts/mesh_builder.h"
+
+namespace vinerow::vehicles {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// An axle may lean this much (camber, toe) and still be taken as straight across.
+constexpr double kMinAcross = 0.98;
+constexpr double kDensityGuess_kgpm3 = 300.0;
+
+std::vector<Pose> link_poses(const io::UrdfModel& urdf) {
+  std::vector<Pose> X_RL(urdf.links.size());
+  for (const io::UrdfJoint& joint : urdf.joints) {
+    X_RL[static_cast<std::size_t>(joint.child_link)] =
+        X_RL[static_cast<std::size_t>(joint.parent_link)] * joint.X_PJ;
+  }
+  return X_RL;
+}
+
+io::MeshFile load_shape_mesh(const io::UrdfShape& shape) {
+  // URDF reads every mesh as it stands, z up: a COLLADA file's own up axis does not count there.
+  io::MeshFileOptions options;
+  options.up_axis = io::UpAxis::kZ;
+  options.scale = shape.mesh_scale;
+  return io::load_mesh(shape.mesh_file, options);
+}
+
+/// Corners of the shape's box, in the shape's frame.
+Eigen::AlignedBox3d shape_bounds(const io::UrdfShape& shape) {
+  Vector3d half = Vector3d::Zero();
+  switch (shape.kind) {
+    case io::UrdfShapeKind::kMesh:
+      return load_shape_mesh(shape).bounds();
+    case io::UrdfShapeKind::kBox:
+      half = 0.5 * shape.size_m;
+      break;
+    case io::UrdfShapeKind::kCylinder:
+      half = {shape.radius_m, shape.radius_m, 0.5 * shape.length_m};
+      break;
+    case io::UrdfShapeKind::kSphere:
+      half = Vector3d::Constant(shape.radius_m);
+      break;
+  }
+  return {-half, half};
+}
+
+void extend(Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& part, const Pose& X) {
+  for (int i = 0; i < 8; ++i) {
+    box.extend(X * part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  }
+}
+
+void append_visual(const io::UrdfShape& shape, const Pose& X_ML, MeshBuilder& builder) {
+  const Pose X_MS = X_ML * shape.X_LS;
+  const Eigen::Vector3f given = shape.colour.value_or(Eigen::Vector3f(0.6f, 0.6f, 0.6f));
+  const auto channel = [&](int i) {
+    return static_cast<unsigned>(std::lround(255.0f * std::clamp(given[i], 0.0f, 1.0f)));
+  };
+  const Eigen::Vector3f colour =
+      colour_from_srgb((channel(0) << 16) | (channel(1) << 8) | channel(2));
+  builder.place(X_MS).colour(colour);
+  const Pose y_along_z{Eigen::Quaterniond(Eigen::AngleAxisd(kPi / 2, Vector3d::UnitX())),
+                       Vector3d::Zero()};
+  switch (shape.kind) {
+    case io::UrdfShapeKind::kBox:
+      builder.box(0.5 * shape.size_m, 0.0);
+      break;
+    case io::UrdfShapeKind::kCylinder:
+      builder.place(X_MS * y_along_z).cylinder(shape.radius_m, 0.5 * shape.length_m, 32);
+      break;
+    case io::UrdfShapeKind::kSphere: {
+      std::vector<Eigen::Vector2d> arc;
+      for (int i = -8; i <= 8; ++i) {
+        const double angle = kPi / 16.0 * i;
+        arc.emplace_back(std::max(0.0, shape.radius_m * std::cos(angle)),
+                         shape.radius_m * std::sin(angle));
+      }
+      builder.lathe(arc, 24);
+      break;
+    }
+    case io::UrdfShapeKind::kMesh:
+      for (const io::MeshPart& part : load_shape_mesh(shape).parts) {
+        if (!shape.colour) builder.colour(part.material.colour);
+        builder.append(*part.mesh);
+      }
+      break;
+  }
+}
+
+/// Indices of the wheel joints, left ones first, each side from front to rear.
+std::vector<std::size_t> find_wheel_joints(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL,
+                                           const UrdfRoverOptions& options) {
+  const std::string file = urdf.file.string();
+  std::vector<std::size_t> found;
+  const auto child = [&](std::size_t joint) {
+    return static_cast<std::size_t>(urdf.joints[joint].child_link);
+  };
+  if (options.left_joints.empty() && options.right_joints.empty()) {
+    for (std::size_t i = 0; i < urdf.joints.size(); ++i) {
+      const io::UrdfJoint& joint = urdf.joints[i];
+      const double across = std::abs((X_RL[child(i)].q * joint.axis_J).y());
+      if (joint.kind == io::UrdfJointKind::kContinuous && across > kMinAcross) found.push_back(i);
+    }
+    if (found.empty()) {
+      throw ConfigError(fmt::format(
+          "{}: no wheel joints: none of {} joints is continuous with its axis across the robot; "
+          "name them in left_wheel_joints and right_wheel_joints",
+          file, urdf.joints.size()));
+    }
+  } else {
+    std::vector<std::string> known;
+    for (const io::UrdfJoint& joint : urdf.joints) known.push_back(joint.name);
+    for (const auto* names : {&options.left_joints, &options.right_joints}) {
+      for (const std::string& name : *names) {
+        const auto at = std::find(known.begin(), known.end(), name);
+        if (at == known.end()) {
+          throw ConfigError(fmt::format("{}: no joint '{}'{} (joints: {})", file, name,
+                                        did_you_mean(name, known), join(known)));
+        }
+        const auto index = static_cast<std::size_t>(at - known.begin());
+        const double across = std::abs((X_RL[child(index)].q * urdf.joints[index].axis_J).y());
+        if (across <= kMinAcross) {
+          throw ConfigError(fmt::format(
+              "{}: the axis of wheel joint '{}' does not point across the robot (along y)", file,
+              name));
+        }
+        found.push_back(index);
+      }
+    }
+  }
+  const auto y = [&](std::size_t i) { return X_RL[child(i)].p.y(); };
+  const auto x = [&](std::size_t i) { return X_RL[child(i)].p.x(); };
+  std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
+    if ((y(a) > 0.0) != (y(b) > 0.0)) return y(a) > 0.0;
+    return x(a) > x(b);
+  });
+  const auto left =
+      std::count_if(found.begin(), found.end(), [&](std::size_t i) { return y(i) > 0.0; });
+  const auto right = static_cast<std::ptrdiff_t>(found.size()) - left;
+  if (left < 2 || right < 2) {
+    throw ConfigError(fmt::format(
+        "{}: {} wheels on the left and {} on the right, must be at least 2 on each side", file,
+        left, right));
+  }
+  return found;
+}
+
+/// Radius and half width of a wheel about its joint's axis, from collision shapes, else visuals.
+void measure_wheel(const io::UrdfLink& link, const Vector3d& axis_L, UrdfWheel& wheel) {
+  for (const auto* shapes : {&link.collisions, &link.visuals}) {
+    for (const io::UrdfShape& shape : *shapes) {
+      if (shape.kind == io::UrdfShapeKind::kCylinder || shape.kind == io::UrdfShapeKind::kSphere) {
+        wheel.radius_m = std::max(wheel.radius_m, shape.radius_m);
+        const double length = shape.kind == io::UrdfShapeKind::kSphere ? 0.0 : shape.length_m;
+        wheel.half_width_m = std::max(wheel.half_width_m, 0.5 * length);
+      } else if (shape.kind == io::UrdfShapeKind::kMesh) {
+        for (const io::MeshPart& part : load_shape_mesh(shape).parts) {
+          for (const Eigen::Vector3f& vertex : part.mesh->vertices) {
+            const Vector3d p_L = shape.X_LS * Vector3d(vertex.cast<double>());
+            const double along = axis_L.dot(p_L);
+            wheel.radius_m = std::max(wheel.radius_m, (p_L - along * axis_L).norm());
+            wheel.half_width_m = std::max(wheel.half_width_m, std::abs(along));
+          }
+        }
+      }
+    }
+    if (wheel.radius_m > 0.0) return;
+  }
+}
+
+void name_wheels(std::vector<UrdfWheel>& wheels) {
+  std::size_t count[2] = {0, 0};
+  for (const UrdfWheel& wheel : wheels) ++count[wheel.left ? 0 : 1];
+  const bool four = count[0] == 2 && count[1] == 2;
+  std::size_t index[2] = {0, 0};
+  for (UrdfWheel& wheel : wheels) {
+    const std::size_t at = index[wheel.left ? 0 : 1]++;
+    const char side = wheel.left ? 'l' : 'r';
+    wheel.name =
+        four ? fmt::format("{}{}", at == 0 ? 'f' : 'r', side) : fmt::format("{}{}", side, at + 1);
+  }
+}
+
+/// Mass, centre and inertia of all links as one body.
+void merge_masses(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL, UrdfRoverModel& model) {
+  Vector3d moment = Vector3d::Zero();
+  for (std::size_t i = 0; i < urdf.links.size(); ++i) {
+    model.mass_kg += urdf.links[i].mass_kg;
+    moment += urdf.links[i].mass_kg * (X_RL[i] * urdf.links[i].com_L);
+  }
+  if (!(model.mass_kg > 0.0)) {
+    throw ConfigError(fmt::format("{}: the links' masses sum to {} kg, must be > 0",
+                                  urdf.file.string(), model.mass_kg));
+  }
+  model.com_root = moment / model.mass_kg;
+  for (std::size_t i = 0; i < urdf.links.size(); ++i) {
+    const io::UrdfLink& link = urdf.links[i];
+    const Matrix3d R = X_RL[i].q.toRotationMatrix();
+    const Vector3d d = X_RL[i] * link.com_L - model.com_root;
+    model.inertia_B += R * link.inertia_L * R.transpose() +
+                       link.mass_kg * (d.squaredNorm() * Matrix3d::Identity() - d * d.transpose());
+  }
+}
+
+}  // namespace
+
+UrdfRoverModel read_urdf_rover(const io::UrdfModel& urdf, const UrdfRoverOptions& options) {
+  UrdfRoverModel model;
+  const std::vector<Pose> X_RL = link_poses(urdf);
+  const std::vector<std::size_t> wheel_joints = find_wheel_joints(urdf, X_RL, options);
+  merge_masses(urdf, X_RL, model);
+  const Pose X_BR{Eigen::Quaterniond::Identity(), -model.com_root};
+
+  // Each link belongs to the body or to the wheel whose joint is above it.
+  std::vector<int> wheel_of(urdf.links.size(), -1);
+  for (std::size_t i = 1; i < urdf.links.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(urdf.links[i].parent_joint);
+    const auto found = std::find(wheel_joints.begin(), wheel_joints.end(), joint);
+    wheel_of[i] = found != wheel_joints.end()
+                      ? static_cast<int>(found - wheel_joints.begin())
+                      : wheel_of[static_cast<std::size_t>(urdf.joints[joint].parent_link)];
+  }
+
+  double track = 0.0, front = 0.0, rear = 0.0;
+  for (const std::size_t joint_index : wheel_joints) {
+    const io::UrdfJoint& joint = urdf.joints[joint_index];
+    const auto link_index = static_cast<std::size_t>(joint.child_link);
+    const io::UrdfLink& link = urdf.links[link_index];
+    UrdfWheel wheel;
+    wheel.joint = joint.name;
+    wheel.hub_B = X_BR * X_RL[link_index].p;
+    wheel.left = X_RL[link_index].p.y() > 0.0;
+    measure_wheel(link, joint.axis_J, wheel);
+    if (options.wheel_radius_m > 0.0) wheel.radius_m = options.wheel_radius_m;
+    if (!(wheel.radius_m > 0.0)) {
+      throw ConfigError(fmt::format(
+          "{}: wheel link '{}' has no cylinder, sphere or mesh to take a radius from; give "
+          "wheel_radius_m",
+          urdf.file.string(), link.name));
+    }
+    const Vector3d off_axis = link.com_L - joint.axis_J.dot(link.com_L) * joint.axis_J;
+    wheel.spin_inertia_kgm2 =
+        joint.axis_J.dot(link.inertia_L * joint.axis_J) + link.mass_kg * off_axis.squaredNorm();
+    if (!(wheel.spin_inertia_kgm2 > 1e-6)) {
+      // A wheel without inertia cannot be driven: take a light solid disc of its size.
+      const double width = std::max(2.0 * wheel.half_width_m, 0.25 * wheel.radius_m);
+      const double mass = kDensityGuess_kgpm3 * kPi * wheel.radius_m * wheel.radius_m * width;
+      wheel.spin_inertia_kgm2 = 0.5 * mass * wheel.radius_m * wheel.radius_m;
+    }
+    model.wheels.push_back(wheel);
+    track += std::abs(X_RL[link_index].p.y());
+    front = std::max(front, X_RL[link_index].p.x());
+    rear = std::min(rear, X_RL[link_index].p.x());
+  }
+  name_wheels(model.wheels);
+  model.track_m = 2.0 * track / static_cast<double>(model.wheels.size());
+  model.wheel_base_m = front - rear;
+
+  for (const UrdfWheel& wheel : model.wheels) {
+    const Vector3d half(wheel.radius_m, wheel.half_width_m, wheel.radius_m);
+    extend(model.bounds_B, {-half, half}, Pose{Eigen::Quaterniond::Identity(), wheel.hub_B});
+    model.height_above_ground_m =
+        std::max(model.height_above_ground_m, wheel.radius_m - wheel.hub_B.z());
+  }
+  MeshBuilder body;
+  std::vector<MeshBuilder> wheels(model.wheels.size());
+  for (std::size_t i = 0; i < urdf.links.size(); ++i) {
+    const io::UrdfLink& link = urdf.links[i];
+    const auto& drawn = link.visuals.empty() ? link.collisions : link.visuals;
+    const Pose X_BL = X_BR * X_RL[i];
+    const int wheel = wheel_of[i];
+    if (wheel >= 0) {
+      const auto index = static_cast<std::size_t>(wheel);
+      const Pose X_HB{Eigen::Quaterniond::Identity(), -model.wheels[index].hub_B};
+      for (const io::UrdfShape& visual : drawn) {
+        append_visual(visual, X_HB * X_BL, wheels[index]);
+      }
+      continue;
+    }
+    for (const io::UrdfShape& visual : drawn) append_visual(visual, X_BL, body);
+    for (const io::UrdfShape& collision : link.collisions) {
+      const Eigen::AlignedBox3d box = shape_bounds(collision);
+      const Pose X_BS = X_BL * collision.X_LS;
+      extend(model.bounds_B, box, X_BS);
+      const Pose centre = X_BS * Pose{Eigen::Quaterniond::Identity(), box.center()};
+      model.shapes.push_back({physics::BoxShape{0.5 * box.sizes()}, centre});
+    }
+  }
+  Material material;
+  material.name = urdf.name;
+  material.colour = {1.0f, 1.0f, 1.0f};
+  material.roughness = 0.7f;
+  model.links.push_back({"body", std::make_shared<TriangleMesh>(body.take()), material});
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    model.links.push_back({"wheel_" + model.wheels[i].name,
+                           std::make_shared<TriangleMesh>(wheels[i].take()), material});
+  }
+  return model;
+}
+
+}  // namespace vinerow::vehicles

@@ -2,18 +2,20 @@
 /// What a picture shows, as plain data: the world, the vehicles' links, and lines drawn over it.
 ///
 /// How meshes become pictures (the agreement with worlds/ and vehicles/):
-/// - Names that differ only in a suffix "#lod0", "#lod1", "#lod2" are alternatives of one thing; the
+/// - Names that differ only in a suffix "#lod0", "#lod1", "#lod2" are alternatives of one thing;
+/// the
 ///   nearest gets #lod0. kWire, kTrunk and kPost are left out one after the other with distance.
-/// - Instances that share a TriangleMesh pointer share one vertex buffer. Keep canopy chunks at about
+/// - Instances that share a TriangleMesh pointer share one vertex buffer. Keep canopy chunks at
+/// about
 ///   4-8 m of row, so that culling and levels of detail can do their work.
 /// - A mesh without normals gets them with a crease angle of 40 deg. Closed meshes are drawn
 ///   one-sided, open ones two-sided.
-/// - Material.leaf_cards: quads (or any pieces that share vertices), uv 0..1 over each card, normals
-///   of the canopy's volume rather than of the card (soft shading), vertex colours as tint and inner
-///   shade around 0.6-1.2 x the leaf's own green. The renderer chooses a picture by the card's edge
-///   length: one leaf below 0.22 m, a spray of a dozen leaves up to 0.7 m, a clump above; 0.3-0.45 m is
-///   best for near cards. Material.colour multiplies; leave it at white for the texture's own green,
-///   or give about {0.1, 0.2, 0.04} and no texture for plain cards.
+/// - Material.leaf_cards: quads (or any pieces that share vertices), uv 0..1 over each card with
+/// the
+///   stem at v = 0, normals of the canopy's volume more than of the card (soft shading). Vertex
+///   colours are the leaves' linear RGB (times Material.colour), darker inside; without them leaves
+///   are green. The renderer chooses a picture by the card's edge length: one leaf below 0.22 m, a
+///   spray of a dozen leaves up to 0.7 m, a clump of sixty above.
 /// - Material.texture: "builtin:vine_leaf", "builtin:tree_leaf" (both need leaf_cards),
 ///   "builtin:wood", "builtin:bark" (grain along the mesh's z axis, no uvs needed), or a PNG file
 ///   with uvs (row 0 of the image at v = 1). What cannot be read is drawn in Material.colour.
@@ -70,7 +72,7 @@ struct Image {
 };
 
 struct RendererSettings {
-  bool cull = true;           ///< off: everything is sent to the rasterizer (tests compare)
+  bool cull = true;  ///< off: everything is sent to the rasterizer (tests compare)
   bool shadows = true;
   bool grass_tufts = true;    ///< cards of grass near the camera
   bool distant_hills = true;  ///< ground continues beyond the terrain to the horizon

@@ -1,0 +1,37 @@
+#pragma once
+/// Procedural textures: made once per process, pure functions of nothing.
+
+#include <vector>
+
+#include "engine/render/pixels.h"
+
+namespace vinerow::render {
+
+/// Leaf cards. Channels: R brightness (0.5 = leaf's own green), G and B tilt of the leaf's surface
+/// against the card (0.5 = none), A coverage. Layers of vines, then of trees:
+enum LeafLayer : int {
+  kLeafSingle = 0,  ///< 2 layers: one leaf
+  kLeafSpray = 2,   ///< 3 layers: a dozen leaves
+  kLeafClump = 5,   ///< 3 layers: about sixty
+  kLeafLayersPerKind = 8,
+};
+constexpr int kGrassLayer = 2 * kLeafLayersPerKind;  ///< 4 layers: tufts, root at v = 0
+constexpr int kGrassLayers = 4;
+constexpr int kCardLayers = kGrassLayer + kGrassLayers;
+
+/// kCardLayers square pictures of equal size.
+const std::vector<Pixels>& card_textures();
+
+/// Tile of the ground seen from above. R grass brightness, G grass dryness, B soil brightness,
+/// A height (of clods and blades).
+const Pixels& ground_texture();
+
+/// Four smooth noises that tile. R and G: value noise of 4 and 8 cells; B: soft clouds; A:
+/// blotches.
+const Pixels& noise_texture();
+
+/// Grain along v. RGB colour.
+const Pixels& wood_texture();
+const Pixels& bark_texture();
+
+}  // namespace vinerow::render

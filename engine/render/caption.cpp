@@ -1,0 +1,146 @@
+#include "engine/render/caption.h"
+
+#include <ft2build.h>
+#include FT_FREETYPE_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+namespace vinerow::render {
+
+namespace {
+
+std::string font_folder() {
+  const char* folder = std::getenv("VINEROW_FONTS");
+  return folder != nullptr ? folder : "/usr/share/fonts/truetype/dejavu";
+}
+
+/// FreeType's handles, released in the right order.
+class Fonts {
+ public:
+  Fonts() {
+    if (FT_Init_FreeType(&library_) != 0) {
+      library_ = nullptr;
+      return;
+    }
+    plain_ = open("/DejaVuSans.ttf");
+    bold_ = open("/DejaVuSans-Bold.ttf");
+  }
+  Fonts(const Fonts&) = delete;
+  Fonts& operator=(const Fonts&) = delete;
+  ~Fonts() {
+    if (library_ != nullptr) FT_Done_FreeType(library_);  // releases the faces too
+  }
+  FT_Face plain() const { return plain_; }
+  FT_Face bold() const { return bold_ != nullptr ? bold_ : plain_; }
+
+ private:
+  FT_Face open(const char* name) const {
+    FT_Face face = nullptr;
+    return FT_New_Face(library_, (font_folder() + name).c_str(), 0, &face) == 0 ? face : nullptr;
+  }
+  FT_Library library_ = nullptr;
+  FT_Face plain_ = nullptr;
+  FT_Face bold_ = nullptr;
+};
+
+/// Next code point of UTF-8 text; a broken byte stands for itself.
+char32_t next_code_point(const std::string& text, std::size_t& at) {
+  const auto byte = static_cast<unsigned char>(text[at++]);
+  const int more = byte >= 0xF0 ? 3 : byte >= 0xE0 ? 2 : byte >= 0xC0 ? 1 : 0;
+  if (more == 0 || at + more > text.size()) return byte;
+  char32_t code = byte & (0x3F >> more);
+  for (int i = 0; i < more; ++i) code = code << 6 | (static_cast<unsigned char>(text[at++]) & 0x3F);
+  return code;
+}
+
+void blend(Image& image, int x, int y, const int (&colour)[3], double alpha) {
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
+  std::uint8_t* p = &image.rgb[(static_cast<std::size_t>(y) * image.width + x) * 3];
+  for (int c = 0; c < 3; ++c) {
+    p[c] = static_cast<std::uint8_t>(std::lround(p[c] + (colour[c] - p[c]) * alpha));
+  }
+}
+
+/// Draws (or, without an image, measures) one line. @returns its width in pixels
+double draw_line(FT_Face face, int size_px, const std::string& text, double x, int baseline,
+                 Image* image) {
+  FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(size_px));
+  const double start = x;
+  FT_UInt previous = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const FT_UInt glyph = FT_Get_Char_Index(face, next_code_point(text, at));
+    FT_Vector kerning{};
+    if (previous != 0) FT_Get_Kerning(face, previous, glyph, FT_KERNING_DEFAULT, &kerning);
+    x += kerning.x / 64.0;
+    previous = glyph;
+    if (FT_Load_Glyph(face, glyph, image != nullptr ? FT_LOAD_RENDER : FT_LOAD_DEFAULT) != 0)
+      continue;
+    if (image != nullptr) {
+      const FT_GlyphSlot slot = face->glyph;
+      for (unsigned row = 0; row < slot->bitmap.rows; ++row) {
+        for (unsigned column = 0; column < slot->bitmap.width; ++column) {
+          const unsigned char cover = slot->bitmap.buffer[row * slot->bitmap.pitch + column];
+          if (cover == 0) continue;
+          constexpr int kInk[3] = {248, 246, 238};
+          blend(*image,
+                static_cast<int>(std::lround(x)) + slot->bitmap_left + static_cast<int>(column),
+                baseline - slot->bitmap_top + static_cast<int>(row), kInk, cover / 255.0);
+        }
+      }
+    }
+    x += face->glyph->advance.x / 64.0;
+  }
+  return x - start;
+}
+
+void draw_panel(Image& image, int x0, int y0, int x1, int y1, double radius) {
+  constexpr int kShade[3] = {18, 24, 20};
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      // Distance to the rectangle that is smaller by the radius gives rounded, smooth corners.
+      const double dx = std::max({x0 + radius - (x + 0.5), x + 0.5 - (x1 - radius), 0.0});
+      const double dy = std::max({y0 + radius - (y + 0.5), y + 0.5 - (y1 - radius), 0.0});
+      const double cover = std::clamp(radius - std::hypot(dx, dy) + 0.5, 0.0, 1.0);
+      blend(image, x, y, kShade, 0.58 * cover);
+    }
+  }
+}
+
+}  // namespace
+
+bool draw_caption(const std::vector<std::string>& lines, Image& image) {
+  if (lines.empty()) return false;
+  const Fonts fonts;
+  if (fonts.plain() == nullptr) return false;
+  const int small = std::max(10, static_cast<int>(std::lround(image.height * 0.0235)));
+  const int large = static_cast<int>(std::lround(small * 1.32));
+  const int gap = static_cast<int>(std::lround(small * 0.52));
+  const int padding = static_cast<int>(std::lround(small * 0.95));
+  const int margin = static_cast<int>(std::lround(small * 1.15));
+
+  double width = 0.0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const bool first = i == 0;
+    width = std::max(width, draw_line(first ? fonts.bold() : fonts.plain(), first ? large : small,
+                                      lines[i], 0.0, 0, nullptr));
+  }
+  const int count = static_cast<int>(lines.size());
+  const int height = 2 * padding + large + (count - 1) * (small + gap) - small / 5;
+  const int x0 = margin;
+  const int y1 = image.height - margin;
+  const int y0 = y1 - height;
+  draw_panel(image, x0, y0, x0 + static_cast<int>(width) + 2 * padding, y1, 0.55 * small);
+  int baseline = y0 + padding + large - large / 5;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const bool first = i == 0;
+    draw_line(first ? fonts.bold() : fonts.plain(), first ? large : small, lines[i], x0 + padding,
+              baseline, &image);
+    baseline += small + gap;
+  }
+  return true;
+}
+
+}  // namespace vinerow::render

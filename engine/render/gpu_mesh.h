@@ -1,0 +1,35 @@
+#pragma once
+/// Vertex and index buffers on the GPU. They live as long as the context.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/render/gl.h"
+#include "engine/render/mesh_preparation.h"
+#include "engine/render/pixels.h"
+
+namespace vinerow::render {
+
+struct GpuMesh {
+  GLuint vertex_array = 0;
+  GLuint vertex_buffer = 0;
+  GLuint index_buffer = 0;
+  GLsizei index_count = 0;
+  bool closed = false;
+  Eigen::AlignedBox3d bounds_M;
+};
+
+/// Attributes 0 position, 1 normal, 2 uv, 3 colour as in GpuVertex; buffers may be filled later.
+GpuMesh make_gpu_mesh(const Gl& gl);
+void fill_vertices(const Gl& gl, const GpuMesh& mesh, const std::vector<GpuVertex>& vertices,
+                   GLenum usage);
+void fill_indices(const Gl& gl, GpuMesh& mesh, const std::vector<std::uint32_t>& indices,
+                  GLenum usage);
+GpuMesh upload_mesh(const Gl& gl, const PreparedMesh& prepared);
+
+/// Bound to the unit that is active. Mipmapped, repeating unless `clamp`.
+GLuint upload_texture(const Gl& gl, const std::vector<Pixels>& levels, bool clamp);
+/// Layers of equal size; each a full chain.
+GLuint upload_texture_array(const Gl& gl, const std::vector<std::vector<Pixels>>& layers);
+
+}  // namespace vinerow::render

@@ -1,0 +1,29 @@
+#pragma once
+/// Distances to rows and alleys on a grid: where the ground is bare, tracked or green.
+
+#include <Eigen/Geometry>
+
+#include "engine/api/map.h"
+#include "engine/render/pixels.h"
+
+namespace vinerow::render {
+
+struct GroundMask {
+  static constexpr double kReach_m = 2.55;  ///< distances are stored up to here, in steps of 1 cm
+
+  Eigen::Vector2d corner_W = {0, 0};
+  Eigen::Vector2d size_m = {1, 1};
+  Pixels pixels;  ///< R to the nearest row, G to the middle of the nearest alley; row 0 is south
+
+  /// Distances at a place, m; kReach_m outside.
+  double row_distance_m(double x, double y) const { return lookup(x, y, 0); }
+  double alley_distance_m(double x, double y) const { return lookup(x, y, 1); }
+
+ private:
+  double lookup(double x, double y, int channel) const;
+};
+
+/// Sizes are powers of two up to 2048; without rows a single far pixel.
+GroundMask make_ground_mask(const RowMap& rows);
+
+}  // namespace vinerow::render

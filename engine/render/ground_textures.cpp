@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/render/builtin_textures.h"
+#include "engine/render/noise.h"
+
+namespace vinerow::render {
+
+namespace {
+
+std::uint8_t byte(float v) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
+}
+
+/// Grey planes that strokes are painted on; wraps around at the edges.
+struct Plane {
+  int size;
+  std::vector<float> value;
+  explicit Plane(int n, float fill) : size(n), value(static_cast<std::size_t>(n) * n, fill) {}
+  float& at(int x, int y) {
+    return value[static_cast<std::size_t>(y & (size - 1)) * size + (x & (size - 1))];
+  }
+};
+
+/// Blades of grass lying and standing in all directions, the later the lighter and higher.
+void paint_grass(Plane& brightness, Plane& dryness, Plane& height) {
+  Scatter scatter(31);
+  const int n = brightness.size;
+  constexpr int kBlades = 11000;
+  for (int i = 0; i < kBlades; ++i) {
+    const float layer = static_cast<float>(i) / kBlades;
+    float x = scatter.next() * static_cast<float>(n);
+    float y = scatter.next() * static_cast<float>(n);
+    float angle = scatter.between(0.0f, 6.2832f);
+    const float bend = scatter.between(-0.03f, 0.03f);
+    const int length = static_cast<int>(scatter.between(9.0f, 30.0f));
+    const float dry =
+        scatter.next() < 0.13f ? scatter.between(0.6f, 1.0f) : scatter.between(0.0f, 0.4f);
+    const float tone = 0.16f + 0.52f * layer + scatter.between(-0.10f, 0.13f);
+    for (int k = 0; k < length; ++k) {
+      const float t = static_cast<float>(k) / static_cast<float>(length);
+      const int px = static_cast<int>(std::floor(x));
+      const int py = static_cast<int>(std::floor(y));
+      const float value = tone * (0.72f + 0.45f * t);
+      const int wide = t < 0.7f ? 1 : 0;
+      for (int w = 0; w <= wide; ++w) {
+        const int wx = px + (std::abs(std::cos(angle)) < 0.7f ? w : 0);
+        const int wy = py + (std::abs(std::cos(angle)) < 0.7f ? 0 : w);
+        brightness.at(wx, wy) = value;
+        dryness.at(wx, wy) = dry;
+        height.at(wx, wy) = 0.2f + 0.7f * layer;
+      }
+      x += std::cos(angle);
+      y += std::sin(angle);
+      angle += bend;
+    }
+  }
+}
+
+/// Clods, crumbs and a few pale stones and straws.
+float soil_value(float u, float v, float& height) {
+  float id = 0.0f;
+  const float warp = 0.6f * tiled_fbm(u, v, 16, 3, 60);
+  const float clod = tiled_worley(u * 26.0f + warp, v * 26.0f + warp, 26, 61, id);
+  const float clod_shade = 0.30f * (1.0f - clod) + 0.12f * (id - 0.5f);
+  float crumb_id = 0.0f;
+  const float crumb = tiled_worley(u * 90.0f, v * 90.0f, 90, 64, crumb_id);
+  const float fine = tiled_fbm(u, v, 32, 4, 67) - 0.5f;
+  float value = 0.30f + clod_shade + 0.16f * (0.6f - crumb) + 0.45f * fine;
+  height = 0.5f * (1.0f - clod) + 0.2f * (1.0f - crumb);
+  float stone_id = 0.0f;
+  const float stone = tiled_worley(u * 17.0f, v * 17.0f, 17, 71, stone_id);
+  if (stone_id > 0.86f && stone < 0.16f + 0.10f * (stone_id - 0.86f) / 0.14f) {
+    value = 0.72f + 0.25f * (stone_id - 0.86f) / 0.14f - 1.2f * stone;
+    height = 0.9f;
+  }
+  return value;
+}
+
+}  // namespace
+
+const Pixels& ground_texture() {
+  static const Pixels texture = [] {
+    constexpr int kSize = 512;
+    Plane grass(kSize, 0.12f);
+    Plane dry(kSize, 0.3f);
+    Plane height(kSize, 0.1f);
+    paint_grass(grass, dry, height);
+    Pixels pixels(kSize, kSize);
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        float soil_height = 0.0f;
+        const float soil = soil_value((static_cast<float>(x) + 0.5f) / kSize,
+                                      (static_cast<float>(y) + 0.5f) / kSize, soil_height);
+        std::uint8_t* p = pixels.at(x, y);
+        p[0] = byte(grass.at(x, y));
+        p[1] = byte(dry.at(x, y));
+        p[2] = byte(soil);
+        p[3] = byte(0.5f * height.at(x, y) + 0.5f * soil_height);
+      }
+    }
+    return pixels;
+  }();
+  return texture;
+}
+
+const Pixels& noise_texture() {
+  static const Pixels texture = [] {
+    constexpr int kSize = 512;
+    Pixels pixels(kSize, kSize);
+    // Stretches the narrow band that a sum of octaves fills over the whole range.
+    const auto stretch = [](float v) { return (v - 0.5f) * 1.7f + 0.5f; };
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const float u = (static_cast<float>(x) + 0.5f) / kSize;
+        const float v = (static_cast<float>(y) + 0.5f) / kSize;
+        std::uint8_t* p = pixels.at(x, y);
+        const float a = tiled_fbm(u, v, 4, 6, 11);
+        p[0] = byte(stretch(a));
+        p[1] = byte(stretch(tiled_fbm(u, v, 8, 5, 23)));
+        const float bx = u + 0.11f * (a - 0.5f);
+        const float by = v + 0.11f * (tiled_noise(u * 6.0f, v * 6.0f, 6, 5) - 0.5f);
+        p[2] = byte(stretch(tiled_fbm(bx, by, 3, 7, 37)));
+        p[3] = byte(stretch(tiled_fbm(u, v, 16, 3, 53)));
+      }
+    }
+    return pixels;
+  }();
+  return texture;
+}
+
+namespace {
+
+/// @param stretch  cells across for each cell along the grain
+Pixels grain(const float (&dark)[3], const float (&light)[3], int across, int along,
+             std::uint32_t seed) {
+  constexpr int kSize = 256;
+  Pixels pixels(kSize, kSize);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const float u = (static_cast<float>(x) + 0.5f) / kSize;
+      const float v = (static_cast<float>(y) + 0.5f) / kSize;
+      const float wobble = tiled_noise(u * 4.0f, v * 4.0f, 4, seed) * 0.6f;
+      // Different cell counts in x and y make fibres; both repeat over the tile.
+      const float fu = u * static_cast<float>(across) + wobble;
+      const float fv = v * static_cast<float>(along);
+      const float coarse = tiled_noise(fu, fv, across, seed + 1);
+      const float fine = tiled_noise(fu * 3.0f, fv * 2.0f, across * 3, seed + 2);
+      const float blotch = tiled_fbm(u, v, 3, 3, seed + 3);
+      float value = 0.5f * coarse + 0.3f * fine + 0.35f * (blotch - 0.3f);
+      value = std::clamp(value, 0.0f, 1.0f);
+      std::uint8_t* p = pixels.at(x, y);
+      for (int c = 0; c < 3; ++c) p[c] = byte(dark[c] + (light[c] - dark[c]) * value);
+      p[3] = 255;
+    }
+  }
+  return pixels;
+}
+
+}  // namespace
+
+const Pixels& wood_texture() {
+  static const Pixels texture = grain({0.20f, 0.15f, 0.11f}, {0.62f, 0.53f, 0.43f}, 24, 3, 401);
+  return texture;
+}
+
+const Pixels& bark_texture() {
+  static const Pixels texture = grain({0.07f, 0.05f, 0.035f}, {0.42f, 0.32f, 0.24f}, 14, 6, 431);
+  return texture;
+}
+
+}  // namespace vinerow::render

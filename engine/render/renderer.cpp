@@ -1,0 +1,567 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/render/builtin_textures.h"
+#include "engine/render/caption.h"
+#include "engine/render/drawables.h"
+#include "engine/render/frame_block.h"
+#include "engine/render/frame_target.h"
+#include "engine/render/grass_tufts.h"
+#include "engine/render/ground_mask.h"
+#include "engine/render/light.h"
+#include "engine/render/offscreen_context.h"
+#include "engine/render/ribbons.h"
+#include "engine/render/shaders.h"
+#include "engine/render/shadow_maps.h"
+#include "engine/render/terrain_mesh.h"
+#include "engine/render/texture_units.h"
+
+namespace vinerow::render {
+
+namespace {
+
+constexpr double kNear_m = 0.06;
+constexpr double kFar_m = 9000.0;
+constexpr double kHazePerMetre = 1.0 / 5200.0;
+
+struct Program {
+  GLuint id = 0;
+  GLint world_from_model = -1;
+  GLint clip_from_model = -1;
+  GLint material = -1;
+  GLint texture_mode = -1;
+  GLint coverage = -1;
+};
+
+struct TerrainChunk {
+  GpuMesh mesh;
+};
+
+/// What is seen of a group in this frame.
+struct Visible {
+  const Drawable* drawable;
+  double distance_m;
+};
+
+Eigen::Matrix4d matrix_of(const Pose& X_WM) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = X_WM.q.toRotationMatrix();
+  matrix.topRightCorner<3, 1>() = X_WM.p;
+  return matrix;
+}
+
+class GlRenderer final : public Renderer {
+ public:
+  GlRenderer(std::unique_ptr<OffscreenContext> context, const WorldModel& world,
+             const RendererSettings& settings);
+  Image draw(const Frame& frame) override;
+  FrameStatistics statistics() const override { return statistics_; }
+
+ private:
+  Program make_program(const char* name, const shaders::Pair& sources) const;
+  void make_programs();
+  void make_textures(const RowMap& rows);
+  void make_terrain(const WorldModel& world);
+  void make_shadows();
+
+  void update_shadows(const Camera& camera, const std::vector<Drawable>& vehicles);
+  void cast_shadows(const std::vector<const Drawable*>& casters,
+                    const Eigen::Matrix4d& clip_from_world);
+  void upload_frame_block(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
+  void draw_objects(const Frame& frame, const Frustum& frustum,
+                    const std::vector<Drawable>& vehicles);
+  void draw_ground(const Frame& frame, const Frustum& frustum);
+  void draw_tufts(const Frame& frame, const Frustum& frustum);
+  void draw_sky();
+  void draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
+  void draw_drawable(const Program& program, const Drawable& drawable);
+  void draw_mesh(const GpuMesh& mesh);
+  double ground_height_m(double x, double y) const;
+
+  std::unique_ptr<OffscreenContext> context_;
+  const RendererSettings settings_;
+  Gl gl_;
+  Light light_;
+  GroundMask mask_;
+  std::optional<HeightField> terrain_;
+  DrawableStore store_;
+  FrameTarget target_;
+  std::vector<LodGroup> groups_;         ///< all but ground
+  std::vector<Drawable> ground_meshes_;  ///< meshes of class kTerrain
+  std::vector<GpuMesh> chunks_;
+  std::array<GpuMesh, kTerrainLevels> chunk_indices_;
+  std::vector<GpuMesh> surroundings_;
+  std::unique_ptr<ShadowMaps> shadows_;
+  Program sky_, ground_, surface_, foliage_, grass_, ribbon_, shadow_solid_, shadow_cards_;
+  GLuint frame_buffer_ = 0;
+  GLuint empty_array_ = 0;
+  GpuMesh tufts_;
+  std::vector<GpuVertex> tuft_vertices_;
+  std::vector<std::uint32_t> tuft_indices_;
+  GLuint ribbon_array_ = 0;
+  GLuint ribbon_buffer_ = 0;
+  FrameStatistics statistics_;
+};
+
+GlRenderer::GlRenderer(std::unique_ptr<OffscreenContext> context, const WorldModel& world,
+                       const RendererSettings& settings)
+    : context_(std::move(context)),
+      settings_(settings),
+      gl_(load_gl([this](const char* name) { return context_->find_function(name); })),
+      light_(make_light(world.daylight)),
+      mask_(make_ground_mask(world.rows)),
+      terrain_(world.terrain),
+      store_(gl_),
+      target_(gl_) {
+  make_programs();
+  gl_.GenBuffers(1, &frame_buffer_);
+  gl_.GenVertexArrays(1, &empty_array_);
+  tufts_ = make_gpu_mesh(gl_);
+  make_textures(world.rows);
+  std::vector<MeshInstance> objects;
+  for (const MeshInstance& instance : world.meshes) {
+    if (instance.surface != SurfaceClass::kTerrain) {
+      objects.push_back(instance);
+    } else if (instance.visible && instance.mesh) {
+      ground_meshes_.push_back(
+          store_.make_drawable(instance.mesh, instance.X_WM, instance.surface, instance.material));
+    }
+  }
+  groups_ = store_.make_groups(objects);
+  make_terrain(world);
+  if (settings_.shadows) make_shadows();
+
+  gl_.GenVertexArrays(1, &ribbon_array_);
+  gl_.GenBuffers(1, &ribbon_buffer_);
+  gl_.BindVertexArray(ribbon_array_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, ribbon_buffer_);
+  const auto attribute = [&](GLuint place, GLint size, GLenum type, GLboolean unit,
+                             std::size_t at) {
+    gl_.EnableVertexAttribArray(place);
+    gl_.VertexAttribPointer(place, size, type, unit, sizeof(RibbonVertex),
+                            reinterpret_cast<const void*>(at));
+  };
+  attribute(0, 4, GL_FLOAT, GL_FALSE, offsetof(RibbonVertex, clip));
+  attribute(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(RibbonVertex, colour));
+  attribute(2, 1, GL_FLOAT, GL_FALSE, offsetof(RibbonVertex, along_px));
+  gl_.BindVertexArray(0);
+  check_gl(gl_, "uploading the world");
+}
+
+Program GlRenderer::make_program(const char* name, const shaders::Pair& sources) const {
+  Program program;
+  program.id = build_program(gl_, name, sources.vertex, sources.fragment);
+  const auto place = [&](const char* uniform) {
+    return gl_.GetUniformLocation(program.id, uniform);
+  };
+  program.world_from_model = place("world_from_model");
+  program.clip_from_model = place("clip_from_model");
+  program.material = place("material");
+  program.texture_mode = place("texture_mode");
+  program.coverage = place("coverage");
+  return program;
+}
+
+void GlRenderer::make_programs() {
+  sky_ = make_program("sky", shaders::sky());
+  ground_ = make_program("ground", shaders::ground());
+  surface_ = make_program("surface", shaders::surface());
+  foliage_ = make_program("foliage", shaders::foliage());
+  grass_ = make_program("grass", shaders::grass());
+  ribbon_ = make_program("ribbon", shaders::ribbon());
+  shadow_solid_ = make_program("shadow_solid", shaders::shadow_solid());
+  shadow_cards_ = make_program("shadow_cards", shaders::shadow_cards());
+}
+
+void GlRenderer::make_textures(const RowMap&) {
+  const auto unit = [&](TextureUnit u) { gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(u)); };
+  unit(kUnitNoise);
+  upload_texture(gl_, mip_chain(noise_texture()), false);
+  unit(kUnitGround);
+  upload_texture(gl_, mip_chain(ground_texture()), false);
+  unit(kUnitMask);
+  upload_texture(gl_, mip_chain(mask_.pixels), true);
+  unit(kUnitLeaves);
+  std::vector<std::vector<Pixels>> layers;
+  for (const Pixels& card : card_textures()) layers.push_back(mip_chain_with_coverage(card));
+  upload_texture_array(gl_, layers);
+
+  unit(kUnitSky);
+  GLuint sky = 0;
+  gl_.GenTextures(1, &sky);
+  gl_.BindTexture(GL_TEXTURE_2D, sky);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, Atmosphere::kAzimuths, Atmosphere::kElevations, 0,
+                 GL_RGB, GL_FLOAT, light_.atmosphere.sky.data());
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  unit(kUnitImage);
+}
+
+void GlRenderer::make_terrain(const WorldModel& world) {
+  Eigen::AlignedBox2d rectangle;
+  double level_height_m = 0.0;
+  if (terrain_) {
+    const int columns = (terrain_->columns - 2) / kChunkCells + 1;
+    const int rows = (terrain_->rows - 2) / kChunkCells + 1;
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        chunks_.push_back(upload_mesh(gl_, make_terrain_chunk(*terrain_, column, row)));
+      }
+    }
+    for (int level = 0; level < kTerrainLevels; ++level) {
+      gl_.GenBuffers(1, &chunk_indices_[level].index_buffer);
+      fill_indices(gl_, chunk_indices_[level], make_chunk_indices(level), GL_STATIC_DRAW);
+    }
+    rectangle.extend(terrain_->corner_W);
+    rectangle.extend(terrain_->corner_W +
+                     Eigen::Vector2d(terrain_->width_m(), terrain_->depth_m()));
+  } else if (!ground_meshes_.empty()) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const MeshInstance& instance : world.meshes) {
+      if (instance.surface != SurfaceClass::kTerrain || !instance.mesh) continue;
+      for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+        const Eigen::Vector3d p = instance.X_WM * v.cast<double>();
+        rectangle.extend(Eigen::Vector2d(p.head<2>()));
+        sum += p.z();
+        ++count;
+      }
+    }
+    level_height_m = count > 0 ? sum / static_cast<double>(count) : 0.0;
+  }
+  if (rectangle.isEmpty() || !settings_.distant_hills) return;
+  for (const PreparedMesh& sector :
+       make_surroundings(rectangle, terrain_ ? &*terrain_ : nullptr, level_height_m)) {
+    surroundings_.push_back(upload_mesh(gl_, sector));
+  }
+}
+
+void GlRenderer::make_shadows() {
+  Eigen::AlignedBox3d casters;
+  for (const LodGroup& group : groups_) casters.extend(group.box_W);
+  // Vehicles also cast shadows on open ground, as far as the map stays fine enough.
+  Eigen::AlignedBox3d ground;
+  for (const GpuMesh& chunk : chunks_) ground.extend(chunk.bounds_M);
+  for (const Drawable& mesh : ground_meshes_) ground.extend(mesh.box_W);
+  if (casters.isEmpty()) casters = ground;
+  if (casters.isEmpty()) casters = {Eigen::Vector3d(-30, -30, -5), Eigen::Vector3d(30, 30, 10)};
+  if (!ground.isEmpty()) {
+    Eigen::AlignedBox3d reach = casters;
+    reach.min().head<2>().array() -= 30.0;
+    reach.max().head<2>().array() += 30.0;
+    reach.min().z() = std::min(reach.min().z(), ground.min().z());
+    reach.max().z() = std::max(reach.max().z(), ground.max().z());
+    casters = reach;
+  }
+  casters.max().z() += 3.0;
+  shadows_ = std::make_unique<ShadowMaps>(gl_, light_.sun_direction_W, casters);
+  gl_.ActiveTexture(GL_TEXTURE0 + kUnitShadow);
+  gl_.BindTexture(GL_TEXTURE_2D_ARRAY, shadows_->texture());
+  gl_.ActiveTexture(GL_TEXTURE0 + kUnitImage);
+}
+
+double GlRenderer::ground_height_m(double x, double y) const {
+  if (terrain_) return terrain_->height_m(x, y);
+  Eigen::AlignedBox3d box;
+  for (const Drawable& mesh : ground_meshes_) box.extend(mesh.box_W);
+  return box.isEmpty() ? 0.0 : box.center().z();
+}
+
+void GlRenderer::draw_mesh(const GpuMesh& mesh) {
+  gl_.BindVertexArray(mesh.vertex_array);
+  gl_.DrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
+  ++statistics_.draw_calls;
+  statistics_.triangles += mesh.index_count / 3;
+}
+
+void GlRenderer::draw_drawable(const Program& program, const Drawable& drawable) {
+  const Eigen::Matrix4f matrix = matrix_of(drawable.X_WM).cast<float>();
+  gl_.UniformMatrix4fv(program.world_from_model, 1, GL_FALSE, matrix.data());
+  const float* c = drawable.material.colour;
+  if (program.material >= 0) gl_.Uniform4f(program.material, c[0], c[1], c[2], c[3]);
+  if (program.texture_mode >= 0) {
+    gl_.Uniform1f(program.texture_mode, static_cast<float>(drawable.material.texture_mode));
+    if (drawable.material.image != 0) gl_.BindTexture(GL_TEXTURE_2D, drawable.material.image);
+  }
+  if (drawable.mesh->closed) {
+    gl_.Enable(GL_CULL_FACE);
+  } else {
+    gl_.Disable(GL_CULL_FACE);
+  }
+  draw_mesh(*drawable.mesh);
+}
+
+void GlRenderer::cast_shadows(const std::vector<const Drawable*>& casters,
+                              const Eigen::Matrix4d& clip_from_world) {
+  gl_.Disable(GL_CULL_FACE);
+  for (const bool cards : {false, true}) {
+    const Program& program = cards ? shadow_cards_ : shadow_solid_;
+    gl_.UseProgram(program.id);
+    for (const Drawable* drawable : casters) {
+      if (drawable->leaf_cards != cards) continue;
+      const Eigen::Matrix4f matrix = (clip_from_world * matrix_of(drawable->X_WM)).cast<float>();
+      gl_.UniformMatrix4fv(program.clip_from_model, 1, GL_FALSE, matrix.data());
+      draw_mesh(*drawable->mesh);
+    }
+  }
+}
+
+void GlRenderer::update_shadows(const Camera& camera, const std::vector<Drawable>& vehicles) {
+  const Eigen::Vector3d forward = camera.X_WC.q * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d& eye = camera.X_WC.p;
+  const double above = std::max(0.3, eye.z() - ground_height_m(eye.x(), eye.y()));
+  Eigen::Vector3d focus = eye;
+  double radius = 0.0;
+  if (camera.orthographic) {
+    if (forward.z() < -0.05) focus += forward * (above / -forward.z());
+    radius = 0.9 * camera.ortho_height_m;
+  } else {
+    const double reach =
+        std::min(above / std::max(-forward.z(), 0.05), std::max(25.0, 2.5 * above));
+    radius = 0.8 * reach + 0.5 * above;
+    Eigen::Vector3d ahead(forward.x(), forward.y(), 0.0);
+    focus += ahead * std::max(reach, 12.0);
+  }
+  focus.z() = ground_height_m(focus.x(), focus.y());
+
+  const Eigen::Matrix3d& R_LW = shadows_->light_from_world();
+  const auto overlaps = [&](const Eigen::AlignedBox3d& box_W,
+                            const Eigen::AlignedBox2d& rectangle) {
+    Eigen::AlignedBox2d box_L;
+    for (int i = 0; i < 8; ++i) {
+      const Eigen::Vector3d p =
+          R_LW * box_W.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+      box_L.extend(Eigen::Vector2d(p.head<2>()));
+    }
+    return box_L.intersects(rectangle);
+  };
+  const ShadowMaps::DrawCasters draw_world = [&](const Eigen::Matrix4d& clip_from_world,
+                                                 const Eigen::AlignedBox2d& rectangle, bool near) {
+    std::vector<const Drawable*> casters;
+    for (const LodGroup& group : groups_) {
+      // A level for good: shadows of leaves look alike at any level of detail.
+      const std::size_t level = std::min<std::size_t>(group.levels.size() - 1, near ? 1 : 2);
+      const Drawable& drawable = group.levels[level];
+      if (drawable.surface == SurfaceClass::kWire && !near) continue;
+      if (overlaps(drawable.box_W, rectangle)) casters.push_back(&drawable);
+    }
+    cast_shadows(casters, clip_from_world);
+  };
+  const ShadowMaps::DrawCasters draw_vehicles = [&](const Eigen::Matrix4d& clip_from_world,
+                                                    const Eigen::AlignedBox2d&, bool) {
+    std::vector<const Drawable*> casters;
+    for (const Drawable& link : vehicles) casters.push_back(&link);
+    cast_shadows(casters, clip_from_world);
+  };
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Drawable& link : vehicles) boxes.push_back(link.box_W);
+  shadows_->update(focus, radius, draw_world, draw_vehicles, boxes);
+}
+
+void GlRenderer::upload_frame_block(const Frame& frame, const Eigen::Matrix4d& clip_from_world) {
+  FrameBlock block{};
+  const Camera& camera = frame.camera;
+  store(block.clip_from_world, clip_from_world);
+  store(block.world_from_clip, clip_from_world.inverse());
+  if (shadows_) {
+    store(block.near_from_world, shadows_->near_texture_from_world());
+    store(block.far_from_world, shadows_->far_texture_from_world());
+    block.shadow_info[0] = static_cast<float>(shadows_->near_texel_m());
+    block.shadow_info[1] = static_cast<float>(shadows_->far_texel_m());
+    block.shadow_info[2] = 1.0f;
+  }
+  const auto haze = [](const Eigen::Vector3f& radiance) {
+    return Eigen::Vector3d(radiance.cast<double>());
+  };
+  store(block.eye, camera.X_WC.p, camera.orthographic ? 0.0 : 1.0);
+  store(block.forward, camera.X_WC.q * Eigen::Vector3d::UnitZ());
+  store(block.sun_direction, light_.sun_direction_W);
+  store(block.sun_irradiance, light_.sun_irradiance, light_.exposure);
+  store(block.sky_irradiance, light_.sky_irradiance);
+  store(block.ground_irradiance, light_.ground_irradiance);
+  store(block.haze_to_sun, haze(light_.atmosphere.horizon_to_sun),
+        camera.orthographic ? 0.0 : kHazePerMetre);
+  store(block.haze_from_sun, haze(light_.atmosphere.horizon_from_sun));
+  block.mask_rect[0] = static_cast<float>(mask_.corner_W.x());
+  block.mask_rect[1] = static_cast<float>(mask_.corner_W.y());
+  block.mask_rect[2] = static_cast<float>(1.0 / mask_.size_m.x());
+  block.mask_rect[3] = static_cast<float>(1.0 / mask_.size_m.y());
+  gl_.BindBuffer(GL_UNIFORM_BUFFER, frame_buffer_);
+  gl_.BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+  gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer_);
+}
+
+void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
+                              const std::vector<Drawable>& vehicles) {
+  std::vector<Visible> solid;
+  std::vector<Visible> cards;
+  for (const LodGroup& group : groups_) {
+    if (settings_.cull && !frustum.may_see(group.box_W)) continue;
+    const double seen = calc_seen_distance(frame.camera, frame.height, group.box_W);
+    const Drawable& drawable = group.levels[pick_lod(seen, static_cast<int>(group.levels.size()))];
+    if (!is_drawn_at(drawable.surface, seen)) continue;
+    (drawable.leaf_cards ? cards : solid).push_back({&drawable, seen});
+  }
+  for (const Drawable& link : vehicles) {
+    if (settings_.cull && !frustum.may_see(link.box_W)) continue;
+    (link.leaf_cards ? cards : solid)
+        .push_back({&link, calc_seen_distance(frame.camera, frame.height, link.box_W)});
+  }
+  // Near things first: what they hide need not be shaded.
+  const auto nearer = [](const Visible& a, const Visible& b) {
+    return a.distance_m < b.distance_m;
+  };
+  std::stable_sort(solid.begin(), solid.end(), nearer);
+  std::stable_sort(cards.begin(), cards.end(), nearer);
+  gl_.UseProgram(surface_.id);
+  for (const Visible& visible : solid) draw_drawable(surface_, *visible.drawable);
+  gl_.UseProgram(foliage_.id);
+  gl_.Uniform1f(foliage_.coverage, frame.samples > 1 ? 1.0f : 0.0f);
+  if (frame.samples > 1) gl_.Enable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  for (const Visible& visible : cards) draw_drawable(foliage_, *visible.drawable);
+  gl_.Disable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+void GlRenderer::draw_tufts(const Frame& frame, const Frustum& frustum) {
+  if (!terrain_ || !settings_.grass_tufts) return;
+  const double seen_scale =
+      2.0 * std::tan(0.5 * frame.camera.fov_rad) / frame.height / (2.0 * std::tan(0.48) / 720.0);
+  make_grass_tufts(*terrain_, mask_, frame.camera, frustum, seen_scale, tuft_vertices_,
+                   tuft_indices_);
+  if (tuft_indices_.empty()) return;
+  fill_vertices(gl_, tufts_, tuft_vertices_, GL_STREAM_DRAW);
+  fill_indices(gl_, tufts_, tuft_indices_, GL_STREAM_DRAW);
+  gl_.UseProgram(grass_.id);
+  gl_.Uniform1f(grass_.coverage, frame.samples > 1 ? 1.0f : 0.0f);
+  if (frame.samples > 1) gl_.Enable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  gl_.Disable(GL_CULL_FACE);
+  draw_mesh(tufts_);
+  gl_.Disable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum) {
+  gl_.UseProgram(ground_.id);
+  gl_.Disable(GL_CULL_FACE);
+  for (const Drawable& mesh : ground_meshes_) {
+    if (!settings_.cull || frustum.may_see(mesh.box_W)) draw_drawable(ground_, mesh);
+  }
+  const Eigen::Matrix4f identity = Eigen::Matrix4f::Identity();
+  gl_.UniformMatrix4fv(ground_.world_from_model, 1, GL_FALSE, identity.data());
+  gl_.Disable(GL_CULL_FACE);
+  for (const GpuMesh& chunk : chunks_) {
+    if (settings_.cull && !frustum.may_see(chunk.bounds_M)) continue;
+    const double seen = calc_seen_distance(frame.camera, frame.height, chunk.bounds_M);
+    const GpuMesh& indices = chunk_indices_[pick_terrain_level(seen, terrain_->cell_m)];
+    gl_.BindVertexArray(chunk.vertex_array);
+    gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.index_buffer);
+    gl_.DrawElements(GL_TRIANGLES, indices.index_count, GL_UNSIGNED_INT, nullptr);
+    ++statistics_.draw_calls;
+    statistics_.triangles += indices.index_count / 3;
+  }
+  for (const GpuMesh& sector : surroundings_) {
+    if (!settings_.cull || frustum.may_see(sector.bounds_M)) draw_mesh(sector);
+  }
+}
+
+void GlRenderer::draw_sky() {
+  gl_.UseProgram(sky_.id);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.BindVertexArray(empty_array_);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void GlRenderer::draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from_world) {
+  gl_.UseProgram(ribbon_.id);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl_.DepthMask(GL_FALSE);
+  // The stencil keeps a line from covering itself twice at joints and crossings.
+  gl_.Enable(GL_STENCIL_TEST);
+  gl_.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  gl_.BindVertexArray(ribbon_array_);
+  GLint number = 0;
+  for (const Polyline& line : frame.lines) {
+    const std::vector<RibbonVertex> vertices =
+        make_ribbon(line, terrain_ ? &*terrain_ : nullptr, clip_from_world, frame.camera,
+                    frame.width, frame.height);
+    if (vertices.empty()) continue;
+    number = number % 255 + 1;
+    gl_.StencilFunc(GL_NOTEQUAL, number, 0xff);
+    gl_.BindBuffer(GL_ARRAY_BUFFER, ribbon_buffer_);
+    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(RibbonVertex)),
+                   vertices.data(), GL_STREAM_DRAW);
+    gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+    ++statistics_.draw_calls;
+    statistics_.triangles += static_cast<std::int64_t>(vertices.size() / 3);
+  }
+  gl_.Disable(GL_STENCIL_TEST);
+  gl_.Disable(GL_BLEND);
+  gl_.DepthMask(GL_TRUE);
+}
+
+Image GlRenderer::draw(const Frame& frame) {
+  if (frame.width < 1 || frame.height < 1 || frame.width > 8192 || frame.height > 8192) {
+    throw std::runtime_error(
+        fmt::format("a picture of {} x {} pixels cannot be drawn: each side is 1 to 8192",
+                    frame.width, frame.height));
+  }
+  context_->make_current();
+  statistics_ = {};
+  std::vector<Drawable> vehicles;
+  for (const VehicleDrawing& drawing : frame.vehicles) {
+    if (drawing.links == nullptr) continue;
+    const std::size_t count = std::min(drawing.links->size(), drawing.X_WL.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const VehicleLink& link = (*drawing.links)[i];
+      if (!link.mesh || link.mesh->triangles.empty()) continue;
+      vehicles.push_back(
+          store_.make_drawable(link.mesh, drawing.X_WL[i], SurfaceClass::kVehicle, link.material));
+    }
+  }
+  const double aspect = double{1} * frame.width / frame.height;
+  const double near_m = frame.camera.orthographic ? 0.1 : kNear_m;
+  const double far_m = frame.camera.orthographic ? 3000.0 : kFar_m;
+  const Eigen::Matrix4d clip_from_world = calc_clip_from_world(frame.camera, aspect, near_m, far_m);
+  const Frustum frustum(clip_from_world);
+
+  gl_.FrontFace(GL_CCW);
+  gl_.CullFace(GL_BACK);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LEQUAL);
+  if (shadows_) update_shadows(frame.camera, vehicles);
+  upload_frame_block(frame, clip_from_world);
+  target_.begin(frame.width, frame.height, frame.samples > 1 ? 4 : 1);
+  draw_objects(frame, frustum, vehicles);
+  draw_tufts(frame, frustum);
+  draw_ground(frame, frustum);
+  draw_sky();
+  draw_lines(frame, clip_from_world);
+  Image image = target_.read();
+  check_gl(gl_, "drawing a frame");
+  draw_caption(frame.caption, image);
+  return image;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> make_renderer(const WorldModel& world,
+                                                const RendererSettings& settings) {
+  Result<std::unique_ptr<OffscreenContext>> context = make_osmesa_context();
+  if (!context) return Failure{context.reason()};
+  try {
+    std::unique_ptr<OffscreenContext> current = std::move(context).value();
+    current->make_current();
+    return std::unique_ptr<Renderer>(
+        std::make_unique<GlRenderer>(std::move(current), world, settings));
+  } catch (const std::runtime_error& error) {
+    return Failure{error.what()};
+  }
+}
+
+}  // namespace vinerow::render

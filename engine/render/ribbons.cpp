@@ -1,0 +1,156 @@
+#include "engine/render/ribbons.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/math/angles.h"
+
+namespace vinerow::render {
+
+namespace {
+
+constexpr double kLift_m = 0.04;
+constexpr double kBias_m = 0.12;
+constexpr double kNearW = 0.06;  // least clip w, m in front of the eye
+
+/// Points along the line, close enough for it to follow the ground, none below it.
+std::vector<Eigen::Vector3d> drape(const Polyline& line, const HeightField* field) {
+  std::vector<Eigen::Vector3d> points;
+  const auto add = [&](Eigen::Vector3d p) {
+    if (field != nullptr && field->contains(p.x(), p.y())) {
+      p.z() = std::max(p.z(), field->height_m(p.x(), p.y()) + kLift_m);
+    }
+    points.push_back(p);
+  };
+  const double spacing = field != nullptr ? std::max(0.4, 0.5 * field->cell_m) : 1e9;
+  for (std::size_t i = 0; i < line.points_W.size(); ++i) {
+    if (!line.points_W[i].allFinite()) continue;
+    if (i > 0 && line.points_W[i - 1].allFinite()) {
+      const Eigen::Vector3d step = line.points_W[i] - line.points_W[i - 1];
+      const int pieces = std::min(2000, static_cast<int>(step.norm() / spacing) + 1);
+      for (int k = 1; k < pieces; ++k) add(line.points_W[i - 1] + step * (double{1} * k / pieces));
+    }
+    add(line.points_W[i]);
+  }
+  return points;
+}
+
+class Builder {
+ public:
+  Builder(const Polyline& line, int width_px, int height_px)
+      : half_size_(0.5 * width_px, 0.5 * height_px),
+        half_width_(0.5 * line.width_px),
+        dashed_(line.dashed) {
+    for (int c = 0; c < 3; ++c) colour_[c] = to_byte(line.colour[c]);
+    colour_[3] = to_byte(line.alpha);
+  }
+
+  void segment(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
+    const Eigen::Vector2d pa = pixel(a);
+    const Eigen::Vector2d pb = pixel(b);
+    Eigen::Vector2d along = pb - pa;
+    const double length = along.norm();
+    if (length < 1e-6) return;
+    along /= length;
+    const Eigen::Vector2d side = half_width_ * Eigen::Vector2d(-along.y(), along.x());
+    const double start = travelled_;
+    travelled_ += length;
+    quad(a, b, side, start);
+    if (has_last_) joint(a, last_side_, side, start);
+    last_side_ = side;
+    has_last_ = true;
+  }
+  void interrupt() { has_last_ = false; }
+
+  std::vector<RibbonVertex> vertices;
+
+ private:
+  static std::uint8_t to_byte(float v) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
+  }
+  Eigen::Vector2d pixel(const Eigen::Vector4d& clip) const {
+    return (clip.head<2>() / clip.w()).cwiseProduct(half_size_);
+  }
+  void vertex(const Eigen::Vector4d& clip, const Eigen::Vector2d& offset_px, double along_px) {
+    RibbonVertex v{};
+    const Eigen::Vector2d xy = clip.head<2>() + offset_px.cwiseQuotient(half_size_) * clip.w();
+    v.clip[0] = static_cast<float>(xy.x());
+    v.clip[1] = static_cast<float>(xy.y());
+    v.clip[2] = static_cast<float>(clip.z());
+    v.clip[3] = static_cast<float>(clip.w());
+    std::copy(colour_, colour_ + 4, v.colour);
+    v.along_px = dashed_ ? static_cast<float>(along_px) : -1.0f;
+    vertices.push_back(v);
+  }
+  void quad(const Eigen::Vector4d& a, const Eigen::Vector4d& b, const Eigen::Vector2d& side,
+            double start) {
+    const Eigen::Vector2d other = -side;
+    vertex(a, side, start);
+    vertex(a, other, start);
+    vertex(b, side, travelled_);
+    vertex(b, side, travelled_);
+    vertex(a, other, start);
+    vertex(b, other, travelled_);
+  }
+  /// Fills the open side of a bend.
+  void joint(const Eigen::Vector4d& at, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+             double along_px) {
+    const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+    if (std::abs(turn) < 0.02) return;
+    const double sign = turn > 0.0 ? -1.0 : 1.0;
+    const int steps = 1 + static_cast<int>(std::abs(turn) / 0.5);
+    for (int k = 0; k < steps; ++k) {
+      vertex(at, Eigen::Vector2d::Zero(), along_px);
+      for (int end = 0; end < 2; ++end) {
+        const Eigen::Rotation2Dd rotation(turn * (k + end) / steps);
+        vertex(at, rotation * (sign * from), along_px);
+      }
+    }
+  }
+
+  Eigen::Vector2d half_size_;
+  double half_width_;
+  bool dashed_;
+  std::uint8_t colour_[4];
+  double travelled_ = 0.0;
+  bool has_last_ = false;
+  Eigen::Vector2d last_side_ = {0, 0};
+};
+
+}  // namespace
+
+std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* field,
+                                      const Eigen::Matrix4d& clip_from_world, const Camera& camera,
+                                      int width_px, int height_px) {
+  Builder builder(line, width_px, height_px);
+  const std::vector<Eigen::Vector3d> points = drape(line, field);
+  const Eigen::Vector3d forward = camera.X_WC.q * Eigen::Vector3d::UnitZ();
+  const auto clip_of = [&](const Eigen::Vector3d& p) {
+    Eigen::Vector4d clip = clip_from_world * p.homogeneous();
+    // The depth of a point that is nearer to the eye by the bias, at the same pixel.
+    const double reach = (p - camera.X_WC.p).dot(forward);
+    const double nearer =
+        camera.orthographic ? kBias_m : std::min(kBias_m, 0.3 * std::max(reach, 0.0));
+    const Eigen::Vector4d moved = clip_from_world * (p - forward * nearer).homogeneous();
+    if (moved.w() > 0.0) clip.z() = moved.z() / moved.w() * clip.w();
+    return clip;
+  };
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    Eigen::Vector4d a = clip_of(points[i]);
+    Eigen::Vector4d b = clip_of(points[i + 1]);
+    if (a.w() < kNearW && b.w() < kNearW) {
+      builder.interrupt();
+      continue;
+    }
+    // Cut where the line passes behind the eye.
+    if (a.w() < kNearW) {
+      a += (b - a) * ((kNearW - a.w()) / (b.w() - a.w()));
+      builder.interrupt();
+    }
+    if (b.w() < kNearW) b += (a - b) * ((kNearW - b.w()) / (a.w() - b.w()));
+    builder.segment(a, b);
+  }
+  return std::move(builder.vertices);
+}
+
+}  // namespace vinerow::render

@@ -1,0 +1,28 @@
+#pragma once
+/// Lines of constant pixel width as triangles in clip space.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/api/world_model.h"
+#include "engine/render/scene.h"
+
+namespace vinerow::render {
+
+struct RibbonVertex {
+  float clip[4];
+  std::uint8_t colour[4];  ///< sRGB and alpha
+  float along_px;          ///< from the line's start; -1 where the line is solid
+};
+static_assert(sizeof(RibbonVertex) == 24);
+
+/// Triangles (three vertices each) of a polyline, joints rounded off by short fans.
+///
+/// The line is lifted above the terrain, cut at the near plane, and moved towards the eye by
+/// `bias_m`, so that grass and the ground's roughness do not hide it while posts and rows do.
+/// @param field  may be null
+std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* field,
+                                      const Eigen::Matrix4d& clip_from_world, const Camera& camera,
+                                      int width_px, int height_px);
+
+}  // namespace vinerow::render

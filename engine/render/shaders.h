@@ -1,0 +1,27 @@
+#pragma once
+/// GLSL 3.30 sources, one pair per kind of surface.
+
+#include <string>
+
+namespace vinerow::render::shaders {
+
+struct Pair {
+  std::string vertex;
+  std::string fragment;
+};
+
+Pair sky();
+Pair ground();   ///< terrain and what lies beyond it
+Pair surface();  ///< posts, trunks, vehicles, anything opaque
+Pair foliage();  ///< alpha-tested leaf cards
+Pair grass();    ///< alpha-tested tufts near the camera
+Pair ribbon();   ///< lines in clip space
+Pair shadow_solid();
+Pair shadow_cards();
+
+/// Declarations and functions that the others share: frame block, light, haze, tone.
+const std::string& frame_block();
+const std::string& light_functions();
+const std::string& grass_colour();
+
+}  // namespace vinerow::render::shaders

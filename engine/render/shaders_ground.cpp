@@ -1,0 +1,180 @@
+#include "engine/render/shaders.h"
+
+namespace vinerow::render::shaders {
+
+Pair sky() {
+  const std::string vertex = frame_block() + R"(
+out vec3 direction;
+void main() {
+  vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0;
+  vec4 far_point = world_from_clip * vec4(corner, 1.0, 1.0);
+  vec4 near_point = world_from_clip * vec4(corner, -1.0, 1.0);
+  direction = far_point.xyz / far_point.w - near_point.xyz / near_point.w;
+  gl_Position = vec4(corner, 1.0, 1.0);
+}
+)";
+  const std::string fragment = frame_block() + light_functions() + R"(
+in vec3 direction;
+out vec4 colour;
+uniform sampler2D sky_table;   // u: azimuth from the sun / pi, v: sqrt(elevation / 90 deg)
+uniform sampler2D noise_tile;
+
+void main() {
+  vec3 d = normalize(direction);
+  float elevation = asin(clamp(d.z, 0.0, 1.0));
+  float cos_azimuth = dot(normalize(d.xy + vec2(1e-5)), normalize(sun_direction.xy + vec2(1e-5)));
+  vec2 uv = vec2(acos(clamp(cos_azimuth, -1.0, 1.0)) * kOneOverPi, sqrt(elevation / 1.5707963));
+  uv = uv * (47.0 / 48.0) + 0.5 / 48.0;
+  vec3 radiance = texture(sky_table, uv).rgb;
+
+  // Fair-weather clouds on a plane: thin veils high up, brighter where they face the sun.
+  float away = 1.0 / (max(d.z, 0.0) + 0.10);
+  vec2 p = d.xy * away * 0.115 + vec2(0.37, 0.11);
+  float cover = texture(noise_tile, p).b * 0.72 + texture(noise_tile, p * 3.1 + 0.4).b * 0.28;
+  float lit = texture(noise_tile, p + sun_direction.xy * 0.018).b * 0.72 + 0.14;
+  float cloud = smoothstep(0.53, 0.86, cover) * smoothstep(0.015, 0.20, d.z);
+  vec3 sunlit = sun_irradiance.rgb * 0.16 + sky_irradiance.rgb * 0.22;
+  vec3 shaded = sun_irradiance.rgb * 0.075 + sky_irradiance.rgb * 0.20;
+  float relief = clamp(0.5 + 3.0 * (cover - lit), 0.0, 1.0);
+  radiance = mix(radiance, mix(shaded, sunlit, relief), cloud * 0.85);
+
+  // Sun disc (0.27 deg) and the glow of the haze around it.
+  float toward = dot(d, sun_direction.xyz);
+  float disc = smoothstep(0.999968, 0.999988, toward) * (1.0 - 0.9 * cloud);
+  radiance += sun_irradiance.rgb * (disc * 60.0 + 0.22 * pow(max(toward, 0.0), 900.0));
+
+  // The horizon fades into the same haze that hides the far hills.
+  float low = exp(-max(d.z, 0.0) * 22.0) * 0.75;
+  radiance = mix(radiance, haze_colour(d), d.z < 0.0 ? 0.75 : low);
+  colour = vec4(to_screen(radiance), 1.0);
+}
+)";
+  return {vertex, fragment};
+}
+
+Pair ground() {
+  const std::string vertex = frame_block() + R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 world_from_model;
+out vec3 p_W;
+out vec3 n_W;
+void main() {
+  p_W = (world_from_model * vec4(position, 1.0)).xyz;
+  n_W = mat3(world_from_model) * normal;
+  gl_Position = clip_from_world * vec4(p_W, 1.0);
+}
+)";
+  const std::string fragment = frame_block() + light_functions() + grass_colour() + R"(
+in vec3 p_W;
+in vec3 n_W;
+out vec4 colour;
+uniform sampler2D noise_tile;
+uniform sampler2D ground_tile;  // R grass, G dryness, B soil, A height
+uniform sampler2D row_mask;     // distances / 2.55 m: R to a row, G to the middle of an alley
+
+void main() {
+  vec3 n = normalize(n_W);
+  vec2 q = p_W.xy;
+  float away = length(p_W - eye.xyz);
+  vec4 macro = texture(noise_tile, q * 0.0163);
+  vec4 meso = texture(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3);
+  vec4 fine = texture(ground_tile, q * 0.476);
+  vec4 wide = texture(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7);
+  vec4 detail = mix(fine, wide, 0.38);
+
+  vec2 d = vec2(1.0);
+  vec2 uv = (q - mask_rect.xy) * mask_rect.zw;
+  if (all(greaterThan(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)))) d = texture(row_mask, uv).rg;
+  d *= 2.55;
+
+  // Bare strip under the vines, ragged at its edges and with weeds in it; wheel tracks beside it.
+  float ragged = (meso.a - 0.5) * 0.22 + (detail.a - 0.5) * 0.20;
+  float strip = 1.0 - smoothstep(0.26, 0.46, d.x + ragged);
+  strip *= 1.0 - 0.55 * smoothstep(0.52, 0.75, meso.g + 0.4 * (detail.a - 0.5));
+  float track = 1.0 - smoothstep(0.07, 0.24, abs(d.y - 0.60) + 0.5 * ragged);
+  track *= 0.62 * smoothstep(0.15, 0.7, meso.r + 0.25);
+  float scar = smoothstep(0.70, 0.86, meso.r * 0.6 + macro.g * 0.5) * 0.55;
+  float steep = smoothstep(0.55, 0.85, 1.0 - n.z + 0.3 * (meso.r - 0.5));
+  float bare = clamp(max(max(strip, track), max(scar, steep)) + (0.5 - detail.a) * 0.25 * step(0.02, max(strip, track)), 0.0, 1.0);
+
+  vec2 tone = vec2(macro.r * 0.6 + meso.g * 0.4, macro.g * 0.65 + meso.r * 0.35);
+  vec3 grass = grass_albedo(detail.r * 1.15, detail.g, tone);
+  // The mown middle of an alley is lighter, the fringe at the vines taller and darker.
+  grass *= 0.86 + 0.22 * smoothstep(0.9, 0.2, d.y);
+  vec3 soil = mix(vec3(0.105, 0.068, 0.042), vec3(0.36, 0.268, 0.178), detail.b * 0.9 + 0.25 * (meso.r - 0.5));
+  vec3 albedo = mix(grass, soil, bare);
+
+  // Far fields: meadow, stubble and dark woods take turns over hundreds of metres.
+  float far = smoothstep(90.0, 500.0, away);
+  if (far > 0.0) {
+    vec4 fields = texture(noise_tile, q * 0.00071 + 0.2);
+    vec3 patch_colour = mix(vec3(0.075, 0.105, 0.034), vec3(0.215, 0.195, 0.085), smoothstep(0.42, 0.60, fields.r));
+    patch_colour = mix(patch_colour, vec3(0.022, 0.040, 0.016), smoothstep(0.55, 0.62, fields.a * 0.6 + meso.b * 0.15 + macro.b * 0.25));
+    albedo = mix(albedo, patch_colour * (0.75 + 0.5 * macro.b), far * 0.85);
+  }
+
+  float sun = sun_visibility(p_W, n, 0.0);
+  float relief = 0.80 + 0.35 * (detail.a + detail.r * (1.0 - bare) * 0.4);
+  vec3 light = sun_irradiance.rgb * (max(dot(n, sun_direction.xyz), 0.0) * sun) + ambient(n) * relief;
+  // The foot of the vines sees little sky.
+  light *= 1.0 - 0.22 * (1.0 - smoothstep(0.0, 0.8, d.x));
+  colour = vec4(finish(albedo * light * kOneOverPi, p_W), 1.0);
+}
+)";
+  return {vertex, fragment};
+}
+
+Pair grass() {
+  const std::string vertex = frame_block() + R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 tint;  // r: brightness, g: dryness, b: height above ground / 0.5 m, a: layer
+uniform sampler2D noise_tile;
+out vec3 p_W;
+out vec3 n_W;
+out vec3 card;
+out vec2 tone;
+out vec2 shade;
+void main() {
+  p_W = position;
+  n_W = normal;
+  card = vec3(uv, floor(tint.a * 255.0 + 0.5));
+  vec2 q = position.xy;
+  vec4 macro = textureLod(noise_tile, q * 0.0163, 0.0);
+  vec4 meso = textureLod(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3, 0.0);
+  tone = vec2(macro.r * 0.6 + meso.g * 0.4, macro.g * 0.65 + meso.r * 0.35);
+  shade = tint.rg;
+  gl_Position = clip_from_world * vec4(p_W, 1.0);
+}
+)";
+  const std::string fragment = frame_block() + light_functions() + grass_colour() + R"(
+in vec3 p_W;
+in vec3 n_W;
+in vec3 card;
+in vec2 tone;
+in vec2 shade;
+out vec4 colour;
+uniform sampler2DArray leaf_cards;
+uniform float coverage;  // 1: alpha becomes coverage of the samples
+
+void main() {
+  vec4 blade = texture(leaf_cards, card);
+  float alpha = coverage > 0.5 ? clamp((blade.a - 0.5) / max(fwidth(blade.a), 0.02) + 0.5, 0.0, 1.0) : blade.a;
+  if (alpha < (coverage > 0.5 ? 0.02 : 0.5)) discard;
+  vec3 n = normalize(n_W);
+  float brightness = clamp(blade.r * shade.r * 1.25, 0.0, 1.0);
+  vec3 albedo = grass_albedo(brightness, (blade.g - 0.2) / 0.6 * 0.7 + shade.g * 0.3, tone);
+  float sun = sun_visibility(p_W, n, 0.03);
+  vec3 view = view_direction(p_W);
+  float through = pow(clamp(dot(view, sun_direction.xyz), 0.0, 1.0), 3.0) * card.y;
+  float lit = max(dot(n, sun_direction.xyz), 0.0) * (0.75 + 0.35 * card.y) + 0.55 * through;
+  vec3 light = sun_irradiance.rgb * lit * sun + ambient(n) * (0.6 + 0.4 * card.y);
+  colour = vec4(finish(albedo * light * kOneOverPi, p_W), alpha);
+}
+)";
+  return {vertex, fragment};
+}
+
+}  // namespace vinerow::render::shaders

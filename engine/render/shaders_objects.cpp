@@ -1,0 +1,184 @@
+#include "engine/render/shaders.h"
+
+namespace vinerow::render::shaders {
+
+namespace {
+
+const char* const kMeshVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv_in;
+layout(location = 3) in vec4 tint;  // rgb; a: card layer
+uniform mat4 world_from_model;
+out vec3 p_W;
+out vec3 n_W;
+out vec3 p_M;
+out vec2 uv;
+flat out float layer;
+out vec3 vertex_colour;
+void main() {
+  p_M = position;
+  p_W = (world_from_model * vec4(position, 1.0)).xyz;
+  n_W = mat3(world_from_model) * normal;
+  uv = uv_in;
+  layer = floor(tint.a * 255.0 + 0.5);
+  vertex_colour = tint.rgb * tint.rgb;
+  gl_Position = clip_from_world * vec4(p_W, 1.0);
+}
+)";
+
+}  // namespace
+
+Pair surface() {
+  const std::string fragment = frame_block() + light_functions() + R"(
+in vec3 p_W;
+in vec3 n_W;
+in vec3 p_M;
+in vec2 uv;
+flat in float layer;
+in vec3 vertex_colour;
+out vec4 colour;
+uniform sampler2D image;
+uniform vec4 material;       // rgb, a: roughness
+uniform float texture_mode;  // 0 none, 1 by uv, 2 grain along z of the mesh
+
+void main() {
+  vec3 n = normalize(n_W);
+  vec3 v = -view_direction(p_W);
+  if (!gl_FrontFacing) n = -n;
+  vec3 albedo = material.rgb * vertex_colour;
+  if (texture_mode > 1.5) {
+    albedo *= pow(texture(image, vec2((p_M.x + p_M.y) * 4.0, p_M.z * 0.8)).rgb, vec3(2.2)) * 1.9;
+  } else if (texture_mode > 0.5) {
+    albedo *= pow(texture(image, uv).rgb, vec3(2.2));
+  }
+  float sun = sun_visibility(p_W, n, 0.0);
+  float n_l = max(dot(n, sun_direction.xyz), 0.0);
+
+  // Specular: GGX with F0 = 0.04 and the visibility approximation of Karis (SIGGRAPH 2013 course).
+  float rough = clamp(material.a, 0.08, 1.0);
+  float a2 = rough * rough * rough * rough;
+  vec3 h = normalize(sun_direction.xyz + v);
+  float n_h = max(dot(n, h), 0.0);
+  float n_v = max(dot(n, v), 0.02);
+  float denominator = n_h * n_h * (a2 - 1.0) + 1.0;
+  float k = (rough + 1.0) * (rough + 1.0) * 0.125;
+  float visible = 0.25 / ((n_l * (1.0 - k) + k) * (n_v * (1.0 - k) + k));
+  float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(h, v), 0.0), 5.0);
+  float specular = min(a2 * kOneOverPi / (denominator * denominator) * visible * fresnel, 8.0);
+
+  // Mirror image of sky and ground, blurred by roughness.
+  vec3 r = reflect(-v, n);
+  float sky_share = smoothstep(-0.15 - 0.5 * rough, 0.15 + 0.5 * rough, r.z);
+  vec3 mirrored = mix(ground_irradiance.rgb, mix(haze_from_sun.rgb * 2.6, sky_irradiance.rgb, clamp(r.z, 0.0, 1.0)), sky_share) * kOneOverPi;
+  float edge = 0.04 + (max(1.0 - rough, 0.04) - 0.04) * pow(1.0 - n_v, 5.0);
+
+  vec3 radiance = albedo * kOneOverPi * (sun_irradiance.rgb * (n_l * sun) + ambient(n));
+  radiance += sun_irradiance.rgb * (specular * n_l * sun) + mirrored * edge;
+  colour = vec4(finish(radiance, p_W), 1.0);
+}
+)";
+  return {frame_block() + kMeshVertex, fragment};
+}
+
+Pair foliage() {
+  const std::string fragment = frame_block() + light_functions() + R"(
+in vec3 p_W;
+in vec3 n_W;
+in vec3 p_M;
+in vec2 uv;
+flat in float layer;
+in vec3 vertex_colour;
+out vec4 colour;
+uniform sampler2DArray leaf_cards;
+uniform vec4 material;
+uniform float coverage;  // 1: alpha becomes coverage of the samples
+
+void main() {
+  vec4 leaf = texture(leaf_cards, vec3(uv, layer));
+  float alpha = coverage > 0.5 ? clamp((leaf.a - 0.5) / max(fwidth(leaf.a), 0.02) + 0.5, 0.0, 1.0) : leaf.a;
+  if (alpha < (coverage > 0.5 ? 0.02 : 0.5)) discard;
+
+  // Normal of the canopy's volume, tilted leaf by leaf.
+  vec3 n = normalize(n_W);
+  vec3 t = normalize(vec3(n.y, -n.x, 0.02));
+  vec2 tilt = (leaf.gb - 0.5) * 2.2;
+  n = normalize(n + t * tilt.x + cross(n, t) * tilt.y);
+
+  vec3 v = -view_direction(p_W);
+  float n_l = dot(n, sun_direction.xyz);
+  float sun = sun_visibility(p_W, n, 0.10);
+  vec3 albedo = material.rgb * vertex_colour * (0.30 + 1.40 * leaf.r);
+  // Leaves let about a third of the light through, yellower than what they reflect.
+  float front = max((n_l + 0.25) / 1.25, 0.0);
+  float toward = max(dot(-v, sun_direction.xyz), 0.0);
+  float through = max((0.35 - n_l) / 1.35, 0.0) * (0.35 + 1.1 * toward * toward * toward);
+  vec3 transmitted = albedo * vec3(1.35, 1.30, 0.45);
+  vec3 h = normalize(sun_direction.xyz + v);
+  float gloss = pow(max(dot(n, h), 0.0), 22.0) * 0.045;
+
+  vec3 direct = sun_irradiance.rgb * sun;
+  vec3 radiance = kOneOverPi * (albedo * (direct * front + ambient(n)) + transmitted * direct * through);
+  radiance += direct * gloss;
+  colour = vec4(finish(radiance, p_W), alpha);
+}
+)";
+  return {frame_block() + kMeshVertex, fragment};
+}
+
+Pair ribbon() {
+  const std::string vertex = R"(#version 330 core
+layout(location = 0) in vec4 position;  // clip space
+layout(location = 1) in vec4 tint;
+layout(location = 2) in float along;    // pixels from the line's start, or -1 for solid lines
+out vec4 line_colour;
+out float distance_px;
+void main() {
+  line_colour = tint;
+  distance_px = along;
+  gl_Position = position;
+}
+)";
+  const std::string fragment = R"(#version 330 core
+in vec4 line_colour;
+in float distance_px;
+out vec4 colour;
+void main() {
+  if (distance_px >= 0.0 && fract(distance_px / 18.0) > 0.58) discard;
+  colour = line_colour;
+}
+)";
+  return {vertex, fragment};
+}
+
+namespace {
+
+const char* const kShadowVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec2 uv_in;
+layout(location = 3) in vec4 tint;
+uniform mat4 clip_from_model;
+out vec3 card;
+void main() {
+  card = vec3(uv_in, floor(tint.a * 255.0 + 0.5));
+  gl_Position = clip_from_model * vec4(position, 1.0);
+}
+)";
+
+}  // namespace
+
+Pair shadow_solid() {
+  return {kShadowVertex, "#version 330 core\nvoid main() {}\n"};
+}
+
+Pair shadow_cards() {
+  return {kShadowVertex, R"(#version 330 core
+in vec3 card;
+uniform sampler2DArray leaf_cards;
+void main() {
+  if (texture(leaf_cards, card).a < 0.5) discard;
+}
+)"};
+}
+
+}  // namespace vinerow::render::shaders

@@ -1,0 +1,27 @@
+#pragma once
+/// Which texture unit each sampler of the shaders reads.
+
+namespace vinerow::render {
+
+enum TextureUnit : int {
+  kUnitShadow = 0,
+  kUnitSky = 1,
+  kUnitNoise = 2,
+  kUnitGround = 3,
+  kUnitMask = 4,
+  kUnitLeaves = 5,
+  kUnitImage = 6,
+};
+
+struct SamplerUnit {
+  const char* name;
+  int unit;
+};
+
+inline constexpr SamplerUnit kSamplerUnits[] = {
+    {"shadow_maps", kUnitShadow}, {"sky_table", kUnitSky}, {"noise_tile", kUnitNoise},
+    {"ground_tile", kUnitGround}, {"row_mask", kUnitMask}, {"leaf_cards", kUnitLeaves},
+    {"image", kUnitImage},
+};
+
+}  // namespace vinerow::render

@@ -18,8 +18,9 @@ namespace vinerow::io {
 /// A part as named in a scenario: `type`, `rate_Hz`, and its parameters at the same level.
 struct PartConfig {
   std::string type;
-  /// The given one, the spec's default, or the physics step's where that default is 0; 0 where the
-  /// kind has none.
+  /// The given one or the spec's default. Where that default is 0: the physics step's rate for
+  /// sensors and controllers, and 0 ("as often as the controller") for estimators, guidance and
+  /// metrics. 0 also where the kind has no rate.
   double rate_Hz = 0.0;
   ParameterSet parameters;
   SourceMark where;

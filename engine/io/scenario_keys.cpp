@@ -213,13 +213,18 @@ bool has_rate(PartKind kind) {
          kind == PartKind::kController || kind == PartKind::kMetric;
 }
 
-ParameterSpec rate_field(const PartSpec& part) {
+bool follows_controller(PartKind kind) {
+  return kind == PartKind::kEstimator || kind == PartKind::kGuidance || kind == PartKind::kMetric;
+}
+
+ParameterSpec rate_field(PartKind kind, const PartSpec& part) {
   ParameterSpec spec = number_parameter("rate_Hz", "Hz", part.default_rate_Hz, 1e-6, 1e6,
                                         "how often it runs; its period is a multiple of the "
                                         "physics step");
   if (part.default_rate_Hz <= 0.0) {
     spec = optional(spec);
-    spec.description = "how often it runs; default: every physics step";
+    spec.description = follows_controller(kind) ? "how often it runs; default: like the controller"
+                                                : "how often it runs; default: every physics step";
   }
   return spec;
 }

@@ -59,8 +59,11 @@ std::vector<ParameterSpec> camera_fields(const std::string& kind);
 
 /// Whether parts of a kind have a `rate_Hz`.
 bool has_rate(PartKind kind);
+/// Kinds whose parts run as often as the controller where neither the file nor their spec says a
+/// rate. Parts of other kinds then run every physics step.
+bool follows_controller(PartKind kind);
 /// `rate_Hz` of a part, with the part's default.
-ParameterSpec rate_field(const PartSpec& part);
+ParameterSpec rate_field(PartKind kind, const PartSpec& part);
 
 /// Names of vehicles, sensors, metrics and cameras, as a regular expression that JSON Schema and
 /// the loader share.

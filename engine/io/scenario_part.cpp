@@ -135,7 +135,7 @@ ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kin
   part.resolved.put("type", yaml_text(spec.name));
   if (rated) {
     ReadParameters rate =
-        read_parameters(entry.value, entry.mark, path, {rate_field(spec)}, spec.name);
+        read_parameters(entry.value, entry.mark, path, {rate_field(kind, spec)}, spec.name);
     for (YamlEntry& written : rate.resolved.entries) {
       part.resolved.put(written.key, std::move(written.value));
     }
@@ -144,7 +144,7 @@ ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kin
       part.config.rate_Hz = rate.values.number("rate_Hz");
       check_rate(part.config.rate_Hz, context.physics_step, given ? given->mark : entry.mark,
                  join_path(path, "rate_Hz"));
-    } else {
+    } else if (!follows_controller(kind)) {
       // The part asks for every physics step; llround in period_of_rate brings the same step back.
       part.config.rate_Hz = 1e9 / static_cast<double>(context.physics_step.ns);
     }

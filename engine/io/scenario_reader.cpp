@@ -290,9 +290,10 @@ Duration check_rate(double rate_Hz, Duration physics_step, const SourceMark& mar
   const std::string fitting =
       steps == 0 ? rate_of(1) + " is the fastest"
                  : fmt::format("{} and {} fit", rate_of(steps + 1), rate_of(steps));
-  fail_at(mark, fmt::format("{} = {} Hz, its period of {:.9g} s is not a whole number of physics steps "
-                            "of {} s; {}",
-                            path, rate_Hz, period.s(), physics_step.s(), fitting));
+  fail_at(mark,
+          fmt::format("{} = {} Hz, its period of {:.9g} s is not a whole number of physics steps "
+                      "of {} s; {}",
+                      path, rate_Hz, period.s(), physics_step.s(), fitting));
 }
 
 std::vector<std::string> names_of(const std::vector<ParameterSpec>& specs) {

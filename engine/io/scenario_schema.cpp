@@ -285,7 +285,7 @@ class SchemaBuilder {
   Json part_schema(PartKind kind, const PartSpec& spec, bool partial) const {
     Json properties = {{"type", {{"const", spec.name}, {"description", spec.description}}}};
     std::vector<std::string> required_keys = {"type"};
-    if (has_rate(kind)) properties["rate_Hz"] = parameter_schema(rate_field(spec), partial);
+    if (has_rate(kind)) properties["rate_Hz"] = parameter_schema(rate_field(kind, spec), partial);
     for (const ParameterSpec& field : spec.parameters) {
       properties[field.name] = parameter_schema(field, partial);
       if (field.required) required_keys.push_back(field.name);

@@ -67,7 +67,7 @@ inline Registry fake_registry() {
       nullptr);
   registry.add_controller(fake_spec("stop", {}, 20.0), nullptr);
   registry.add_metric(fake_spec("deviation", {}, 40.0), nullptr);
-  registry.add_metric(fake_spec("distance", {}, 20.0), nullptr);
+  registry.add_metric(fake_spec("distance", {}, 0.0), nullptr);
   registry.add_metric(
       fake_spec("picky", {required(text_parameter("what", "", "to measure"))}, 20.0), nullptr);
   return registry;

@@ -159,6 +159,7 @@ TEST(Scenario, FillsInDefaults) {
   ASSERT_EQ(s.metrics.size(), 2u);
   EXPECT_EQ(s.metrics[0].name, "deviation");
   EXPECT_EQ(s.metrics[1].name, "distance");
+  EXPECT_EQ(s.metrics[1].part.rate_Hz, 0.0) << "as often as the controller";
   EXPECT_TRUE(s.pictures.cameras.empty()) << "no pictures unless asked";
   EXPECT_TRUE(s.record.enabled);
 }

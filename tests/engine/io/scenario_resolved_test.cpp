@@ -59,7 +59,6 @@ TEST(ResolvedScenario, WritesDefaultsSourcesAndAbsolutePaths) {
                 "    rate_Hz: 40\n"
                 "  distance:\n"
                 "    type: distance\n"
-                "    rate_Hz: 20\n"
                 "criteria:\n"
                 "  - metric: rover.distance_m\n"
                 "    min: 3\n"

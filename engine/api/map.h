@@ -2,6 +2,7 @@
 /// Plain data about a vineyard, shared by the true world and by the maps that vehicles are told.
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,24 @@ struct Alley {
   double width_m = 2.5;                 ///< between the rows' centre lines
 };
 
+/// Which squares of the ground are taken: 1 by an obstacle, 0 free. Square (i, j) covers the cell whose lower left
+/// corner is corner_W + cell_m * (i, j).
+struct OccupancyGrid {
+  int columns = 0;  ///< along x; 0: there is no grid
+  int rows = 0;     ///< along y
+  double cell_m = 1.0;
+  Eigen::Vector2d corner_W = {0, 0};
+  std::vector<std::uint8_t> cells;  ///< rows * columns, x fastest
+
+  bool occupied(int i, int j) const { return cells[static_cast<std::size_t>(j) * columns + i] != 0; }
+};
+
 /// What guidance and estimators know of the world.
 struct RowMap {
   std::vector<PlantRow> rows;
   std::vector<Alley> alleys;                ///< in driving order across the block
   std::vector<Eigen::Vector2d> boundary_W;  ///< parcel polygon, counter-clockwise, or empty
+  OccupancyGrid occupancy;                  ///< empty where the world has none
 };
 
 }  // namespace vinerow

@@ -59,4 +59,13 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file,
   if (!stream) throw ConfigError(fmt::format("mesh file '{}' cannot be written", file.string()));
 }
 
+std::string read_ply_comment(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string kComment = "comment ";
+  for (std::string line; std::getline(stream, line) && line != "end_header";) {
+    if (line.rfind(kComment, 0) == 0) return line.substr(kComment.size());
+  }
+  return "";
+}
+
 }  // namespace vinerow::io

@@ -17,4 +17,8 @@ namespace vinerow::io {
 void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file,
                const std::string& comment = "");
 
+/// The first `comment` line of a PLY file, without the word. @returns "" where there is none or no
+/// such file
+std::string read_ply_comment(const std::filesystem::path& file);
+
 }  // namespace vinerow::io

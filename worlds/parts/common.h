@@ -1,0 +1,25 @@
+#pragma once
+/// Parameters that all worlds share: place on Earth, light, soil.
+
+#include <vector>
+
+#include "engine/api/parameters.h"
+#include "engine/api/world_model.h"
+
+namespace vinerow::worlds {
+
+/// `origin_latitude_deg`, `origin_longitude_deg`, `origin_altitude_m`.
+std::vector<ParameterSpec> origin_parameters(double latitude_deg, double longitude_deg,
+                                             double altitude_m);
+/// @throws ConfigError never: ranges are in the specs. Where latitude or longitude is absent the
+/// given one counts.
+GeoOrigin read_origin(const ParameterSet& parameters, const GeoOrigin& otherwise = {});
+
+/// `soil`, `sun_azimuth_deg`, `sun_elevation_deg`.
+std::vector<ParameterSpec> surroundings_parameters();
+void read_surroundings(const ParameterSet& parameters, WorldModel& world);
+
+/// Lists joined in order.
+std::vector<ParameterSpec> concatenate(std::vector<std::vector<ParameterSpec>> lists);
+
+}  // namespace vinerow::worlds

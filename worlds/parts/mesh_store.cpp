@@ -1,0 +1,167 @@
+#include "worlds/parts/mesh_store.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+#include "engine/io/mesh_file.h"
+#include "engine/io/mesh_writer.h"
+
+namespace vinerow::worlds {
+namespace {
+
+/// Files have one mesh each, kept vertex by vertex.
+std::shared_ptr<const TriangleMesh> read_back(const std::filesystem::path& file) {
+  io::MeshFileOptions options;
+  options.join_vertices = false;
+  const io::MeshFile content = io::load_mesh(file, options);
+  return content.parts.size() == 1 ? content.parts.front().mesh : nullptr;
+}
+
+/// What load_mesh would leave out: triangles without area.
+void drop_degenerate(TriangleMesh& mesh) {
+  const auto flat = [&](const std::array<std::uint32_t, 3>& t) {
+    const Eigen::Vector3f& a = mesh.vertices[t[0]];
+    const Eigen::Vector3f ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
+    return !(ab.cast<double>().cross(ac.cast<double>()).squaredNorm() > 0.0);
+  };
+  std::erase_if(mesh.triangles, flat);
+}
+
+std::string file_name_of(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '-');
+  std::replace(name.begin(), name.end(), '#', '.');
+  return name + ".ply";
+}
+
+constexpr const char* kDigestWord = "vinerow mesh ";
+
+}  // namespace
+
+std::shared_ptr<const TriangleMesh> MemoryMeshStore::get(
+    const std::string& name, const std::function<TriangleMesh()>& make) {
+  auto& mesh = meshes_[name];
+  if (!mesh) mesh = std::make_shared<const TriangleMesh>(make());
+  return mesh;
+}
+
+FileMeshStore::FileMeshStore(std::filesystem::path folder) : folder_(std::move(folder)) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) {
+    throw ConfigError(fmt::format("folder '{}' for mesh files cannot be made: {}", folder_.string(),
+                                  error.message()));
+  }
+}
+
+std::shared_ptr<const TriangleMesh> FileMeshStore::get(const std::string& name,
+                                                       const std::function<TriangleMesh()>& make) {
+  auto& known = meshes_[name];
+  if (known) return known;
+  const std::filesystem::path file = folder_ / file_name_of(name);
+  const std::string comment = io::read_ply_comment(file);
+  if (comment.rfind(kDigestWord, 0) == 0) {
+    try {
+      const auto mesh = read_back(file);
+      if (mesh && kDigestWord + mesh_digest(*mesh) == comment) return known = mesh;
+    } catch (const ConfigError&) {
+      // A damaged file of our own is no fault of the user's: it is made again below.
+    }
+  }
+  TriangleMesh fresh = make();
+  drop_degenerate(fresh);
+  const std::filesystem::path partial =
+      folder_ / fmt::format("{}.{}.{}.partial.ply", file_name_of(name), ::getpid(), files_written_);
+  io::write_ply(fresh, partial, kDigestWord + mesh_digest(fresh));
+  std::error_code error;
+  std::filesystem::rename(partial, file, error);
+  if (error) {
+    throw ConfigError(
+        fmt::format("mesh file '{}' cannot be written: {}", file.string(), error.message()));
+  }
+  ++files_written_;
+  known = read_back(file);
+  VINEROW_DEMAND(known && mesh_digest(*known) == mesh_digest(fresh));
+  return known;
+}
+
+std::filesystem::path find_cache_folder() {
+  std::vector<std::filesystem::path> candidates;
+  const auto add = [&](const char* variable, const char* below) {
+    const char* value = std::getenv(variable);
+    if (value != nullptr && *value != '\0') {
+      candidates.push_back(std::filesystem::path(value) / below);
+    }
+  };
+  add("VINEROW_CACHE", "");
+  add("XDG_CACHE_HOME", "vinerow");
+  add("HOME", ".cache/vinerow");
+  std::error_code error;
+  const std::filesystem::path temporary = std::filesystem::temp_directory_path(error);
+  if (!error) candidates.push_back(temporary / fmt::format("vinerow-{}", ::getuid()));
+  std::vector<std::string> tried;
+  for (const std::filesystem::path& folder : candidates) {
+    std::filesystem::create_directories(folder, error);
+    if (!error && ::access(folder.c_str(), W_OK) == 0) return folder;
+    tried.push_back(folder.string());
+  }
+  throw ConfigError(fmt::format(
+      "no folder for generated mesh files can be written (tried: {}); set VINEROW_CACHE to one",
+      join(tried)));
+}
+
+std::string mesh_digest(const TriangleMesh& mesh) {
+  Hasher hasher;
+  const auto add = [&](const auto& list) {
+    hasher.add(static_cast<std::uint64_t>(list.size()));
+    if (!list.empty()) hasher.add_bytes(list.data(), list.size() * sizeof(list[0]));
+  };
+  add(mesh.vertices);
+  add(mesh.triangles);
+  add(mesh.normals);
+  add(mesh.uvs);
+  add(mesh.colours);
+  return hasher.hex();
+}
+
+void add_parameters(Hasher& hasher, const ParameterSet& parameters) {
+  for (const ParameterSpec& spec : parameters.specs()) {
+    if (!parameters.has(spec.name)) continue;
+    hasher.add(spec.name);
+    switch (spec.kind) {
+      case ParameterKind::kNumber:
+        hasher.add(parameters.number(spec.name));
+        break;
+      case ParameterKind::kInteger:
+        hasher.add(parameters.integer(spec.name));
+        break;
+      case ParameterKind::kBoolean:
+        hasher.add(parameters.boolean(spec.name));
+        break;
+      case ParameterKind::kText:
+      case ParameterKind::kPath:
+        hasher.add(parameters.text(spec.name));
+        break;
+      case ParameterKind::kNumberList:
+        for (const double number : parameters.numbers(spec.name)) hasher.add(number);
+        break;
+      case ParameterKind::kTextList:
+        for (const std::string& text : parameters.texts(spec.name)) hasher.add(text);
+        break;
+      case ParameterKind::kGroup:
+      case ParameterKind::kGroupList:
+        for (const ParameterSet& group : parameters.groups(spec.name)) {
+          add_parameters(hasher, group);
+        }
+        break;
+    }
+  }
+}
+
+}  // namespace vinerow::worlds

@@ -1,0 +1,112 @@
+#include "worlds/parts/primitives.h"
+
+#include <cmath>
+
+#include "engine/core/check.h"
+#include "engine/math/angles.h"
+
+namespace vinerow::worlds {
+
+Eigen::Vector3d any_orthogonal(const Eigen::Vector3d& unit) {
+  const Eigen::Vector3d helper =
+      std::abs(unit.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+  return unit.cross(helper).normalized();
+}
+
+void append_tube(TriangleMesh& mesh, std::span<const TubePoint> points, int sides,
+                 const Eigen::Vector3f& colour) {
+  VINEROW_DEMAND(points.size() >= 2 && sides >= 3);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto n = static_cast<std::uint32_t>(sides);
+  const auto rings = static_cast<std::uint32_t>(points.size());
+  Eigen::Vector3d across = any_orthogonal((points[1].p - points[0].p).normalized());
+  const auto add = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
+    mesh.vertices.push_back(p.cast<float>());
+    mesh.normals.push_back(normal.cast<float>());
+    mesh.colours.push_back(colour);
+  };
+  for (std::uint32_t r = 0; r < rings; ++r) {
+    const Eigen::Vector3d before = points[r == 0 ? 0 : r - 1].p;
+    const Eigen::Vector3d after = points[r + 1 == rings ? r : r + 1].p;
+    const Eigen::Vector3d along = (after - before).normalized();
+    // The ring's zero direction is carried along, so that the tube does not twist.
+    across = (across - across.dot(along) * along).normalized();
+    const Eigen::Vector3d other = along.cross(across);
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const double angle = 2.0 * kPi * k / n;
+      const Eigen::Vector3d out = std::cos(angle) * across + std::sin(angle) * other;
+      add(points[r].p + points[r].radius_m * out, out);
+    }
+  }
+  for (std::uint32_t r = 0; r + 1 < rings; ++r) {
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::uint32_t a = first + r * n + k, b = first + r * n + (k + 1) % n;
+      mesh.triangles.push_back({a, b, b + n});
+      mesh.triangles.push_back({a, b + n, a + n});
+    }
+  }
+  const auto cap = [&](std::uint32_t ring, bool at_end) {
+    const auto centre = static_cast<std::uint32_t>(mesh.vertices.size());
+    const std::uint32_t neighbour = at_end ? ring - 1 : ring + 1;
+    add(points[ring].p, (points[ring].p - points[neighbour].p).normalized());
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::uint32_t a = first + ring * n + k, b = first + ring * n + (k + 1) % n;
+      if (at_end) {
+        mesh.triangles.push_back({centre, a, b});
+      } else {
+        mesh.triangles.push_back({centre, b, a});
+      }
+    }
+  };
+  cap(0, false);
+  cap(rings - 1, true);
+}
+
+void append_card(TriangleMesh& mesh, const LeafCard& card) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const Eigen::Vector3d corners[4] = {card.stem - card.side, card.stem + card.side,
+                                      card.tip + card.side, card.tip - card.side};
+  constexpr float kUv[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (int k = 0; k < 4; ++k) {
+    mesh.vertices.push_back(corners[k].cast<float>());
+    mesh.normals.push_back(card.normal.cast<float>());
+    mesh.uvs.emplace_back(kUv[k][0], kUv[k][1]);
+    mesh.colours.push_back(card.colour);
+  }
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+void append_mesh(TriangleMesh& mesh, const TriangleMesh& other, const Pose& X) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Eigen::Vector3f& v : other.vertices) {
+    mesh.vertices.push_back((X * v.cast<double>()).cast<float>());
+  }
+  for (const Eigen::Vector3f& n : other.normals) {
+    mesh.normals.push_back((X.q * n.cast<double>()).cast<float>());
+  }
+  mesh.uvs.insert(mesh.uvs.end(), other.uvs.begin(), other.uvs.end());
+  mesh.colours.insert(mesh.colours.end(), other.colours.begin(), other.colours.end());
+  for (const auto& t : other.triangles) {
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+}
+
+void calc_vertex_normals(TriangleMesh& mesh) {
+  std::vector<Eigen::Vector3d> sums(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
+    const Eigen::Vector3d b = mesh.vertices[t[1]].cast<double>();
+    const Eigen::Vector3d c = mesh.vertices[t[2]].cast<double>();
+    const Eigen::Vector3d area = (b - a).cross(c - a);
+    for (const std::uint32_t v : t) sums[v] += area;
+  }
+  mesh.normals.clear();
+  for (const Eigen::Vector3d& sum : sums) {
+    const double length = sum.norm();
+    mesh.normals.push_back(length > 0.0 ? Eigen::Vector3f((sum / length).cast<float>())
+                                        : Eigen::Vector3f::UnitZ());
+  }
+}
+
+}  // namespace vinerow::worlds

@@ -1,0 +1,48 @@
+#pragma once
+/// Small building blocks of plant and trellis meshes, appended to a growing mesh.
+///
+/// Vertices are in the frame of the points given. Cost: heap for the mesh only.
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "engine/api/mesh.h"
+
+namespace vinerow::worlds {
+
+/// A ring of a tube.
+struct TubePoint {
+  Eigen::Vector3d p;
+  double radius_m;
+};
+
+/// Appends a closed tube of round cross-section through the points, with end caps, normals and
+/// colours.
+/// @param points  >= 2, neighbours apart from each other
+/// @param sides   >= 3
+void append_tube(TriangleMesh& mesh, std::span<const TubePoint> points, int sides,
+                 const Eigen::Vector3f& colour);
+
+/// A flat quad of two triangles that carries a leaf picture.
+struct LeafCard {
+  Eigen::Vector3d stem;    ///< middle of the lower edge (uv 0.5, 0)
+  Eigen::Vector3d tip;     ///< middle of the upper edge (uv 0.5, 1)
+  Eigen::Vector3d side;    ///< from the middle line to the right edge, m
+  Eigen::Vector3d normal;  ///< for shading, unit; blended outward by the caller
+  Eigen::Vector3f colour;
+};
+
+/// Appends uv in [0, 1]^2, v from stem to tip.
+void append_card(TriangleMesh& mesh, const LeafCard& card);
+
+/// Appends a mesh moved by X.
+void append_mesh(TriangleMesh& mesh, const TriangleMesh& other, const Pose& X);
+
+/// A unit vector at right angles to a unit vector.
+Eigen::Vector3d any_orthogonal(const Eigen::Vector3d& unit);
+
+/// Area-weighted vertex normals; replaces `normals`. Vertices without triangles get +z.
+void calc_vertex_normals(TriangleMesh& mesh);
+
+}  // namespace vinerow::worlds

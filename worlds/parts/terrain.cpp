@@ -1,0 +1,120 @@
+#include "worlds/parts/terrain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/io/raster.h"
+#include "engine/math/angles.h"
+
+namespace vinerow::worlds {
+
+TerrainSurface::TerrainSurface(const TerrainShape& shape, RandomStream random) : shape_(shape) {
+  constexpr int kWaves = 6;
+  for (int i = 0; i < kWaves; ++i) {
+    // Directions spread evenly with some scatter: six waves of one direction would be furrows.
+    const double direction = kPi * (i + random.uniform(0.1, 0.9)) / kWaves;
+    const double length_m = shape.wave_length_m * random.uniform(0.7, 1.5);
+    const double number = 2.0 * kPi / length_m;
+    waves_.push_back({number * Eigen::Vector2d(std::cos(direction), std::sin(direction)),
+                      random.uniform(0.0, 2.0 * kPi)});
+  }
+}
+
+double TerrainSurface::height_m(const Eigen::Vector2d& p_W) const {
+  double height = shape_.centre_height_m + shape_.gradient.dot(p_W - shape_.centre_W);
+  // Amplitude h/sqrt(12) each: six of them have rms h/2.
+  const double amplitude = shape_.wave_height_m / std::sqrt(12.0);
+  if (amplitude > 0.0) {
+    for (const Wave& wave : waves_) {
+      height += amplitude * std::sin(wave.number_radpm.dot(p_W - shape_.centre_W) + wave.phase_rad);
+    }
+  }
+  return height;
+}
+
+HeightField make_height_field(const TerrainSurface& surface, const Eigen::AlignedBox2d& box_W,
+                              double cell_m, double clod_height_m, RandomStream random) {
+  HeightField field;
+  field.cell_m = cell_m;
+  field.corner_W = box_W.min();
+  field.columns = static_cast<int>(std::ceil(box_W.sizes().x() / cell_m - 1e-9)) + 1;
+  field.rows = static_cast<int>(std::ceil(box_W.sizes().y() / cell_m - 1e-9)) + 1;
+  field.columns = std::max(field.columns, 2);
+  field.rows = std::max(field.rows, 2);
+  field.heights_m.reserve(static_cast<std::size_t>(field.columns) * field.rows);
+  for (int j = 0; j < field.rows; ++j) {
+    for (int i = 0; i < field.columns; ++i) {
+      const Eigen::Vector2d p_W = field.corner_W + cell_m * Eigen::Vector2d(i, j);
+      double height = surface.height_m(p_W);
+      if (clod_height_m > 0.0) height += clod_height_m * random.normal();
+      field.heights_m.push_back(static_cast<float>(height));
+    }
+  }
+  return field;
+}
+
+RandomStream terrain_random(std::uint64_t seed, const std::string& what) {
+  return RandomStream(seed, "", "world.terrain." + what);
+}
+
+std::vector<ParameterSpec> terrain_parameters(double wave_height_m) {
+  ParameterSpec cell = positive_parameter("terrain_cell_m", "m", 0.5,
+                                          "distance between samples of the height field");
+  cell.min = 0.05;
+  cell.min_exclusive = false;
+  ParameterSpec crs = optional(text_parameter(
+      "crs", "",
+      "coordinate reference system of dem_file, as EPSG:21781, where the file has none"));
+  return {cell,
+          number_parameter("waves_m", "m", wave_height_m, 0, 20, "height of the gentle undulation"),
+          positive_parameter("wave_length_m", "m", 40, "typical length of the undulation"),
+          number_parameter("clods_m", "m", 0.0, 0, 0.2,
+                           "standard deviation of small bumps, one per sample"),
+          path_parameter("dem_file", "GeoTIFF of heights; replaces slope and undulation"),
+          crs};
+}
+
+std::vector<ParameterSpec> slope_parameters(double slope_deg, double uphill_bearing_deg) {
+  return {number_parameter("slope_deg", "deg", slope_deg, 0, 45, "mean slope of the ground"),
+          number_parameter("uphill_bearing_deg", "deg", uphill_bearing_deg, -360, 360,
+                           "direction in which the ground rises, from north clockwise")};
+}
+
+Eigen::Vector2d bearing_direction(double bearing_deg) {
+  const double bearing_rad = rad_from_deg(bearing_deg);
+  return {std::sin(bearing_rad), std::cos(bearing_rad)};
+}
+
+HeightField build_terrain(const ParameterSet& parameters, std::uint64_t seed,
+                          const GeoOrigin& origin, const TerrainShape& shape,
+                          const Eigen::AlignedBox2d& box_W) {
+  const double cell_m = parameters.number("terrain_cell_m");
+  const double samples = (box_W.sizes().x() / cell_m + 1) * (box_W.sizes().y() / cell_m + 1);
+  constexpr double kMostSamples = 25e6;
+  if (samples > kMostSamples) {
+    throw ConfigError(
+        fmt::format("terrain_cell_m = {} m gives {:.0f} million samples over {:.0f} m x {:.0f} m, "
+                    "must be at most 25 million",
+                    cell_m, samples / 1e6, box_W.sizes().x(), box_W.sizes().y()));
+  }
+  if (parameters.has("dem_file")) {
+    const io::ElevationRaster raster = io::read_elevation(
+        parameters.text("dem_file"), parameters.has("crs") ? parameters.text("crs") : "");
+    return io::resample_elevation(raster, origin,
+                                  {box_W.min(), box_W.sizes().x(), box_W.sizes().y(), cell_m});
+  }
+  TerrainShape waved = shape;
+  waved.wave_height_m = parameters.number("waves_m");
+  waved.wave_length_m = parameters.number("wave_length_m");
+  return make_height_field(TerrainSurface(waved, terrain_random(seed, "waves")), box_W, cell_m,
+                           parameters.number("clods_m"), terrain_random(seed, "clods"));
+}
+
+GroundHeight ground_of(const HeightField& field) {
+  return [&field](double x, double y) { return field.height_m(x, y); };
+}
+
+}  // namespace vinerow::worlds

@@ -1,0 +1,70 @@
+#pragma once
+/// The ground: a plane with gentle waves and clods, or an elevation model.
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/api/parameters.h"
+#include "engine/api/world_model.h"
+#include "engine/core/random.h"
+#include "worlds/parts/row_curve.h"
+
+namespace vinerow::worlds {
+
+/// h(x, y) = gradient . (p - centre) + waves(p) + height of the centre, plus clods on the grid's
+/// samples.
+struct TerrainShape {
+  Eigen::Vector2d centre_W = {0, 0};
+  double centre_height_m = 0.0;
+  Eigen::Vector2d gradient = {0, 0};  ///< dh/dx, dh/dy
+  double wave_height_m =
+      0.0;  ///< amplitude of the undulation (sum of six plane waves, rms = height / 2)
+  double wave_length_m = 40.0;
+  double clod_height_m = 0.0;  ///< standard deviation of the samples, independent of each other
+};
+
+/// Smooth part of the shape at a point, without clods.
+class TerrainSurface {
+ public:
+  TerrainSurface(const TerrainShape& shape, RandomStream random);
+  double height_m(const Eigen::Vector2d& p_W) const;
+
+ private:
+  struct Wave {
+    Eigen::Vector2d number_radpm;
+    double phase_rad;
+  };
+  TerrainShape shape_;
+  std::vector<Wave> waves_;
+};
+
+/// Grid over a box (extended to whole cells).
+HeightField make_height_field(const TerrainSurface& surface, const Eigen::AlignedBox2d& box_W,
+                              double cell_m, double clod_height_m, RandomStream random);
+
+/// `terrain_cell_m`, `waves_m`, `wave_length_m`, `clods_m`, `dem_file`, `crs`.
+std::vector<ParameterSpec> terrain_parameters(double wave_height_m);
+
+/// `slope_deg`, `uphill_bearing_deg`.
+std::vector<ParameterSpec> slope_parameters(double slope_deg, double uphill_bearing_deg);
+
+/// The stream of the ground's own randomness.
+RandomStream terrain_random(std::uint64_t seed, const std::string& what);
+
+/// Unit vector of a bearing (from north, clockwise).
+Eigen::Vector2d bearing_direction(double bearing_deg);
+
+/// The height field over a box from parameters of terrain_parameters() and a gradient; a `dem_file`
+/// replaces both.
+/// @throws ConfigError as io::read_elevation and io::resample_elevation; with more than 25 million
+/// samples
+HeightField build_terrain(const ParameterSet& parameters, std::uint64_t seed,
+                          const GeoOrigin& origin, const TerrainShape& shape,
+                          const Eigen::AlignedBox2d& box_W);
+
+/// Height function of a height field, which must outlive it.
+GroundHeight ground_of(const HeightField& field);
+
+}  // namespace vinerow::worlds

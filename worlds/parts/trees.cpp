@@ -1,0 +1,152 @@
+#include "worlds/parts/trees.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "engine/math/angles.h"
+#include "worlds/parts/foliage.h"
+#include "worlds/parts/primitives.h"
+
+namespace vinerow::worlds {
+namespace {
+
+/// Crown of one variant: an ellipsoid with lumps, never outside the parameters' box.
+struct Crown {
+  Eigen::Vector3d centre;
+  Eigen::Vector3d half_axes_m;
+  double lump;  // share of the radius that lumps take away at most
+  double phases[3];
+};
+
+Crown make_crown(const TreeParams& params, RandomStream random) {
+  Crown crown;
+  const double size = random.uniform(0.85, 1.0);
+  const double top = params.crown_base_m + (params.height_m - params.crown_base_m) * size;
+  crown.centre = {0.0, 0.0, 0.5 * (params.crown_base_m + top)};
+  crown.half_axes_m = {0.5 * params.crown_length_m * size, 0.5 * params.crown_width_m * size,
+                       0.5 * (top - params.crown_base_m)};
+  crown.lump = 0.12;
+  for (double& phase : crown.phases) phase = random.uniform(0.0, 2.0 * kPi);
+  return crown;
+}
+
+/// Latitude-longitude sphere, lumpy, closed.
+TriangleMesh make_crown_hull(const Crown& crown) {
+  constexpr int kRings = 9, kSides = 14;
+  TriangleMesh mesh;
+  const auto point = [&](double polar, double azimuth) {
+    const Eigen::Vector3d d(std::sin(polar) * std::cos(azimuth),
+                            std::sin(polar) * std::sin(azimuth), std::cos(polar));
+    const double wave = std::sin(3.0 * azimuth + crown.phases[0]) * std::sin(2.0 * polar) +
+                        std::sin(5.0 * azimuth + crown.phases[1]) * std::sin(3.0 * polar) +
+                        std::sin(4.0 * d.z() + crown.phases[2]);
+    const double r = 1.0 - crown.lump * (0.5 + wave / 6.0);
+    return Eigen::Vector3d(crown.centre + r * d.cwiseProduct(crown.half_axes_m));
+  };
+  mesh.vertices.push_back(point(0.0, 0.0).cast<float>());
+  for (int i = 1; i < kRings; ++i) {
+    for (int k = 0; k < kSides; ++k) {
+      mesh.vertices.push_back(point(kPi * i / kRings, 2.0 * kPi * k / kSides).cast<float>());
+    }
+  }
+  mesh.vertices.push_back(point(kPi, 0.0).cast<float>());
+  const auto at = [&](int ring, int side) {
+    return static_cast<std::uint32_t>(1 + (ring - 1) * kSides + side % kSides);
+  };
+  const auto last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  for (int k = 0; k < kSides; ++k) {
+    mesh.triangles.push_back({0, at(1, k), at(1, k + 1)});
+    for (int i = 1; i + 1 < kRings; ++i) {
+      mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+    mesh.triangles.push_back({last, at(kRings - 1, k + 1), at(kRings - 1, k)});
+  }
+  mesh.colours.assign(mesh.vertices.size(), Eigen::Vector3f(0.05f, 0.13f, 0.03f));
+  calc_vertex_normals(mesh);
+  return mesh;
+}
+
+TriangleMesh make_tree_trunk(const TreeParams& params, const Crown& crown, RandomStream random) {
+  TriangleMesh mesh;
+  const Eigen::Vector3f kBark(0.085f, 0.065f, 0.05f);
+  const double r = params.trunk_radius_m;
+  const double fork_m = 0.5 * (params.crown_base_m + crown.centre.z());
+  const Eigen::Vector3d bend(random.uniform(-0.06, 0.06), random.uniform(-0.06, 0.06), 0.0);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const std::array<TubePoint, 4> stem = {
+      TubePoint{-0.15 * up, 1.5 * r}, TubePoint{0.1 * up, 1.15 * r},
+      TubePoint{0.5 * fork_m * up + bend, r}, TubePoint{fork_m * up + 0.5 * bend, 0.85 * r}};
+  append_tube(mesh, stem, 8, kBark);
+  constexpr int kBoughs = 4;
+  for (int i = 0; i < kBoughs; ++i) {
+    const double azimuth = 2.0 * kPi * (i + random.uniform(0.1, 0.9)) / kBoughs;
+    const Eigen::Vector3d out(std::cos(azimuth), std::sin(azimuth), 0.0);
+    const Eigen::Vector3d start = (fork_m - 0.1) * up + 0.5 * bend;
+    const Eigen::Vector3d end =
+        crown.centre + 0.6 * (out + 0.35 * up).normalized().cwiseProduct(crown.half_axes_m);
+    const std::array<TubePoint, 3> bough = {TubePoint{start, 0.55 * r},
+                                            TubePoint{0.5 * (start + end) + 0.08 * up, 0.4 * r},
+                                            TubePoint{end, 0.15 * r}};
+    append_tube(mesh, bough, 5, kBark);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+void plant_tree_row(WorldModel& world, int row_number, const RowCurve& row,
+                    const std::vector<double>& tree_s_m, const GroundHeight& ground,
+                    const TreeParams& params, MeshStore& store) {
+  const auto random = [&](const std::string& name) {
+    return RandomStream(params.seed, "", "world.plants." + name);
+  };
+  for (std::size_t i = 0; i < tree_s_m.size(); ++i) {
+    const std::string tree = fmt::format("row_{:02}/tree_{:02}", row_number, i);
+    RandomStream choice = random(tree);
+    const auto variant =
+        static_cast<int>(choice.next_u64() % static_cast<std::uint64_t>(params.variants));
+    const std::string key = fmt::format("variant_{}", variant);
+    const Crown crown = make_crown(params, random("crown." + key));
+    // Trees grow plumb; every other one is turned by half a turn, which keeps its width across the
+    // row.
+    const Eigen::Vector2d p = row.point_W(tree_s_m[i]), d = row.direction_W(tree_s_m[i]);
+    const double turn = choice.uniform() < 0.5 ? 0.0 : kPi;
+    Pose X_WT;
+    X_WT.p = {p.x(), p.y(), ground(p.x(), p.y())};
+    X_WT.q = quaternion_from_rpy({0.0, 0.0, std::atan2(d.y(), d.x()) + turn});
+
+    const auto add = [&](std::string name, const std::string& mesh_name, SurfaceClass surface,
+                         const std::function<TriangleMesh()>& make) -> MeshInstance& {
+      MeshInstance instance;
+      instance.name = std::move(name);
+      instance.mesh = store.get(mesh_name, make);
+      instance.X_WM = X_WT;
+      instance.surface = surface;
+      instance.material.name = to_string(surface);
+      instance.material.colour = {1.0f, 1.0f, 1.0f};
+      world.meshes.push_back(std::move(instance));
+      return world.meshes.back();
+    };
+    add("crown_hull/" + tree, "crown_hull/" + key, SurfaceClass::kCanopy, [&] {
+      return make_crown_hull(crown);
+    }).visible = false;
+    add("tree_trunk/" + tree, "tree_trunk/" + key, SurfaceClass::kTrunk,
+        [&] { return make_tree_trunk(params, crown, random("tree_trunk." + key)); });
+    for (int level = 0; level < 3; ++level) {
+      const std::string mesh_name = fmt::format("crown/{}#lod{}", key, level);
+      MeshInstance& leaves =
+          add(fmt::format("crown/{}#lod{}", tree, level), mesh_name, SurfaceClass::kCanopy, [&] {
+            return make_crown_foliage(crown.centre, crown.half_axes_m,
+                                      tree_foliage_detail(params.leaf_cards, level),
+                                      random(mesh_name));
+          });
+      leaves.material = leaf_material();
+      leaves.collides = false;
+    }
+  }
+}
+
+}  // namespace vinerow::worlds

@@ -1,0 +1,31 @@
+#pragma once
+/// Fruit trees: a trunk with some boughs and a round crown.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/api/parameters.h"
+#include "engine/api/world_model.h"
+#include "worlds/parts/mesh_store.h"
+#include "worlds/parts/row_curve.h"
+
+namespace vinerow::worlds {
+
+struct TreeParams {
+  double height_m = 3.6;
+  double crown_base_m = 0.9;
+  double crown_width_m = 2.0;   ///< across the row: never wider
+  double crown_length_m = 2.6;  ///< along the row
+  double trunk_radius_m = 0.07;
+  double leaf_cards = 700.0;  ///< per tree, near level
+  int variants = 5;
+  std::uint64_t seed = 1;
+};
+
+/// Appends trees at the stations of a row: "crown_hull/row_03/tree_07" (collides, not drawn),
+/// "crown/row_03/tree_07#lod0" to "#lod2" (drawn), "tree_trunk/row_03/tree_07" (collides).
+void plant_tree_row(WorldModel& world, int row_number, const RowCurve& row,
+                    const std::vector<double>& tree_s_m, const GroundHeight& ground,
+                    const TreeParams& params, MeshStore& store);
+
+}  // namespace vinerow::worlds

@@ -1,0 +1,139 @@
+#include "worlds/parts/trellis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/math/angles.h"
+#include "worlds/parts/primitives.h"
+
+namespace vinerow::worlds {
+namespace {
+
+const Eigen::Vector3f kBark(0.075f, 0.052f, 0.036f);
+const Eigen::Vector3f kSteel(0.32f, 0.33f, 0.34f);
+const Eigen::Vector3f kWood(0.22f, 0.165f, 0.11f);
+constexpr double kBuried_m = 0.1;  // feet reach below the ground's triangles
+
+}  // namespace
+
+std::vector<ParameterSpec> trellis_parameters() {
+  return {boolean_parameter("posts", true, "whether rows have posts and wires"),
+          positive_parameter("post_spacing_m", "m", 5.4, "between posts of a row"),
+          positive_parameter("post_height_m", "m", 2.1, "of posts above ground"),
+          number_parameter("end_post_lean_deg", "deg", 12, 0, 40, "outward lean of end posts"),
+          positive_parameter("trunk_radius_m", "m", 0.028, "of vine stems"),
+          positive_parameter("arm_height_m", "m", 0.75, "of the vines' arms and the first wire")};
+}
+
+TrellisParams read_trellis(const ParameterSet& parameters) {
+  TrellisParams params;
+  params.post_spacing_m = parameters.number("post_spacing_m");
+  params.post_height_m = parameters.number("post_height_m");
+  params.end_post_lean_rad = rad_from_deg(parameters.number("end_post_lean_deg"));
+  params.trunk_radius_m = parameters.number("trunk_radius_m");
+  params.arm_height_m = parameters.number("arm_height_m");
+  return params;
+}
+
+TriangleMesh make_trunks(const RowCurve& row, const GroundHeight& ground,
+                         const std::vector<double>& vine_s_m, double vine_spacing_m,
+                         const TrellisParams& params, int level, RandomStream random) {
+  TriangleMesh mesh;
+  const int sides = level == 0 ? 5 : 3;
+  for (const double s_m : vine_s_m) {
+    const Pose X_WR = row_frame(row, ground, s_m);
+    // The same numbers are drawn at every level, so that levels show the same stems.
+    const double girth = random.uniform(0.8, 1.25);
+    double bend_m[3][2];
+    for (auto& bend : bend_m) {
+      bend[0] = random.uniform(-0.05, 0.05);
+      bend[1] = random.uniform(-0.035, 0.035);
+    }
+    const float shade = static_cast<float>(random.uniform(0.75, 1.3));
+    const double r = params.trunk_radius_m * girth, top = params.arm_height_m;
+    const auto point = [&](double share, int bend, double radius) {
+      const Eigen::Vector3d p(bend < 0 ? 0.0 : bend_m[bend][0], bend < 0 ? 0.0 : bend_m[bend][1],
+                              share * top);
+      return TubePoint{X_WR * p, radius};
+    };
+    const std::array<TubePoint, 5> stem = {
+        TubePoint{X_WR * Eigen::Vector3d(0, 0, -kBuried_m), 1.25 * r}, point(0.05, -1, 1.2 * r),
+        point(0.4, 0, 0.95 * r), point(0.75, 1, 0.85 * r), point(1.0, 2, 0.8 * r)};
+    if (level == 0) {
+      append_tube(mesh, stem, sides, shade * kBark);
+      const double reach_m = 0.46 * vine_spacing_m;
+      for (const double way : {-1.0, 1.0}) {
+        const Eigen::Vector3d head(bend_m[2][0], bend_m[2][1], top - 0.02);
+        const Eigen::Vector3d elbow(way * 0.4 * reach_m, 0.5 * bend_m[1][1], top + 0.03);
+        const Eigen::Vector3d end(way * reach_m, 0.0, top + 0.02);
+        const std::array<TubePoint, 3> arm = {TubePoint{X_WR * head, 0.7 * r},
+                                              TubePoint{X_WR * elbow, 0.55 * r},
+                                              TubePoint{X_WR * end, 0.4 * r}};
+        append_tube(mesh, arm, 3, shade * kBark);
+      }
+    } else {
+      const std::array<TubePoint, 2> far = {stem[0], stem[4]};
+      append_tube(mesh, far, sides, shade * kBark);
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh make_line_posts(const RowCurve& row, const GroundHeight& ground,
+                             const std::vector<double>& post_s_m, const TrellisParams& params) {
+  TriangleMesh mesh;
+  for (const double s_m : post_s_m) {
+    const Pose X_WR = row_frame(row, ground, s_m);
+    const std::array<TubePoint, 2> post = {
+        TubePoint{X_WR * Eigen::Vector3d(0, 0, -kBuried_m), params.post_radius_m},
+        TubePoint{X_WR * Eigen::Vector3d(0, 0, params.post_height_m), params.post_radius_m}};
+    append_tube(mesh, post, 6, kSteel);
+  }
+  return mesh;
+}
+
+TriangleMesh make_end_posts(const RowCurve& row, const GroundHeight& ground, double start_m,
+                            double end_m, const TrellisParams& params) {
+  TriangleMesh mesh;
+  for (const bool at_start : {true, false}) {
+    const Pose X_WR = row_frame(row, ground, at_start ? start_m : end_m);
+    const double way = at_start ? -1.0 : 1.0;
+    const double lean = params.end_post_lean_rad, height = params.post_height_m;
+    const Eigen::Vector3d up(way * std::sin(lean), 0.0, std::cos(lean));
+    const std::array<TubePoint, 2> post = {
+        TubePoint{X_WR * Eigen::Vector3d(-kBuried_m * up), params.end_post_radius_m},
+        TubePoint{X_WR * Eigen::Vector3d(height * up), 0.9 * params.end_post_radius_m}};
+    append_tube(mesh, post, 8, kWood);
+  }
+  return mesh;
+}
+
+TriangleMesh make_wires(const RowCurve& row, const GroundHeight& ground, double start_m,
+                        double end_m, const TrellisParams& params) {
+  TriangleMesh mesh;
+  const std::vector<double> stations = spread_posts(start_m, end_m, params.post_spacing_m);
+  const double first = params.arm_height_m, last = params.post_height_m - 0.05;
+  constexpr int kWires = 4;
+  for (int w = 0; w < kWires; ++w) {
+    const double height_m = first + (last - first) * w / (kWires - 1);
+    std::vector<TubePoint> points;
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      // At the ends the wire meets the leaning post.
+      const double way = i == 0 ? -1.0 : (i + 1 == stations.size() ? 1.0 : 0.0);
+      const Eigen::Vector3d p(way * height_m * std::tan(params.end_post_lean_rad), 0.0, height_m);
+      points.push_back({row_frame(row, ground, stations[i]) * p, 0.0025});
+    }
+    append_tube(mesh, points, 3, kSteel);
+  }
+  return mesh;
+}
+
+std::vector<double> spread_posts(double start_m, double end_m, double spacing_m) {
+  const int spans = std::max(1, static_cast<int>(std::ceil((end_m - start_m) / spacing_m - 1e-9)));
+  std::vector<double> stations;
+  for (int i = 0; i <= spans; ++i) stations.push_back(start_m + (end_m - start_m) * i / spans);
+  return stations;
+}
+
+}  // namespace vinerow::worlds

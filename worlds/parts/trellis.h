@@ -1,0 +1,52 @@
+#pragma once
+/// What stands in a row beside leaves: trunks with their arms, posts, wires.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/api/mesh.h"
+#include "engine/api/parameters.h"
+#include "engine/core/random.h"
+#include "worlds/parts/row_curve.h"
+
+namespace vinerow::worlds {
+
+struct TrellisParams {
+  double post_spacing_m = 5.4;      ///< between posts where the survey has none
+  double post_height_m = 2.1;       ///< above ground
+  double post_radius_m = 0.03;      ///< steel, between
+  double end_post_radius_m = 0.06;  ///< wood, at the ends
+  double end_post_lean_rad = 0.2;   ///< outward
+  double trunk_radius_m = 0.028;
+  double arm_height_m = 0.75;  ///< of the horizontal arms (cordon) and the first wire
+};
+
+/// `posts`, `post_spacing_m`, `post_height_m`, `end_post_lean_deg`, `trunk_radius_m`,
+/// `arm_height_m`.
+std::vector<ParameterSpec> trellis_parameters();
+TrellisParams read_trellis(const ParameterSet& parameters);
+
+/// Trunks of neighbouring vines in W: a crooked tapering stem to the arm height, and at level 0 two
+/// arms along the row.
+/// @param level  0 near (5 sides), 1 far (3 sides, no arms)
+TriangleMesh make_trunks(const RowCurve& row, const GroundHeight& ground,
+                         const std::vector<double>& vine_s_m, double vine_spacing_m,
+                         const TrellisParams& params, int level, RandomStream random);
+
+/// Posts between the ends, in W.
+TriangleMesh make_line_posts(const RowCurve& row, const GroundHeight& ground,
+                             const std::vector<double>& post_s_m, const TrellisParams& params);
+
+/// The two leaning end posts, each with an anchor wire's stub, in W.
+/// @param start_m,end_m  arc length of their feet; they lean outward
+TriangleMesh make_end_posts(const RowCurve& row, const GroundHeight& ground, double start_m,
+                            double end_m, const TrellisParams& params);
+
+/// Four wires from end to end, in W.
+TriangleMesh make_wires(const RowCurve& row, const GroundHeight& ground, double start_m,
+                        double end_m, const TrellisParams& params);
+
+/// Arc lengths of posts: ends and evenly between, at most the spacing apart.
+std::vector<double> spread_posts(double start_m, double end_m, double spacing_m);
+
+}  // namespace vinerow::worlds

@@ -1,0 +1,218 @@
+#include "worlds/parts/vine_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "worlds/parts/foliage.h"
+
+namespace vinerow::worlds {
+namespace {
+
+/// Vines without a gap between them, and the canopy's extent.
+struct Run {
+  std::size_t first_vine, vine_count;
+  double start_m, end_m;
+};
+
+std::vector<Run> find_runs(const VineRow& row) {
+  constexpr double kGap = 1.6;
+  std::vector<Run> runs;
+  const auto& s = row.vine_s_m;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const bool joined = i > 0 && s[i] - s[i - 1] <= kGap * row.vine_spacing_m;
+    if (!joined) runs.push_back({i, 0, s[i] - 0.5 * row.vine_spacing_m, 0.0});
+    ++runs.back().vine_count;
+    runs.back().end_m = s[i] + 0.5 * row.vine_spacing_m;
+  }
+  return runs;
+}
+
+/// A piece of a run that is drawn as one.
+struct Chunk {
+  std::size_t first_vine, vine_count;
+  double start_m, end_m;
+};
+
+std::vector<Chunk> cut_run(const VineRow& row, const Run& run, double chunk_m) {
+  const auto per_chunk =
+      static_cast<std::size_t>(std::max(1.0, std::round(chunk_m / row.vine_spacing_m)));
+  std::vector<Chunk> chunks;
+  for (std::size_t i = 0; i < run.vine_count; i += per_chunk) {
+    const std::size_t count = std::min(per_chunk, run.vine_count - i);
+    const std::size_t first = run.first_vine + i, last = first + count - 1;
+    const auto& s = row.vine_s_m;
+    const double start = i == 0 ? run.start_m : 0.5 * (s[first - 1] + s[first]);
+    const double end = i + count == run.vine_count ? run.end_m : 0.5 * (s[last] + s[last + 1]);
+    chunks.push_back({first, count, start, end});
+  }
+  return chunks;
+}
+
+MeshInstance make_instance(std::string name, std::shared_ptr<const TriangleMesh> mesh,
+                           SurfaceClass surface) {
+  MeshInstance instance;
+  instance.name = std::move(name);
+  instance.mesh = std::move(mesh);
+  instance.surface = surface;
+  instance.material.name = to_string(surface);
+  instance.material.colour = {1.0f, 1.0f, 1.0f};  // the vertices' colours count
+  return instance;
+}
+
+class Planter {
+ public:
+  Planter(WorldModel& world, const GroundHeight& ground, const VinePlanting& planting,
+          MeshStore& store)
+      : world_(world), ground_(ground), planting_(planting), store_(store) {}
+
+  void plant(std::size_t number, const VineRow& row) {
+    const std::string row_name = fmt::format("row_{:02}", number);
+    int run_number = 0, chunk_number = 0;
+    for (const Run& run : find_runs(row)) {
+      std::vector<CanopyStretch> stretches;
+      for (const Chunk& chunk : cut_run(row, run, planting_.chunk_m)) {
+        const std::string chunk_name = fmt::format("{}/chunk_{:02}", row_name, chunk_number++);
+        const std::string shape_key = shape_of(chunk, chunk_name);
+        stretches.push_back({chunk.start_m, chunk.end_m, &shapes_.at(shape_key)});
+        add_leaves(row, chunk, chunk_name, shape_key);
+        add_trunks(row, chunk, chunk_name);
+      }
+      const std::string name = fmt::format("canopy_hull/{}/run_{}", row_name, run_number++);
+      MeshInstance hull = make_instance(
+          name,
+          store_.get(
+              name,
+              [&] { return make_canopy_hull(row.curve, ground_, stretches, planting_.canopy); }),
+          SurfaceClass::kCanopy);
+      hull.visible = false;
+      world_.meshes.push_back(std::move(hull));
+    }
+    if (row.post_s_m.size() >= 2) add_posts(row, row_name);
+  }
+
+ private:
+  RandomStream random(const std::string& name) const {
+    return RandomStream(planting_.seed, "", "world.plants." + name);
+  }
+
+  /// Stretches of the same number of vines and (to a centimetre) length share a few shapes.
+  std::string shape_of(const Chunk& chunk, const std::string& chunk_name) {
+    const long length_cm = std::lround(100.0 * (chunk.end_m - chunk.start_m));
+    const auto variant =
+        random(chunk_name).next_u64() % static_cast<std::uint64_t>(planting_.variants);
+    const std::string key =
+        fmt::format("{}_vines_{}_cm_variant_{}", chunk.vine_count, length_cm, variant);
+    if (shapes_.find(key) == shapes_.end()) {
+      shapes_.emplace(key, CanopyShape(planting_.canopy, 0.01 * static_cast<double>(length_cm),
+                                       static_cast<int>(chunk.vine_count), random("shape." + key)));
+    }
+    return key;
+  }
+
+  void add_leaves(const VineRow& row, const Chunk& chunk, const std::string& chunk_name,
+                  const std::string& shape_key) {
+    const Pose X_WM = stretch_frame(row.curve, ground_, chunk.start_m, chunk.end_m);
+    for (int level = 0; level < 3; ++level) {
+      const std::string mesh_name = fmt::format("leaves/{}#lod{}", shape_key, level);
+      const auto mesh = store_.get(mesh_name, [&] {
+        return make_vine_foliage(shapes_.at(shape_key),
+                                 vine_foliage_detail(planting_.leaf_cards_per_m, level),
+                                 random(mesh_name));
+      });
+      MeshInstance leaves = make_instance(fmt::format("canopy/{}#lod{}", chunk_name, level), mesh,
+                                          SurfaceClass::kCanopy);
+      leaves.X_WM = X_WM;
+      leaves.material = leaf_material();
+      leaves.collides = false;
+      world_.meshes.push_back(std::move(leaves));
+    }
+  }
+
+  void add_trunks(const VineRow& row, const Chunk& chunk, const std::string& chunk_name) {
+    const auto first = row.vine_s_m.begin() + static_cast<std::ptrdiff_t>(chunk.first_vine);
+    const std::vector<double> vines(first, first + static_cast<std::ptrdiff_t>(chunk.vine_count));
+    for (int level = 0; level < 2; ++level) {
+      const std::string name = fmt::format("trunk/{}#lod{}", chunk_name, level);
+      MeshInstance trunks = make_instance(
+          name,
+          store_.get(name,
+                     [&] {
+                       return make_trunks(row.curve, ground_, vines, row.vine_spacing_m,
+                                          planting_.trellis, level, random("trunk/" + chunk_name));
+                     }),
+          SurfaceClass::kTrunk);
+      trunks.collides = level == 0;
+      world_.meshes.push_back(std::move(trunks));
+    }
+  }
+
+  void add_posts(const VineRow& row, const std::string& row_name) {
+    const double start_m = row.post_s_m.front(), end_m = row.post_s_m.back();
+    const std::vector<double> between(row.post_s_m.begin() + 1, row.post_s_m.end() - 1);
+    const auto add = [&](const std::string& name, SurfaceClass surface, auto make) {
+      world_.meshes.push_back(make_instance(name, store_.get(name, make), surface));
+      world_.meshes.back().collides = surface != SurfaceClass::kWire;
+    };
+    const TrellisParams& trellis = planting_.trellis;
+    add("end_post/" + row_name, SurfaceClass::kPost,
+        [&] { return make_end_posts(row.curve, ground_, start_m, end_m, trellis); });
+    if (!between.empty()) {
+      add("post/" + row_name, SurfaceClass::kPost,
+          [&] { return make_line_posts(row.curve, ground_, between, trellis); });
+    }
+    add("wire/" + row_name, SurfaceClass::kWire,
+        [&] { return make_wires(row.curve, ground_, start_m, end_m, trellis); });
+  }
+
+  WorldModel& world_;
+  const GroundHeight& ground_;
+  const VinePlanting& planting_;
+  MeshStore& store_;
+  std::map<std::string, CanopyShape> shapes_;
+};
+
+}  // namespace
+
+std::vector<ParameterSpec> planting_parameters() {
+  return {number_parameter("leaf_cards_per_m", "1/m", 260, 10, 2000,
+                           "leaves drawn per metre of row at close range"),
+          integer_parameter("plant_variants", 6, 1, 100,
+                            "different stretches of foliage that are reused"),
+          integer_parameter(
+              "plant_seed", 1, 0, 9e15,
+              "seed of plants and ground, apart from the run's seed: the place stays the same")};
+}
+
+VinePlanting read_planting(const ParameterSet& parameters) {
+  VinePlanting planting;
+  planting.canopy = read_canopy(parameters);
+  planting.trellis = read_trellis(parameters);
+  planting.leaf_cards_per_m = parameters.number("leaf_cards_per_m");
+  planting.variants = static_cast<int>(parameters.integer("plant_variants"));
+  planting.seed = static_cast<std::uint64_t>(parameters.integer("plant_seed"));
+  return planting;
+}
+
+std::vector<double> regular_vines(double length_m, double spacing_m, double missing_share,
+                                  RandomStream random) {
+  std::vector<double> vines;
+  const int count = std::max(1, static_cast<int>(std::floor(length_m / spacing_m + 1e-9)));
+  const double margin_m = 0.5 * (length_m - (count - 1) * spacing_m);
+  for (int i = 0; i < count; ++i) {
+    // One number per vine whether it is missing or not: a changed share keeps the others in place.
+    const bool missing = random.uniform() < missing_share;
+    if (!missing) vines.push_back(margin_m + i * spacing_m);
+  }
+  return vines;
+}
+
+void plant_vine_rows(WorldModel& world, const std::vector<VineRow>& rows,
+                     const GroundHeight& ground, const VinePlanting& planting, MeshStore& store) {
+  Planter planter(world, ground, planting, store);
+  for (std::size_t i = 0; i < rows.size(); ++i) planter.plant(i, rows[i]);
+}
+
+}  // namespace vinerow::worlds

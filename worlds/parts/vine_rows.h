@@ -1,0 +1,51 @@
+#pragma once
+/// Plants vine rows into a world: hulls, leaves, trunks, posts and wires, cut into chunks for
+/// pictures.
+///
+/// Names: "canopy_hull/row_03/run_0" (collides, not drawn), "canopy/row_03/chunk_07#lod0" to
+/// "#lod2" (drawn, one of them by distance), "trunk/row_03/chunk_07#lod0" (collides) and "#lod1",
+/// "post/row_03", "end_post/row_03", "wire/row_03".
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/api/world_model.h"
+#include "worlds/parts/canopy.h"
+#include "worlds/parts/mesh_store.h"
+#include "worlds/parts/trellis.h"
+
+namespace vinerow::worlds {
+
+/// One row to plant.
+struct VineRow {
+  RowCurve curve;
+  std::vector<double> vine_s_m;  ///< ascending arc lengths of the stems; gaps are vines left out
+  double vine_spacing_m;  ///< regular distance; neighbours farther apart than 1.6 times are a gap
+  std::vector<double>
+      post_s_m;  ///< ascending, first and last are end posts; empty: no posts, no wires
+};
+
+struct VinePlanting {
+  CanopyParams canopy;
+  TrellisParams trellis;
+  double leaf_cards_per_m = 260.0;  ///< near level
+  double chunk_m = 7.2;             ///< wanted length of a chunk
+  int variants = 6;                 ///< of chunks that are reused
+  std::uint64_t seed = 1;
+};
+
+/// `leaf_cards_per_m`, `plant_variants`, `plant_seed`.
+std::vector<ParameterSpec> planting_parameters();
+/// From canopy_parameters(), trellis_parameters() and planting_parameters().
+VinePlanting read_planting(const ParameterSet& parameters);
+
+/// Regular stems: the first half a spacing inside the row.
+/// @param missing_share  chance of each vine to be missing, independent
+std::vector<double> regular_vines(double length_m, double spacing_m, double missing_share,
+                                  RandomStream random);
+
+/// Appends the rows' meshes to the world.
+void plant_vine_rows(WorldModel& world, const std::vector<VineRow>& rows,
+                     const GroundHeight& ground, const VinePlanting& planting, MeshStore& store);
+
+}  // namespace vinerow::worlds

@@ -1,0 +1,17 @@
+#include "worlds/register.h"
+
+#include "worlds/mesh/mesh.h"
+#include "worlds/orchard/orchard.h"
+#include "worlds/surveyed/surveyed.h"
+#include "worlds/vineyard/vineyard.h"
+
+namespace vinerow {
+
+void register_worlds(Registry& registry) {
+  worlds::register_orchard(registry);
+  worlds::register_vineyard(registry);
+  worlds::register_surveyed(registry);
+  worlds::register_mesh(registry);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,11 @@
+#pragma once
+/// The worlds that come with Vinerow.
+
+#include "engine/api/registry.h"
+
+namespace vinerow {
+
+/// orchard, vineyard, surveyed, mesh.
+void register_worlds(Registry& registry);
+
+}  // namespace vinerow

@@ -1,0 +1,195 @@
+#include "worlds/vineyard/vineyard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/math/angles.h"
+#include "worlds/parts/common.h"
+#include "worlds/parts/row_map.h"
+#include "worlds/parts/terrain.h"
+#include "worlds/parts/vine_rows.h"
+
+namespace vinerow::worlds {
+namespace {
+
+/// Raised whenever generated meshes change for equal parameters: files of older programs are then
+/// not read.
+constexpr int kGeneratorVersion = 1;
+
+constexpr double kGroundMargin_m =
+    6.0;  // ground beyond the parcel, so that its edge is out of sight
+
+PartSpec vineyard_spec() {
+  PartSpec spec;
+  spec.name = "vineyard";
+  spec.description =
+      "parametric vine rows on terrain, loaded from mesh files; default: Parcel F of a Barolo "
+      "vineyard "
+      "(Biosystems Engineering 2022)";
+  spec.parameters = concatenate(
+      {{integer_parameter("row_count", 16, 1, 1000, "number of rows"),
+        positive_parameter("row_length_m", "m", 118, "length of each row"),
+        positive_parameter("pitch_m", "m", 2.5, "distance between rows"),
+        positive_parameter("vine_spacing_m", "m", 0.9, "between vines of a row"),
+        number_parameter("missing_vine_share", "", 0.01, 0, 0.9, "share of vines that are missing"),
+        number_parameter("row_bearing_deg", "deg", 80, -360, 360,
+                         "direction of the rows, from north clockwise"),
+        number_parameter("headland_m", "m", 10, 8, 200, "free ground beyond the row ends"),
+        // The middle of 44.6150 to 44.6157 deg north, 7.9244 to 7.9262 deg east, seen from the
+        // corner.
+        number_parameter("centre_x_m", "m", 71.4, -1e5, 1e5,
+                         "east of the block's centre from the origin"),
+        number_parameter("centre_y_m", "m", 38.9, -1e5, 1e5,
+                         "north of the block's centre from the origin"),
+        number_parameter("relief_m", "m", 30, 0, 500, "highest minus lowest ground under the rows"),
+        number_parameter("uphill_bearing_deg", "deg", 92, -360, 360,
+                         "direction in which the ground rises, from north clockwise"),
+        path_parameter(
+            "mesh_folder",
+            "where mesh files are kept; default: $VINEROW_CACHE or the user's cache folder")},
+       canopy_parameters(),
+       trellis_parameters(),
+       planting_parameters(),
+       terrain_parameters(1.5),
+       origin_parameters(44.6150, 7.9244, 300),
+       surroundings_parameters()});
+  return spec;
+}
+
+std::vector<RowCurve> lay_rows(const ParameterSet& parameters) {
+  const Eigen::Vector2d along = bearing_direction(parameters.number("row_bearing_deg"));
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const Eigen::Vector2d centre(parameters.number("centre_x_m"), parameters.number("centre_y_m"));
+  const double half_m = 0.5 * parameters.number("row_length_m");
+  const auto count = parameters.integer("row_count");
+  std::vector<RowCurve> rows;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const double offset_m = (static_cast<double>(i) - 0.5 * static_cast<double>(count - 1)) *
+                            parameters.number("pitch_m");
+    const Eigen::Vector2d middle = centre + offset_m * across;
+    rows.emplace_back(
+        std::vector<Eigen::Vector2d>{middle - half_m * along, middle + half_m * along});
+  }
+  return rows;
+}
+
+double calc_relief_m(const TerrainSurface& surface, const std::vector<RowCurve>& rows) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const RowCurve& row : rows) {
+    const int steps = std::max(1, static_cast<int>(row.length_m() / 2.0));
+    for (int i = 0; i <= steps; ++i) {
+      const double height = surface.height_m(row.point_W(row.length_m() * i / steps));
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  }
+  return high - low;
+}
+
+/// Finds the slope that gives the wanted relief under the rows. Waves alone may make up half of it
+/// at most.
+TerrainShape fit_relief(const ParameterSet& parameters, const std::vector<RowCurve>& rows,
+                        std::uint64_t seed, double* wave_height_m) {
+  const double relief_m = parameters.number("relief_m");
+  const Eigen::Vector2d uphill = bearing_direction(parameters.number("uphill_bearing_deg"));
+  TerrainShape shape;
+  shape.centre_W = {parameters.number("centre_x_m"), parameters.number("centre_y_m")};
+  shape.wave_length_m = parameters.number("wave_length_m");
+  shape.wave_height_m = parameters.number("waves_m");
+  const auto relief_of = [&](const TerrainShape& s) {
+    return calc_relief_m(TerrainSurface(s, terrain_random(seed, "waves")), rows);
+  };
+  const double waves_relief_m = relief_of(shape);
+  if (waves_relief_m > 0.5 * relief_m) shape.wave_height_m *= 0.5 * relief_m / waves_relief_m;
+  *wave_height_m = shape.wave_height_m;
+  // Bisection: the relief grows with the slope once the slope outweighs the waves.
+  double low = 0.0, high = 1.0;
+  const auto with_slope = [&](double slope) {
+    TerrainShape s = shape;
+    s.gradient = slope * uphill;
+    return s;
+  };
+  while (relief_of(with_slope(high)) < relief_m && high < 1e6) high *= 2.0;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (relief_of(with_slope(middle)) < relief_m ? low : high) = middle;
+  }
+  return with_slope(relief_m > 0.0 ? high : 0.0);
+}
+
+HeightField make_ground(const ParameterSet& parameters, const std::vector<RowCurve>& rows,
+                        const std::vector<Eigen::Vector2d>& boundary_W, std::uint64_t seed,
+                        const GeoOrigin& origin) {
+  Eigen::AlignedBox2d box = box_around(boundary_W);
+  const Eigen::Vector2d margin(kGroundMargin_m, kGroundMargin_m);
+  box =
+      Eigen::AlignedBox2d(Eigen::Vector2d(box.min() - margin), Eigen::Vector2d(box.max() + margin));
+  TerrainShape shape;
+  ParameterSet fitted = parameters;
+  if (!parameters.has("dem_file")) {
+    double wave_height_m = 0.0;
+    shape = fit_relief(parameters, rows, seed, &wave_height_m);
+    fitted.set("waves_m", wave_height_m);
+  }
+  return build_terrain(fitted, seed, origin, shape, box);
+}
+
+/// Everything that shapes a mesh file: parameters, ground, and the generator's version.
+std::string mesh_key(const ParameterSet& parameters, const HeightField& terrain) {
+  Hasher hasher;
+  hasher.add(kGeneratorVersion);
+  ParameterSet shaping = parameters;
+  // Where the files lie and how the sun stands changes no file.
+  for (const char* name : {"sun_azimuth_deg", "sun_elevation_deg"}) shaping.set(name, 45.0);
+  shaping.set("soil", std::string("dry_grass"));
+  shaping.set("mesh_folder", std::string());
+  add_parameters(hasher, shaping);
+  hasher.add_bytes(terrain.heights_m.data(), terrain.heights_m.size() * sizeof(float));
+  return hasher.hex().substr(0, 16);
+}
+
+std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters, const WorldContext&) {
+  const VinePlanting planting = read_planting(parameters);
+  auto world = std::make_unique<WorldModel>();
+  world->name = "vineyard";
+  world->origin = read_origin(parameters);
+  read_surroundings(parameters, *world);
+
+  const std::vector<RowCurve> rows = lay_rows(parameters);
+  const std::vector<Eigen::Vector2d> boundary =
+      parcel_boundary(rows, parameters.number("headland_m"), parameters.number("pitch_m"));
+  world->terrain = make_ground(parameters, rows, boundary, planting.seed, world->origin);
+  const GroundHeight ground = ground_of(*world->terrain);
+  world->rows = make_row_map(rows, ground, planting.canopy, boundary);
+  add_alley_spawn_points(*world);
+
+  std::vector<VineRow> vine_rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double length_m = rows[i].length_m(), spacing_m = parameters.number("vine_spacing_m");
+    const RandomStream random(planting.seed, "", fmt::format("world.missing.row_{}", i));
+    VineRow row{rows[i],
+                regular_vines(length_m, spacing_m, parameters.number("missing_vine_share"), random),
+                spacing_m,
+                {}};
+    if (parameters.boolean("posts")) {
+      row.post_s_m = spread_posts(0.0, length_m, planting.trellis.post_spacing_m);
+    }
+    vine_rows.push_back(std::move(row));
+  }
+  const std::filesystem::path folder = parameters.has("mesh_folder")
+                                           ? std::filesystem::path(parameters.text("mesh_folder"))
+                                           : find_cache_folder();
+  FileMeshStore store(folder / ("vineyard-" + mesh_key(parameters, *world->terrain)));
+  plant_vine_rows(*world, vine_rows, ground, planting, store);
+  return world;
+}
+
+}  // namespace
+
+void register_vineyard(Registry& registry) {
+  registry.add_world(vineyard_spec(), make_vineyard);
+}
+
+}  // namespace vinerow::worlds

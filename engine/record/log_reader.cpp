@@ -80,7 +80,7 @@ struct LogReader::Impl {
   McapReader mcap;
   LogInfo info;
   std::size_t mcap_warnings = 0;
-  std::set<std::pair<int, std::uint32_t>> undecoded;  ///< channel, sequence
+  std::set<std::pair<int, std::uint64_t>> undecoded;  ///< channel, number in it
 };
 
 LogReader::LogReader(const std::filesystem::path& file) : impl_(std::make_unique<Impl>(file)) {}
@@ -103,17 +103,19 @@ void LogReader::read(const std::string& topic,
   const FrameNames frames = FrameNames::of_signal(
       signal != channel.metadata.end() ? signal->second : topic.substr(topic.find('/') + 1));
   T value;
+  std::uint64_t index = 0;
   impl_->mcap.for_each_message(
       {static_cast<std::uint16_t>(channel.id)}, [&](const McapMessage& message) {
         CdrReader in(message.data);
+        ++index;
         if (RosMapping<T>::read(in, frames, value)) {
           callback(time_of(message.publish_time), value);
           return;
         }
-        if (!impl_->undecoded.insert({channel.id, message.sequence}).second) return;
+        if (!impl_->undecoded.insert({channel.id, index}).second) return;
         impl_->info.warnings.push_back(
             fmt::format("{}: message {} of topic '{}' does not hold {} and was left out",
-                        impl_->name, message.sequence, channel.topic, channel.schema));
+                        impl_->name, index, channel.topic, channel.schema));
       });
   impl_->note_damage();
 }

@@ -141,7 +141,10 @@ ByteBuffer& McapWriter::begin_message(std::uint16_t channel_id, std::uint64_t lo
   chunk_.add(Opcode::kMessage);
   chunk_.add(std::uint64_t{0});
   chunk_.add(channel_id);
-  chunk_.add(static_cast<std::uint32_t>(channel.message_count++));
+  // Sequence: 0 = not used, as in rosbag2. A count would cost two bytes a message after
+  // compression.
+  chunk_.add(std::uint32_t{0});
+  ++channel.message_count;
   chunk_.add(log_time);
   chunk_.add(publish_time);
   return chunk_;

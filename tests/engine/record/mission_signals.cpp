@@ -18,7 +18,7 @@ const char* const kWheel[4] = {"fl", "fr", "rl", "rr"};
 
 }  // namespace
 
-MissionSignals::MissionSignals() {
+MissionSignals::MissionSignals(int path_points) : path_points_(path_points) {
   Ports rover(bus_, "rover", "test");
   truth_out_ = rover.write<Odometry>("truth");
   links_out_ = rover.write<LinkPoses>("links");
@@ -122,7 +122,7 @@ void MissionSignals::write_control(Time now) {
 void MissionSignals::write(Time now) {
   if (now.ns == 0) {
     PlannedPath path;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < path_points_; ++i) {
       path.points.push_back({.p_W = {0.5 * i, std::sin(0.01 * i), 0},
                              .yaw_rad = 0.02 * std::cos(0.01 * i),
                              .curvature_per_m = 0.001,
@@ -130,7 +130,7 @@ void MissionSignals::write(Time now) {
                              .kind = i % 200 < 180 ? PathKind::kLeg : PathKind::kTurn,
                              .alley = i / 200});
     }
-    path.length_m = 1000;
+    path.length_m = 0.5 * path_points_;
     plan_out_.write(now, path);
   }
   if (is_due(now, 10'000)) {

@@ -10,14 +10,15 @@
 
 namespace vinerow::test {
 
-/// Truth, links, wheels and battery 20 Hz, GPS 5 Hz, IMU 100 Hz, four ultrasounds 20 Hz, follower,
-/// command and actuators 40 Hz, a path once, an event every ten seconds.
+/// Truth, links, wheels, contacts and battery 20 Hz, GPS 5 Hz, IMU 100 Hz, four ultrasounds 20 Hz,
+/// follower, command and actuators 40 Hz, a path once, an event every ten seconds.
 class MissionSignals {
  public:
   /// Divides every period.
   static constexpr Duration kTick{5'000'000};
 
-  MissionSignals();
+  /// @param path_points  in the plan, which is written once
+  explicit MissionSignals(int path_points = 100);
 
   /// Writes what is due. @param now  multiple of kTick
   void write(Time now);
@@ -29,6 +30,7 @@ class MissionSignals {
   void write_control(Time now);
   Eigen::Vector3d noise(double sigma);
 
+  int path_points_;
   SignalBus bus_;
   RandomStream random_{1, "test", "mission"};
   Odometry truth_;

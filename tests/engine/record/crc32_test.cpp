@@ -1,0 +1,41 @@
+#include "engine/record/crc32.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+namespace vinerow::record {
+namespace {
+
+std::uint32_t crc_of(std::string_view text) {
+  return calc_crc32({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+// The check value of every CRC-32 catalogue, and RFC 3720-style patterns computed with zlib.
+TEST(Crc32, AgreesWithTheCheckValue) {
+  EXPECT_EQ(crc_of("123456789"), 0xCBF43926u);
+}
+
+TEST(Crc32, AgreesWithZlib) {
+  EXPECT_EQ(crc_of(""), 0u);
+  EXPECT_EQ(crc_of("a"), 0xE8B7BE43u);
+  EXPECT_EQ(crc_of("The quick brown fox jumps over the lazy dog"), 0x414FA339u);
+  EXPECT_EQ(crc_of(std::string_view("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 16)), 0xECBB4B55u);
+}
+
+TEST(Crc32, PiecesGiveTheSameAsTheWhole) {
+  std::vector<std::uint8_t> bytes(1000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * 37);
+  const std::uint32_t whole = calc_crc32(bytes);
+  for (const std::size_t cut : {1, 7, 8, 9, 500, 999}) {
+    Crc32 crc;
+    crc.add(bytes.data(), cut);
+    crc.add(bytes.data() + cut, bytes.size() - cut);
+    EXPECT_EQ(crc.value(), whole);
+  }
+}
+
+}  // namespace
+}  // namespace vinerow::record

@@ -1,0 +1,112 @@
+#pragma once
+/// Message values with every field filled by different numbers, and their comparison to the bit.
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "engine/api/messages.h"
+#include "engine/core/random.h"
+
+namespace vinerow::test {
+
+/// Fills the fields that have no special range.
+struct FillField {
+  RandomStream& random;
+
+  template <class T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void operator()(T& value) {
+    if constexpr (std::is_enum_v<T>) {
+      // Ranges differ: set by fill() below.
+    } else if constexpr (std::is_same_v<T, bool>) {
+      value = random.uniform() < 0.5;
+    } else if constexpr (std::is_integral_v<T>) {
+      value = static_cast<T>(random.next_u64() % 100000) - 50000;
+    } else {
+      value = 100 * random.normal();
+    }
+  }
+  void operator()(std::string& text) {
+    text.clear();
+    for (auto n = random.next_u64() % 20; n > 0; --n) {
+      text.push_back(static_cast<char>('a' + random.next_u64() % 26));
+    }
+  }
+  void operator()(Eigen::Vector3d& v) {
+    for (double& x : v) (*this)(x);
+  }
+  void operator()(Eigen::Quaterniond& q) {
+    for (double& x : q.coeffs()) (*this)(x);
+    q.normalize();
+  }
+  void operator()(std::vector<double>& values) {
+    for (double& x : values) (*this)(x);
+  }
+  void operator()(std::vector<std::string>& texts) {
+    for (std::string& text : texts) (*this)(text);
+  }
+};
+
+template <class T>
+void fill(RandomStream& random, T& value) {
+  const auto size = static_cast<std::size_t>(random.next_u64() % 7);
+  if constexpr (std::is_same_v<T, NamedValues>) {
+    value.names.resize(size);
+    value.values.resize(size);
+  }
+  if constexpr (std::is_same_v<T, LinkPoses>) {
+    value.names.resize(size);
+    value.X_WL.resize(size);
+  }
+  if constexpr (std::is_same_v<T, PlannedPath>) value.points.resize(size);
+  value.fields(FillField{random});
+  if constexpr (std::is_same_v<T, PlannedPath>) {
+    for (PathPoint& point : value.points) point.kind = static_cast<PathKind>(random.next_u64() % 3);
+  }
+  if constexpr (std::is_same_v<T, Event>) {
+    value.level = static_cast<Event::Level>(20 + 10 * (random.next_u64() % 3));
+  }
+  if constexpr (std::is_same_v<T, Odometry>) {
+    // A standard deviation has no sign.
+    value.position_std_m = value.position_std_m.cwiseAbs();
+    value.yaw_std_rad = std::abs(value.yaw_std_rad);
+  }
+}
+
+/// All fields as bytes, sizes included.
+struct CollectField {
+  std::vector<std::uint8_t>& bytes;
+
+  void add(const void* data, std::size_t size) {
+    const auto* first = static_cast<const std::uint8_t*>(data);
+    bytes.insert(bytes.end(), first, first + size);
+  }
+  template <class T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void operator()(const T& value) { add(&value, sizeof value); }
+  void operator()(const std::string& text) {
+    (*this)(text.size());
+    add(text.data(), text.size());
+  }
+  void operator()(const Eigen::Vector3d& v) { add(v.data(), 3 * sizeof(double)); }
+  void operator()(const Eigen::Quaterniond& q) { add(q.coeffs().data(), 4 * sizeof(double)); }
+  void operator()(const std::vector<double>& values) {
+    (*this)(values.size());
+    add(values.data(), values.size() * sizeof(double));
+  }
+  void operator()(const std::vector<std::string>& texts) {
+    (*this)(texts.size());
+    for (const std::string& text : texts) (*this)(text);
+  }
+};
+
+template <class T>
+std::vector<std::uint8_t> bytes_of(T value) {
+  std::vector<std::uint8_t> bytes;
+  value.fields(CollectField{bytes});
+  return bytes;
+}
+
+}  // namespace vinerow::test

@@ -161,7 +161,7 @@ void check_name(const YamlEntry& entry, const std::string& path, const char* wha
   if (is_valid_name(entry.key)) return;
   fail_at(entry.mark,
           fmt::format("{}: the name of a {} is made of letters, digits, '_' and '-' and "
-                      "starts with a letter",
+                      "starts with a letter or '_'",
                       join_path(path, entry.key), what));
 }
 

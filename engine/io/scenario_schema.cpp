@@ -3,6 +3,7 @@
 // A mapping that includes a file may leave out whatever the file may give, on every level below. So
 // each mapping comes in two forms: complete, and partial ("..._partial"), which asks for nothing
 // and allows `null`, which takes an included key away. `include` chooses.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -55,9 +56,13 @@ Json include_schema() {
                  Json{{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}}});
 }
 
+std::string describe_text(const ParameterSpec& spec) {
+  if (spec.unit.empty()) return spec.description;
+  return spec.description + (spec.description.empty() ? "[" : " [") + spec.unit + "]";
+}
+
 void describe(Json& schema, const ParameterSpec& spec) {
-  std::string text = spec.description;
-  if (!spec.unit.empty()) text += (text.empty() ? "[" : " [") + spec.unit + "]";
+  const std::string text = describe_text(spec);
   if (!text.empty()) schema["description"] = text;
   std::visit(
       [&](const auto& value) {
@@ -117,19 +122,32 @@ Json value_schema(const ParameterSpec& spec, bool partial) {
   return true;
 }
 
+bool is_group(const ParameterSpec& spec) {
+  return spec.kind == ParameterKind::kGroup || spec.kind == ParameterKind::kGroupList;
+}
+
+/// A value, or {value, source}.
 Json parameter_schema(const ParameterSpec& spec, bool partial) {
-  const bool is_group =
-      spec.kind == ParameterKind::kGroup || spec.kind == ParameterKind::kGroupList;
   std::vector<Json> choices = {value_schema(spec, partial)};
-  if (!is_group) {
-    Json sourced = object_of(
-        {{"value", choices.front()}, {"source", {{"type", "string"}, {"minLength", 1}}}}, {}, true);
-    if (!partial) sourced["anyOf"] = {{{"required", {"value"}}}, {{"required", {"include"}}}};
+  if (!is_group(spec)) {
+    Json sourced = reference("sourced");
+    sourced["properties"] = {{"value", choices.front()}};
     choices.push_back(std::move(sourced));
+    if (partial) choices.push_back(reference("source_only"));
   }
   if (partial) choices.push_back({{"type", "null"}});
   Json schema = choices.size() == 1 ? choices.front() : any_of(std::move(choices));
   describe(schema, spec);
+  return schema;
+}
+
+/// What may stand in a partial mapping for a parameter that the complete one, in `definition`,
+/// describes.
+Json partial_parameter_schema(const ParameterSpec& spec, const std::string& definition) {
+  if (is_group(spec)) return parameter_schema(spec, true);
+  Json schema = any_of({reference(definition + "/properties/" + spec.name),
+                        reference("source_only"), Json{{"type", "null"}}});
+  schema["description"] = describe_text(spec);
   return schema;
 }
 
@@ -141,16 +159,20 @@ std::vector<std::string> required_names(const std::vector<ParameterSpec>& fields
   return names;
 }
 
-Json properties_of(const std::vector<ParameterSpec>& fields, bool partial) {
+/// @param definition  where the complete form is defined, so that the partial one can refer to it
+Json properties_of(const std::vector<ParameterSpec>& fields, bool partial,
+                   const std::string& definition) {
   Json properties = Json::object();
   for (const ParameterSpec& field : fields) {
-    properties[field.name] = parameter_schema(field, partial);
+    properties[field.name] = partial && !definition.empty()
+                                 ? partial_parameter_schema(field, definition)
+                                 : parameter_schema(field, partial);
   }
   return properties;
 }
 
 Json group_schema(const std::vector<ParameterSpec>& fields, bool partial) {
-  return object_of(properties_of(fields, partial), required_names(fields), partial);
+  return object_of(properties_of(fields, partial, ""), required_names(fields), partial);
 }
 
 class SchemaBuilder {
@@ -159,6 +181,11 @@ class SchemaBuilder {
     defs_["include"] = include_schema();
     defs_["include"]["description"] =
         "file or files whose contents this mapping takes over; keys given here win";
+    const Json text = {{"type", "string"}, {"minLength", 1}};
+    defs_["sourced"] = object_of({{"value", true}, {"source", text}}, {}, true);
+    defs_["sourced"]["anyOf"] = {{{"required", {"value"}}}, {{"required", {"include"}}}};
+    defs_["sourced"]["description"] = "a value and where it comes from";
+    defs_["source_only"] = object_of({{"source", text}}, {"source"}, false);
   }
 
   Json build() {
@@ -285,11 +312,13 @@ class SchemaBuilder {
   Json part_schema(PartKind kind, const PartSpec& spec, bool partial) const {
     Json properties = {{"type", {{"const", spec.name}, {"description", spec.description}}}};
     std::vector<std::string> required_keys = {"type"};
-    if (has_rate(kind)) properties["rate_Hz"] = parameter_schema(rate_field(kind, spec), partial);
-    for (const ParameterSpec& field : spec.parameters) {
-      properties[field.name] = parameter_schema(field, partial);
-      if (field.required) required_keys.push_back(field.name);
-    }
+    std::vector<ParameterSpec> fields = spec.parameters;
+    const bool has_own = std::any_of(fields.begin(), fields.end(),
+                                     [](const ParameterSpec& f) { return f.name == "rate_Hz"; });
+    if (has_rate(kind) && !has_own) fields.insert(fields.begin(), rate_field(kind, spec));
+    const std::string definition = std::string(to_string(kind)) + "." + spec.name;
+    properties.update(properties_of(fields, partial, definition));
+    for (const std::string& name : required_names(fields)) required_keys.push_back(name);
     if (kind != PartKind::kVehicle) return object_of(properties, required_keys, partial);
     Json schema = keys_schema(vehicle_keys(), std::move(properties), partial);
     if (!partial) {
@@ -343,7 +372,7 @@ class SchemaBuilder {
     std::set<std::string> all_keys = {"include"};
     for (const std::string& kind : camera_kinds()) {
       for (const bool partial : {false, true}) {
-        Json properties = properties_of(camera_fields(kind), partial);
+        Json properties = properties_of(camera_fields(kind), partial, "camera." + kind);
         properties["kind"] = {{"const", kind}};
         for (const auto& [key, value] : properties.items()) all_keys.insert(key);
         defs_[name_of("camera." + kind, partial)] =
@@ -364,7 +393,7 @@ class SchemaBuilder {
 }  // namespace
 
 std::string scenario_json_schema(const Registry& registry) {
-  return SchemaBuilder(registry).build().dump(2) + "\n";
+  return SchemaBuilder(registry).build().dump(1) + "\n";
 }
 
 }  // namespace vinerow::io

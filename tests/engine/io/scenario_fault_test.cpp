@@ -227,7 +227,7 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
   EXPECT_EQ(
       fault_of(with_line(5, "  ro.ver:")),
       "scenario:5: vehicles.ro.ver: the name of a vehicle is made of letters, digits, '_' and '-' "
-      "and starts with a letter");
+      "and starts with a letter or '_'");
   EXPECT_EQ(
       fault_of(with_line(10, "      truth: {type: gps}")),
       "scenario:10: vehicles.rover.sensors.truth: a sensor cannot have the name of another signal "

@@ -2,13 +2,60 @@
 
 #include <algorithm>
 
+#include "engine/physics/bullet_convert.h"
+
 namespace vinerow::physics {
+namespace {
+
+/// Takes contact points from the narrow phase, after ContactNormals has looked at them.
+class CheckedResult : public btManifoldResult {
+ public:
+  CheckedResult(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                const ContactNormals& normals)
+      : btManifoldResult(a, b), normals_(normals) {
+    // The base leaves these unset; shapes without parts never set them.
+    setShapeIdentifiersA(-1, -1);
+    setShapeIdentifiersB(-1, -1);
+  }
+
+  void addContactPoint(const btVector3& normal_B_W, const btVector3& p_B_W,
+                       btScalar depth) override {
+    // Sides A and B are those of the manifold; parts and triangles those of the pair, which may be
+    // the other way round.
+    const btCollisionObject& a = *m_manifoldPtr->getBody0();
+    const btCollisionObject& b = *m_manifoldPtr->getBody1();
+    if (!a.isStaticObject() && !b.isStaticObject()) {
+      btManifoldResult::addContactPoint(normal_B_W, p_B_W, depth);
+      return;
+    }
+    const bool on_a = a.isStaticObject();
+    const bool static_is_first = getBody0Wrap()->getCollisionObject()->isStaticObject();
+    const btVector3 p_W = on_a ? p_B_W + normal_B_W * depth : p_B_W;
+    const btVector3 normal_W = on_a ? -normal_B_W : normal_B_W;
+    const std::optional<Eigen::Vector3d> corrected_W =
+        normals_.correct((on_a ? a : b).getUserIndex(), static_is_first ? m_index0 : m_index1,
+                         from_bullet(p_W), from_bullet(normal_W), depth);
+    if (!corrected_W) return;
+    const btVector3 n_W = to_bullet(*corrected_W);
+    btManifoldResult::addContactPoint(on_a ? -n_W : n_W, on_a ? p_W + n_W * depth : p_W, depth);
+  }
+
+ private:
+  const ContactNormals& normals_;
+};
+
+}  // namespace
 
 /// Sets the distance up to which contact points are kept, per world: Bullet has it as a global.
 class CollisionWorld::Dispatcher : public btCollisionDispatcher {
  public:
-  Dispatcher(btCollisionConfiguration* configuration, double breaking_threshold_m)
-      : btCollisionDispatcher(configuration), breaking_threshold_m_(breaking_threshold_m) {}
+  Dispatcher(btCollisionConfiguration* configuration, double breaking_threshold_m,
+             const ContactNormals& normals)
+      : btCollisionDispatcher(configuration),
+        breaking_threshold_m_(breaking_threshold_m),
+        normals_(normals) {
+    setNearCallback(&Dispatcher::find_pair_contacts);
+  }
 
   btPersistentManifold* getNewManifold(const btCollisionObject* a,
                                        const btCollisionObject* b) override {
@@ -19,12 +66,34 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
   double breaking_threshold_m() const { return breaking_threshold_m_; }
 
  private:
+  /// Bullet's own near callback, but with our result class.
+  static void find_pair_contacts(btBroadphasePair& pair, btCollisionDispatcher& base,
+                                 const btDispatcherInfo& info) {
+    auto& dispatcher = static_cast<Dispatcher&>(base);
+    auto* a = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+    auto* b = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+    if (!dispatcher.needsCollision(a, b)) return;
+    const btCollisionObjectWrapper wrap_a(nullptr, a->getCollisionShape(), a,
+                                          a->getWorldTransform(), -1, -1);
+    const btCollisionObjectWrapper wrap_b(nullptr, b->getCollisionShape(), b,
+                                          b->getWorldTransform(), -1, -1);
+    if (!pair.m_algorithm) {
+      pair.m_algorithm =
+          dispatcher.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+    }
+    if (!pair.m_algorithm) return;
+    CheckedResult result(&wrap_a, &wrap_b, dispatcher.normals_);
+    pair.m_algorithm->processCollision(&wrap_a, &wrap_b, info, &result);
+  }
+
   double breaking_threshold_m_;
+  const ContactNormals& normals_;
 };
 
 CollisionWorld::CollisionWorld(const PhysicsSettings& settings, const WorldModel& world)
-    : dispatcher_(
-          std::make_unique<Dispatcher>(&configuration_, settings.contact_breaking_threshold_m)),
+    : normals_(world),
+      dispatcher_(std::make_unique<Dispatcher>(&configuration_,
+                                               settings.contact_breaking_threshold_m, normals_)),
       statics_(world),
       world_(std::make_unique<btCollisionWorld>(dispatcher_.get(), &broadphase_, &configuration_)) {
   solver_info_.m_numIterations = settings.solver_iterations;

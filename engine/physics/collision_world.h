@@ -14,6 +14,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/physics/contact_normals.h"
 #include "engine/physics/settings.h"
 #include "engine/physics/static_geometry.h"
 
@@ -42,6 +43,7 @@ class CollisionWorld {
  private:
   class Dispatcher;
 
+  ContactNormals normals_;
   btDefaultCollisionConfiguration configuration_;
   std::unique_ptr<Dispatcher> dispatcher_;
   btDbvtBroadphase broadphase_;

@@ -1,5 +1,6 @@
 #include "engine/physics/triangle_box.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -1,0 +1,203 @@
+#include "engine/physics/contact_normals.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "engine/math/angles.h"
+#include "engine/physics/check_world.h"
+
+namespace vinerow::physics {
+namespace {
+
+using Eigen::Vector3d;
+
+// The narrow phase's normals scatter by about this much.
+constexpr double kNoise_rad = 0.01;
+// How near to an edge a contact point counts as on it.
+constexpr double kEdge_m = 1e-3;
+// Overlaps beyond this are real, whatever their normal.
+constexpr double kDeep_m = 2e-3;
+constexpr double kBendUnit_rad = kPi / kOpenEdge;
+
+/// One side of an edge, for matching.
+struct HalfEdge {
+  std::uint32_t low, high;  // welded corners
+  std::uint32_t triangle;
+  std::uint8_t edge;
+  bool upwards;  // runs from low to high
+};
+
+/// For each vertex the first one at the same place.
+std::vector<std::uint32_t> weld(const std::vector<Eigen::Vector3f>& vertices) {
+  std::vector<std::uint32_t> order(vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t v) {
+    return std::tuple(vertices[v].x(), vertices[v].y(), vertices[v].z());
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::tuple_cat(key(a), std::tuple(a)) < std::tuple_cat(key(b), std::tuple(b));
+  });
+  std::vector<std::uint32_t> first(vertices.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool same = k > 0 && key(order[k]) == key(order[k - 1]);
+    first[order[k]] = same ? first[order[k - 1]] : order[k];
+  }
+  return first;
+}
+
+Vector3d corner(const TriangleMesh& mesh, std::uint32_t triangle, int k) {
+  return mesh.vertices[mesh.triangles[triangle][k % 3]].cast<double>();
+}
+
+Vector3d face_normal(const TriangleMesh& mesh, std::uint32_t triangle) {
+  const Vector3d a = corner(mesh, triangle, 0);
+  return (corner(mesh, triangle, 1) - a).cross(corner(mesh, triangle, 2) - a).normalized();
+}
+
+double angle_between(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Bend of the surface at `half`, given its neighbour across the edge.
+std::int8_t calc_bend(const TriangleMesh& mesh, const HalfEdge& half, const HalfEdge& other) {
+  const Vector3d normal = face_normal(mesh, half.triangle);
+  // Neighbours that run the shared edge the same way have opposite windings.
+  const Vector3d other_normal =
+      face_normal(mesh, other.triangle) * (half.upwards == other.upwards ? -1.0 : 1.0);
+  if (!normal.allFinite() || !other_normal.allFinite()) return kOpenEdge;
+  const Vector3d across =
+      corner(mesh, other.triangle, other.edge + 2) - corner(mesh, half.triangle, 0);
+  const double bend = std::ceil(angle_between(normal, other_normal) / kBendUnit_rad - 0.1);
+  const double bounded = std::min(bend, kOpenEdge - 1.0);
+  // The neighbour falls away behind the face: standing out.
+  return static_cast<std::int8_t>(across.dot(normal) < 0.0 ? bounded : -bounded);
+}
+
+/// The rule of the header, for a point where the surface may lean up to `most_rad` from `face`.
+std::optional<Vector3d> judge(const Vector3d& normal, const Vector3d& face, double most_rad) {
+  const double lean_rad = angle_between(normal, face);
+  if (lean_rad <= kNoise_rad) return face;
+  if (lean_rad <= most_rad + kNoise_rad) return normal;
+  return std::nullopt;
+}
+
+}  // namespace
+
+EdgeBends find_edge_bends(const TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> first = weld(mesh.vertices);
+  std::vector<HalfEdge> halves;
+  halves.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = first[mesh.triangles[t][k]];
+      const std::uint32_t b = first[mesh.triangles[t][(k + 1) % 3]];
+      halves.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(t),
+                        static_cast<std::uint8_t>(k), a < b});
+    }
+  }
+  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return std::tie(a.low, a.high, a.triangle, a.edge) <
+           std::tie(b.low, b.high, b.triangle, b.edge);
+  });
+  EdgeBends bends(mesh.triangles.size(), {kOpenEdge, kOpenEdge, kOpenEdge});
+  for (std::size_t begin = 0; begin < halves.size();) {
+    std::size_t end = begin;
+    while (end < halves.size() && halves[end].low == halves[begin].low &&
+           halves[end].high == halves[begin].high) {
+      ++end;
+    }
+    if (end - begin == 2) {
+      const HalfEdge& a = halves[begin];
+      const HalfEdge& b = halves[begin + 1];
+      bends[a.triangle][a.edge] = calc_bend(mesh, a, b);
+      bends[b.triangle][b.edge] = calc_bend(mesh, b, a);
+    }
+    begin = end;
+  }
+  return bends;
+}
+
+ContactNormals::ContactNormals(const WorldModel& world) : world_(world) {
+  bends_of_instance_.assign(world.meshes.size(), nullptr);
+  for (std::size_t i = 0; i < world.meshes.size(); ++i) {
+    const MeshInstance& instance = world.meshes[i];
+    if (!is_rigid(instance)) continue;
+    const auto [entry, is_new] = bends_.try_emplace(instance.mesh.get());
+    if (is_new) entry->second = find_edge_bends(*instance.mesh);
+    bends_of_instance_[i] = &entry->second;
+  }
+}
+
+std::optional<Vector3d> ContactNormals::correct(int user_index, int triangle, const Vector3d& p_W,
+                                                const Vector3d& normal_W, double distance_m) const {
+  return user_index < 0 ? correct_on_terrain(p_W, normal_W, distance_m)
+                        : correct_on_mesh(user_index, triangle, p_W, normal_W, distance_m);
+}
+
+std::optional<Vector3d> ContactNormals::correct_on_terrain(const Vector3d& p_W,
+                                                           const Vector3d& normal_W,
+                                                           double distance_m) const {
+  const HeightField& field = *world_.terrain;
+  Vector3d face_W = field.normal_W(p_W.x(), p_W.y());
+  if (angle_between(normal_W, face_W) <= kNoise_rad) return face_W;
+
+  // The faces that meet at the point: those at eight places around it.
+  constexpr int kAround = 8;
+  constexpr double kDiagonal = 0.70710678118654752;
+  constexpr double kX[kAround] = {1, kDiagonal, 0, -kDiagonal, -1, -kDiagonal, 0, kDiagonal};
+  std::array<Vector3d, kAround> faces_W;
+  for (int k = 0; k < kAround; ++k) {
+    const double x = p_W.x() + kEdge_m * kX[k];
+    const double y = p_W.y() + kEdge_m * kX[(k + 6) % kAround];
+    faces_W[k] = field.normal_W(x, y);
+    if (faces_W[k].dot(normal_W) > face_W.dot(normal_W)) face_W = faces_W[k];
+  }
+  double most_rad = 0.0;
+  const double height_m = field.height_m(p_W.x(), p_W.y());
+  for (int k = 0; k < kAround; ++k) {
+    const Eigen::Vector2d offset(kEdge_m * kX[k], kEdge_m * kX[(k + 6) % kAround]);
+    const double rise_m = field.height_m(p_W.x() + offset.x(), p_W.y() + offset.y()) - height_m;
+    const double plane_m = -face_W.head<2>().dot(offset) / face_W.z();
+    const bool stands_out = rise_m < plane_m - 1e-9;
+    if (stands_out) most_rad = std::max(most_rad, angle_between(faces_W[k], face_W));
+  }
+  const std::optional<Vector3d> judged = judge(normal_W, face_W, most_rad);
+  return judged || distance_m > -kDeep_m ? judged : face_W;
+}
+
+std::optional<Vector3d> ContactNormals::correct_on_mesh(int mesh_index, int triangle,
+                                                        const Vector3d& p_W,
+                                                        const Vector3d& normal_W,
+                                                        double distance_m) const {
+  const EdgeBends& bends = *bends_of_instance_[mesh_index];
+  if (triangle < 0 || triangle >= static_cast<int>(bends.size())) return normal_W;
+  const MeshInstance& instance = world_.meshes[mesh_index];
+  const TriangleMesh& mesh = *instance.mesh;
+  const Vector3d face_M = face_normal(mesh, triangle);
+  if (!face_M.allFinite()) return normal_W;
+  const Pose X_MW = instance.X_WM.inverse();
+  const Vector3d p_M = X_MW * p_W;
+  const Vector3d normal_M = X_MW.q * normal_W;
+  const double towards = face_M.dot(normal_M) >= 0.0 ? 1.0 : -1.0;
+  for (const double side : {towards, -towards}) {
+    double most_rad = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d a = corner(mesh, triangle, k);
+      const Vector3d along = (corner(mesh, triangle, k + 1) - a).normalized();
+      if ((p_M - a).cross(along).squaredNorm() > kEdge_m * kEdge_m) continue;
+      const int bend = bends[triangle][k];
+      const double out = bend == kOpenEdge ? bend : side * bend;
+      most_rad = std::max(most_rad, out * kBendUnit_rad);
+    }
+    if (const auto judged = judge(normal_M, side * face_M, most_rad)) {
+      return Vector3d(instance.X_WM.q * *judged);
+    }
+  }
+  if (distance_m > -kDeep_m) return std::nullopt;
+  return Vector3d(instance.X_WM.q * (towards * face_M));
+}
+
+}  // namespace vinerow::physics

@@ -1,0 +1,253 @@
+/// Rays, ground probes and heights against closed forms; one surface for all who ask.
+
+#include <gtest/gtest.h>
+#include <xmmintrin.h>
+
+#include <cmath>
+
+#include "engine/core/random.h"
+#include "engine/physics/height_field_ray.h"
+#include "engine/physics/static_geometry.h"
+#include "tests/engine/physics/small_worlds.h"
+#include "tests/support/no_alloc.h"
+
+namespace vinerow::physics {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d random_direction(RandomStream& random) {
+  return Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+}
+
+TEST(Scene, BulletEmbreeAndHeightFieldSeeTheSameSurface) {
+  WorldModel field_world;
+  field_world.terrain = test::make_hills();
+  const HeightField& field = *field_world.terrain;
+  const StaticGeometry statics(field_world);
+  WorldModel mesh_world;
+  mesh_world.meshes = {test::make_instance("hills", test::make_mesh_of(field), Vector3d::Zero(),
+                                           SurfaceClass::kTerrain)};
+  const PhysicsWorld field_physics({}, field_world);
+  const PhysicsWorld mesh_physics({}, mesh_world);
+
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btDbvtBroadphase broadphase;
+  btCollisionWorld bullet(&dispatcher, &broadphase, &configuration);
+  ASSERT_EQ(statics.objects().size(), 1u);
+  bullet.addCollisionObject(statics.objects()[0].get());
+
+  RandomStream random(1, "", "surface");
+  double worst_m = 0.0;
+  for (int k = 0; k < 5000; ++k) {
+    const double x = random.uniform(-9.99, 9.99), y = random.uniform(-9.99, 9.99);
+    const double expected = field.height_m(x, y);
+    btCollisionWorld::ClosestRayResultCallback hit({x, y, 50.0}, {x, y, 0.0});
+    bullet.rayTest({x, y, 50.0}, {x, y, 0.0}, hit);
+    ASSERT_TRUE(hit.hasHit());
+    const auto own = field_physics.scene().cast_ray({x, y, 50.0}, -Vector3d::UnitZ(), 100.0);
+    const auto embree = mesh_physics.scene().cast_ray({x, y, 50.0}, -Vector3d::UnitZ(), 100.0);
+    ASSERT_TRUE(own && embree);
+    worst_m = std::max({worst_m, std::abs(hit.m_hitPointWorld.z() - expected),
+                        std::abs(50.0 - own->distance_m - expected),
+                        std::abs(50.0 - embree->distance_m - expected)});
+    EXPECT_LT((own->normal_W - field.normal_W(x, y)).norm(), 1e-9);
+  }
+  // A wrong diagonal would show as centimetres; what is left is rounding of the vertices' x and y.
+  EXPECT_LT(worst_m, 1e-5);
+  bullet.removeCollisionObject(statics.objects()[0].get());
+}
+
+TEST(Scene, SlantedRaysAgreeBetweenTheHeightFieldAndItsMesh) {
+  WorldModel field_world;
+  field_world.terrain = test::make_hills(129, 0.25);
+  WorldModel mesh_world;
+  mesh_world.meshes = {test::make_instance("hills", test::make_mesh_of(*field_world.terrain),
+                                           Vector3d::Zero(), SurfaceClass::kTerrain)};
+  const PhysicsWorld field_physics({}, field_world);
+  const PhysicsWorld mesh_physics({}, mesh_world);
+  RandomStream random(2, "", "slanted");
+  int hits = 0, different = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    const Vector3d p(random.uniform(-25, 25), random.uniform(-25, 25), random.uniform(25, 35));
+    const Vector3d dir = random_direction(random);
+    const auto own = field_physics.scene().cast_ray(p, dir, 60.0);
+    const auto embree = mesh_physics.scene().cast_ray(p, dir, 60.0);
+    if (own.has_value() != embree.has_value()) {
+      ++different;  // rays that graze a ridge or the rim
+      continue;
+    }
+    if (!own) continue;
+    ++hits;
+    if (std::abs(own->distance_m - embree->distance_m) > 1e-4) ++different;
+  }
+  EXPECT_GT(hits, 5000);
+  EXPECT_LE(different, 4);
+}
+
+TEST(Scene, RaysAlongGridLinesAndCornersFindTheGround) {
+  const HeightField field = test::make_hills();
+  const HeightFieldRay rays(field);
+  for (int j = 0; j < field.rows; ++j) {
+    for (int i = 0; i < field.columns; ++i) {
+      const double x = field.corner_W.x() + i * field.cell_m;
+      const double y = field.corner_W.y() + j * field.cell_m;
+      const auto hit = rays.cast({x, y, 40.0}, -Vector3d::UnitZ(), 20.0);
+      ASSERT_TRUE(hit) << i << ", " << j;
+      EXPECT_NEAR(40.0 - hit->distance_m, field.height_m(x, y), 1e-9);
+    }
+  }
+  // Along a row of samples, from outside the grid, downwards: every such ray must land.
+  for (int j = 0; j < field.rows; ++j) {
+    const Vector3d p(-12.0, field.corner_W.y() + j * field.cell_m, 34.0);
+    const auto hit = rays.cast(p, Vector3d(2.0, 0.0, -1.0).normalized(), 30.0);
+    ASSERT_TRUE(hit) << j;
+    const Vector3d at = p + hit->distance_m * Vector3d(2.0, 0.0, -1.0).normalized();
+    EXPECT_NEAR(at.z(), field.height_m(at.x(), at.y()), 1e-9);
+  }
+  EXPECT_FALSE(rays.cast({11.0, 0.0, 40.0}, -Vector3d::UnitZ(), 20.0));
+  EXPECT_FALSE(rays.cast({0.0, 0.0, 40.0}, -Vector3d::UnitZ(), 5.0));
+  EXPECT_FALSE(rays.cast({std::nan(""), 0.0, 40.0}, -Vector3d::UnitZ(), 20.0));
+}
+
+TEST(Scene, FlatGroundIsHitFromBothSidesAndOnIt) {
+  WorldModel model;
+  model.terrain = test::make_flat(3.0);
+  const PhysicsWorld world({}, model);
+  const auto above = world.scene().cast_ray({0.1, 0.2, 5.0}, -Vector3d::UnitZ(), 9.0);
+  const auto below = world.scene().cast_ray({0.1, 0.2, 1.0}, Vector3d::UnitZ(), 9.0);
+  const auto on_it = world.scene().cast_ray({0.1, 0.2, 3.0}, -Vector3d::UnitZ(), 9.0);
+  ASSERT_TRUE(above && below && on_it);
+  EXPECT_DOUBLE_EQ(above->distance_m, 2.0);
+  EXPECT_DOUBLE_EQ(below->distance_m, 2.0);
+  EXPECT_DOUBLE_EQ(on_it->distance_m, 0.0);
+  EXPECT_EQ(above->normal_W, Vector3d::UnitZ());
+  EXPECT_EQ(below->normal_W, -Vector3d::UnitZ());
+  EXPECT_EQ(above->mesh, -1);
+}
+
+TEST(Scene, RayDistancesAreGoodToAMicrometreFarFromTheOrigin) {
+  // A turned box 300 m away: the distance of a ray to a plane in closed form, in double.
+  WorldModel model;
+  MeshInstance box = test::make_instance("wall", test::make_box_mesh({2.0f, 0.5f, 1.0f}),
+                                         {281.3, -173.7, 42.1}, SurfaceClass::kObstacle);
+  box.X_WM.q = quaternion_from_rpy({0.2, -0.3, 0.7});
+  model.meshes = {box};
+  const PhysicsWorld world({}, model);
+  RandomStream random(3, "", "far");
+  double worst_m = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    // Towards a point on the face y = -0.5 of the box, from 4 m in front of it.
+    const Vector3d target_M(random.uniform(-1.8, 1.8), -0.5, random.uniform(-0.8, 0.8));
+    const Vector3d from_M = target_M + Vector3d(random.uniform(-2, 2), -4.0, random.uniform(-2, 2));
+    const Vector3d p_W = box.X_WM * from_M, target_W = box.X_WM * target_M;
+    const auto hit = world.scene().cast_ray(p_W, (target_W - p_W).normalized(), 10.0);
+    ASSERT_TRUE(hit);
+    worst_m = std::max(worst_m, std::abs(hit->distance_m - (target_W - p_W).norm()));
+    EXPECT_LT((hit->normal_W - box.X_WM.q * -Vector3d::UnitY()).norm(), 1e-9);
+  }
+  EXPECT_LT(worst_m, 1e-6);
+}
+
+/// A row with a canopy box in front of a post, a wire in front of both, on flat ground.
+WorldModel make_row() {
+  WorldModel model;
+  model.terrain = test::make_flat();
+  model.meshes = {test::make_instance("canopy", test::make_box_mesh({0.2f, 2.0f, 0.5f}), {2, 0, 1},
+                                      SurfaceClass::kCanopy),
+                  test::make_instance("post", test::make_box_mesh({0.05f, 0.05f, 1.0f}), {3, 0, 1},
+                                      SurfaceClass::kPost),
+                  test::make_instance("wire", test::make_box_mesh({0.01f, 2.0f, 0.01f}), {1, 0, 1},
+                                      SurfaceClass::kWire),
+                  test::make_instance("rock", test::make_box_mesh({0.3f, 0.3f, 0.2f}), {-3, 0, 0.1},
+                                      SurfaceClass::kObstacle)};
+  return model;
+}
+
+TEST(Scene, RaysSeeTheClassesOfTheirMask) {
+  const WorldModel model = make_row();
+  const PhysicsWorld world({}, model);
+  const SceneQuery& scene = world.scene();
+  const Vector3d p(0, 0, 1), ahead = Vector3d::UnitX();
+  const auto all = scene.cast_ray(p, ahead, 10.0);
+  ASSERT_TRUE(all);
+  EXPECT_NEAR(all->distance_m, 1.8, 1e-6);
+  EXPECT_EQ(all->surface, SurfaceClass::kCanopy);
+  EXPECT_EQ(all->mesh, 0);
+  const auto post = scene.cast_ray(p, ahead, 10.0, mask_of(SurfaceClass::kPost));
+  ASSERT_TRUE(post);
+  EXPECT_NEAR(post->distance_m, 2.95, 1e-6);
+  EXPECT_EQ(post->mesh, 1);
+  EXPECT_FALSE(scene.cast_ray(p, ahead, 10.0, mask_of(SurfaceClass::kWire)));
+  EXPECT_FALSE(scene.cast_ray(p, ahead, 10.0, mask_of(SurfaceClass::kTerrain)));
+  EXPECT_FALSE(scene.cast_ray(p, ahead, 1.7999));
+  EXPECT_TRUE(scene.cast_ray(p, ahead, 1.8001));
+}
+
+TEST(Scene, GroundIsTerrainOrObstacleBelowThePoint) {
+  const WorldModel model = make_row();
+  const PhysicsWorld world({}, model);
+  const SceneQuery& scene = world.scene();
+  EXPECT_NEAR(*scene.ground_height_m(0.0, 0.0, 5.0), 0.0, 1e-9);
+  EXPECT_NEAR(*scene.ground_height_m(-3.0, 0.1, 5.0), 0.3, 1e-6);   // on the rock
+  EXPECT_NEAR(*scene.ground_height_m(-3.0, 0.1, 0.25), 0.0, 1e-6);  // inside it: not its top
+  EXPECT_NEAR(*scene.ground_height_m(2.0, 0.1, 5.0), 0.0, 1e-9);    // canopy is no ground
+  EXPECT_FALSE(scene.ground_height_m(0.0, 0.0, -1.0));
+  EXPECT_FALSE(scene.ground_height_m(100.0, 0.0, 5.0));
+}
+
+TEST(Scene, ProbesStandOnRigidThingsOnly) {
+  const WorldModel model = make_row();
+  const PhysicsWorld world({}, model);
+  const auto probe = [&](double x, double y, double z) {
+    return world.probe_ground({x, y, z}, -Vector3d::UnitZ(), 1.0);
+  };
+  ASSERT_TRUE(probe(0, 0, 0.5));
+  EXPECT_DOUBLE_EQ(probe(0, 0, 0.5)->distance_m, 0.5);
+  EXPECT_EQ(probe(0, 0, 0.5)->surface, SurfaceClass::kTerrain);
+  EXPECT_NEAR(probe(-3.1, 0.1, 0.5)->distance_m, 0.2, 1e-6);
+  EXPECT_EQ(probe(-3.1, 0.1, 0.5)->surface, SurfaceClass::kObstacle);
+  EXPECT_NEAR(probe(3.0, 0.0, 2.5)->distance_m, 0.5, 1e-6);
+  EXPECT_EQ(probe(3.0, 0.0, 2.5)->surface, SurfaceClass::kPost);
+  EXPECT_FALSE(probe(2.0, 0.0, 2.0)) << "canopy does not carry";
+  EXPECT_FALSE(probe(0, 0, 1.5));
+  EXPECT_FALSE(probe(50, 0, 0.5));
+}
+
+TEST(Scene, QueriesAllocateNothingAndLeaveFloatingPointAlone) {
+  const unsigned before = _mm_getcsr() & ~_MM_EXCEPT_MASK;
+  const WorldModel model = make_row();
+  const PhysicsWorld world({}, model);
+  const SceneQuery& scene = world.scene();
+  const auto ask = [&] {
+    scene.cast_ray({0, 0, 1}, Vector3d::UnitX(), 10.0);
+    scene.ground_height_m(-3.0, 0.0, 5.0);
+    scene.distance_to_box_m({}, {0.5, 0.4, 0.3}, 5.0);
+    world.probe_ground({-3.0, 0, 0.5}, -Vector3d::UnitZ(), 1.0);
+  };
+  ask();
+  vinerow::test::AllocationCounter counter;
+  ask();
+  EXPECT_EQ(counter.count(), 0u);
+  EXPECT_EQ(_mm_getcsr() & ~_MM_EXCEPT_MASK, before);
+}
+
+TEST(Scene, SharedMeshesAreSeenWhereTheirInstancesStand) {
+  WorldModel model;
+  const auto mesh = test::make_box_mesh({0.05f, 0.05f, 1.0f});
+  for (int k = 0; k < 50; ++k) {
+    model.meshes.push_back(
+        test::make_instance("post", mesh, {5.0 * k, 0.0, 1.0}, SurfaceClass::kPost));
+  }
+  const PhysicsWorld world({}, model);
+  for (int k = 0; k < 50; ++k) {
+    const auto hit = world.scene().cast_ray({5.0 * k, -2.0, 1.0}, Vector3d::UnitY(), 5.0);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->mesh, k);
+    EXPECT_NEAR(hit->distance_m, 1.95, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace vinerow::physics

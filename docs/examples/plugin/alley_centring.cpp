@@ -1,0 +1,75 @@
+#include "alley_centring.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+class AlleyCentring final : public vinerow::Controller {
+ public:
+  AlleyCentring(const vinerow::ParameterSet& parameters, const vinerow::ControllerContext& context)
+      : speed_mps_(parameters.number("speed_mps")),
+        gain_(parameters.number("gain_radps_per_m")),
+        damping_(parameters.number("damping_rad_per_m")),
+        period_s_(context.period.s()) {
+    const vinerow::VehicleDescription& vehicle = *context.vehicle_description;
+    wheel_radius_m_ = vehicle.number("wheel_radius_m", context.part);
+    track_m_ = vehicle.number("track_m", context.part);
+    for (const vinerow::ActuatorSpec& actuator : vehicle.actuators) command_.names.push_back(actuator.name);
+    command_.values.assign(command_.names.size(), 0.0);
+  }
+
+  void connect(vinerow::Ports& ports) override {
+    left_ = ports.read<vinerow::RangeSample>("sonar_left");
+    right_ = ports.read<vinerow::RangeSample>("sonar_right");
+    actuators_ = ports.write<vinerow::NamedValues>("actuators");
+  }
+
+  void step(vinerow::Time now) override {
+    double yaw_rate_radps = 0.0;
+    if (left_.has_value() && right_.has_value() && std::isfinite(left_.value().range_m) &&
+        std::isfinite(right_.value().range_m)) {
+      // Foliage is ragged: a slow mean of the offset, and a still slower view of its rate.
+      const double seen_m = 0.5 * (right_.value().range_m - left_.value().range_m);
+      const double before_m = offset_m_;
+      offset_m_ += 0.1 * (seen_m - offset_m_);
+      const double rate_mps = (offset_m_ - before_m) / period_s_;
+      yaw_rate_radps = std::clamp(-gain_ * offset_m_ - damping_ * rate_mps, -0.5, 0.5);
+    }
+    for (std::size_t i = 0; i < command_.names.size(); ++i) {
+      const bool left_wheel = command_.names[i].find("wheel_fl") == 0 || command_.names[i].find("wheel_rl") == 0;
+      const double side = left_wheel ? -0.5 : 0.5;
+      command_.values[i] = (speed_mps_ + side * track_m_ * yaw_rate_radps) / wheel_radius_m_;
+    }
+    actuators_.write(now, command_);
+  }
+
+ private:
+  double speed_mps_, gain_, damping_, period_s_;
+  double wheel_radius_m_ = 0.0;
+  double track_m_ = 0.0;
+  double offset_m_ = 0.0;
+  vinerow::NamedValues command_;
+  vinerow::SignalReader<vinerow::RangeSample> left_, right_;
+  vinerow::SignalWriter<vinerow::NamedValues> actuators_;
+};
+
+}  // namespace
+
+vinerow::PartSpec alley_centring_spec() {
+  vinerow::PartSpec spec;
+  spec.name = "alley_centring";
+  spec.description = "Keeps the middle of an alley by two ultrasonic rangers";
+  spec.default_rate_Hz = 20.0;
+  spec.parameters = {vinerow::positive_parameter("speed_mps", "m/s", 0.8, "forward speed"),
+                     vinerow::positive_parameter("gain_radps_per_m", "rad/s/m", 0.8, "turn per offset"),
+                     vinerow::positive_parameter("damping_rad_per_m", "rad/m", 1.5, "turn per speed of the offset")};
+  spec.reads = {"sonar_left", "sonar_right"};
+  spec.writes = {"actuators"};
+  return spec;
+}
+
+std::unique_ptr<vinerow::Controller> make_alley_centring(const vinerow::ParameterSet& parameters,
+                                                         const vinerow::ControllerContext& context) {
+  return std::make_unique<AlleyCentring>(parameters, context);
+}

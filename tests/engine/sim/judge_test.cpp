@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/sim/run.h"
+
+namespace vinerow {
+namespace {
+
+io::Criterion criterion(const std::string& metric, std::optional<double> min, std::optional<double> max) {
+  io::Criterion result;
+  result.name = result.metric = metric;
+  result.min = min;
+  result.max = max;
+  return result;
+}
+
+TEST(Judge, LimitsAreInclusiveAndWhatWasNotMeasuredFails) {
+  const std::map<std::string, std::map<std::string, double>> metrics{{"rover", {{"a_m", 1.0}, {"b", std::nan("")}}}};
+  const auto verdicts =
+      judge({criterion("rover.a_m", {}, 1.0), criterion("rover.a_m", 1.5, {}), criterion("rover.b", {}, 1e9)}, metrics);
+  ASSERT_EQ(verdicts.size(), 3u);
+  EXPECT_TRUE(verdicts[0].met);
+  EXPECT_FALSE(verdicts[1].met);
+  EXPECT_EQ(verdicts[1].kind, "min");
+  EXPECT_FALSE(verdicts[2].met);
+}
+
+TEST(Judge, UnknownMetricsAreRefusedWithTheNearest) {
+  io::Criterion wrong = criterion("rover.cross_track_rms", {}, 0.1);
+  wrong.where = {"x.yaml", 7};
+  try {
+    judge({wrong}, {{"rover", {{"cross_track_rms_m", 0.0}, {"distance_m", 0.0}}}});
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "x.yaml:7: criteria: metric 'rover.cross_track_rms' does not exist; did you mean "
+                 "'rover.cross_track_rms_m'? (known: rover.cross_track_rms_m, rover.distance_m)");
+  }
+}
+
+}  // namespace
+}  // namespace vinerow

@@ -1,0 +1,55 @@
+/// Every scenario in assets/scenarios loads, runs for a short while and stays sane; the demo is driven whole.
+
+#include <gtest/gtest.h>
+
+#include "engine/sim/simulation.h"
+#include "tests/scenarios/command.h"
+#include "vinerow/testing.h"
+
+namespace vinerow {
+namespace {
+
+using testing::TestRun;
+
+std::vector<std::string> shipped_scenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(VINEROW_SOURCE_DIR) + "/assets/scenarios")) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class ShippedScenario : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedScenario, RunsAShortWhile) {
+  TestRun run = TestRun::from_file(test::scenario_file(GetParam()));
+  run.run_for_s(3.0);
+  for (const io::VehicleConfig& vehicle : run.simulation().scenario().vehicles) {
+    EXPECT_GT(run.metric(vehicle.name, "distance_m"), 0.5) << vehicle.name;
+    EXPECT_EQ(run.metric(vehicle.name, "contact_count"), 0.0) << vehicle.name;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, ::testing::ValuesIn(shipped_scenarios()),
+                         [](const auto& parameter) { return parameter.param; });
+
+TEST(RiseholmeRover, DrivesAllNineAlleysWithinItsLimits) {
+  TestRun run = TestRun::from_file(test::scenario_file("riseholme_rover"));
+  run.run_to_end();
+  EXPECT_TRUE(run.finished());
+  EXPECT_EQ(run.metric("rover", "alleys_driven"), 9.0);
+  EXPECT_EQ(run.metric("rover", "contact_count"), 0.0);
+  EXPECT_LE(run.metric("rover", "cross_track_rms_m"), 0.05);
+  RecordProperty("cross_track_rms_m", std::to_string(run.metric("rover", "cross_track_rms_m")));
+}
+
+TEST(RiseholmeRover, DrivesOnRawRtkFixesWithoutAFilter) {
+  TestRun run = TestRun::from_file(test::scenario_file("riseholme_rover"), {"rover.estimator={type: gps_pose}"});
+  run.run_to_end();
+  EXPECT_TRUE(run.finished());
+  EXPECT_EQ(run.metric("rover", "contact_count"), 0.0);
+  EXPECT_LE(run.metric("rover", "cross_track_rms_m"), 0.08);
+}
+
+}  // namespace
+}  // namespace vinerow

@@ -101,8 +101,10 @@ constexpr std::array kDefinitions = {
     Definition{"vinerow_msgs/RangeRay",
                "# m; +inf: nothing seen\nstd_msgs/Header header\nfloat64 range\n"
                "float64 min_range\nfloat64 max_range\n# rad, half of the cone\n"
-               "float64 half_angle\n# of the sensor in header.frame_id, looking along its x\n"
-               "geometry_msgs/Pose pose\n"},
+               "float64 half_angle\n"
+               "# of the vehicle in header.frame_id, and of the sensor (looking along its x) in "
+               "the vehicle\n"
+               "geometry_msgs/Pose body\ngeometry_msgs/Pose sensor\n"},
     Definition{"vinerow_msgs/GnssFix",
                "std_msgs/Header header\nbool valid\n# rad, rad, m above the ellipsoid\n"
                "float64 latitude\nfloat64 longitude\nfloat64 altitude\n"

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <optional>
 
 #include "engine/core/error.h"
+#include "engine/io/assimp_traps.h"
 #include "engine/io/mesh_references.h"
 
 namespace vinerow::io {
@@ -242,7 +244,10 @@ MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& opt
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType;
   if (options.join_vertices) steps |= aiProcess_JoinIdenticalVertices;
-  const aiScene* scene = importer.ReadFile(file.string(), steps);
+  const std::optional<std::string> ply =
+      extension == ".ply" ? read_guarded_ply(file) : std::nullopt;
+  const aiScene* scene = ply ? importer.ReadFileFromMemory(ply->data(), ply->size(), steps, "ply")
+                             : importer.ReadFile(file.string(), steps);
   if (scene == nullptr) {
     // assimp has no error text for a file that holds nothing it could use.
     const std::string reason = importer.GetErrorString();

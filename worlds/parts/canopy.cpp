@@ -133,7 +133,7 @@ TriangleMesh make_canopy_hull(const RowCurve& row, const GroundHeight& ground,
     // The last hand's breadth at both ends is rounded off.
     const double to_end_m = std::min(s_m - start_m, end_m - s_m);
     const double kRound_m = 0.25;
-    const double t = std::min(1.0, to_end_m / kRound_m);
+    const double t = std::clamp(to_end_m / kRound_m, 0.0, 1.0);
     const double shrink = 0.35 + 0.65 * std::sqrt(t * (2.0 - t));
     const CanopySection section = stretch.shape->section(u_m);
     const Eigen::Vector2d middle(section.shift_m, 0.5 * (section.base_m + section.top_m));

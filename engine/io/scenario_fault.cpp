@@ -133,7 +133,13 @@ std::string likely_key(const std::string& wrong, const std::vector<std::string>&
     if (stem(key) != key && lower_case(stem(key)) == lower_case(stem(wrong)))
       return key;  // other unit
   }
-  return nearest_name(wrong, known);
+  const std::string nearest = nearest_name(wrong, known);
+  if (!nearest.empty() && edit_distance(wrong, nearest) <= 2) return nearest;
+  for (const std::string& key : known) {
+    // A word of the right key: "rows" of "plant_rows".
+    if (("_" + lower_case(key) + "_").find("_" + lower + "_") != std::string::npos) return key;
+  }
+  return nearest;
 }
 
 void check_keys(const YamlNode& mapping, const std::string& path,

@@ -29,6 +29,8 @@ TEST(ScenarioFault, KeyWithoutOrWithAnotherUnitFindsTheRightOne) {
   }
   EXPECT_THAT(fault_of(with_line(13, "      max_speed_kmh: 3")),
               HasSubstr("did you mean 'max_speed_mps'?"));
+  EXPECT_THAT(fault_of(with_line(13, "      speed: 3")),
+              HasSubstr("did you mean 'max_speed_mps'?"));
   EXPECT_THAT(fault_of(with_line(13, "      rate_hz: 3")), HasSubstr("did you mean 'rate_Hz'?"));
 }
 

@@ -14,7 +14,7 @@ enum class AlleyOrder {
 };
 
 /// The places 0..count-1 in driving order. With kSkip neighbours follow each other only where there
-/// are fewer than four.
+/// are fewer than five.
 std::vector<int> make_alley_order(int count, AlleyOrder order);
 
 /// The centre line of an alley in the plane without vertices that lie within `tolerance_m` of the

@@ -1,0 +1,229 @@
+// What every registered controller keeps, and every estimator and planner that feeds it.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+#include "tests/controllers/support/mission.h"
+#include "tests/support/no_alloc.h"
+
+namespace vinerow::test {
+namespace {
+
+/// Two alleys of 20 m, 5 m apart, and the turn between them; rotated and mirrored about the origin.
+MissionSetup make_small_mission(const std::string& controller, double angle_rad = 0.0,
+                                bool mirrored = false) {
+  const Eigen::Rotation2Dd R(angle_rad);
+  const auto place = [&](double x, double y) {
+    const Eigen::Vector2d p = R * Eigen::Vector2d(x, mirrored ? -y : y);
+    return Eigen::Vector3d(p.x(), p.y(), 0.0);
+  };
+  MissionSetup setup;
+  setup.map.alleys = {{0, {place(0, 0), place(20, 0)}, 5.0}, {1, {place(0, 5), place(20, 5)}, 5.0}};
+  setup.map.rows.resize(1);
+  setup.map.rows[0].line_W = {place(0, 2.5), place(20, 2.5)};
+  const Eigen::Vector3d start = place(-0.5, 0.2);
+  setup.start = {start.head<2>(), (mirrored ? -0.1 : 0.1) + angle_rad};
+  setup.planner.values = {{"approach", false}};
+  setup.controller.type = controller;
+  setup.longest_s = 200.0;
+  return setup;
+}
+
+class EveryController : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryController, FinishesNearThePathsEndWithFiniteCommands) {
+  const MissionResult result = run_mission(make_small_mission(GetParam()));
+  EXPECT_TRUE(result.finished);
+  for (const Pose2& pose : result.poses) {
+    ASSERT_TRUE(pose.p.allFinite() && std::isfinite(pose.yaw_rad));
+  }
+  EXPECT_LT((result.poses.back().p - Eigen::Vector2d(0, 5)).norm(), 0.15);
+}
+
+TEST_P(EveryController, DrivesTheSameBitsTwice) {
+  MissionSetup setup = make_small_mission(GetParam());
+  setup.estimator.type = "odometry_filter";
+  setup.accuracy_m = 0.05;
+  const MissionResult a = run_mission(setup), b = run_mission(setup);
+  ASSERT_EQ(a.poses.size(), b.poses.size());
+  for (std::size_t i = 0; i < a.poses.size(); ++i) {
+    ASSERT_EQ(a.poses[i].p, b.poses[i].p);
+    ASSERT_EQ(a.poses[i].yaw_rad, b.poses[i].yaw_rad);
+  }
+  setup.seed = 2;
+  EXPECT_NE(run_mission(setup).poses.back().p, a.poses.back().p);
+}
+
+TEST_P(EveryController, DoesNotCareForDirectionOrSide) {
+  const MissionResult straight = run_mission(make_small_mission(GetParam()));
+  for (const bool mirrored : {false, true}) {
+    for (const double angle : {0.0, 0.5 * kPi, kPi, -2.0}) {
+      const MissionResult turned = run_mission(make_small_mission(GetParam(), angle, mirrored));
+      ASSERT_EQ(turned.poses.size(), straight.poses.size());
+      for (std::size_t i = 0; i < straight.poses.size(); ++i) {
+        Eigen::Vector2d p = Eigen::Rotation2Dd(-angle) * turned.poses[i].p;
+        if (mirrored) p.y() = -p.y();
+        // Rounding of rotated coordinates, not amplified by a stable follower.
+        ASSERT_NEAR((p - straight.poses[i].p).norm(), 0.0, 1e-9) << angle << mirrored << i;
+      }
+    }
+  }
+}
+
+constexpr Time tick(std::int64_t i) {
+  return {i * 25'000'000};
+}
+
+/// A controller alone between signals.
+struct Bench {
+  explicit Bench(const std::string& type, VehicleDescription d = make_rover_description())
+      : description(std::move(d)) {
+    ControllerContext context;
+    context.vehicle = "rover";
+    context.part = "rover.controller";
+    context.period = Duration{25'000'000};
+    context.vehicle_description = &description;
+    Ports world(bus, "rover", "test");
+    estimate = world.write<Odometry>("estimate");
+    plan = world.write<PlannedPath>("plan");
+    const PartSpec& spec = parts().spec(PartKind::kController, type);
+    controller = parts().make_controller(type, make_parameters(spec, {}), context);
+    Ports ports(bus, "rover", "rover.controller");
+    controller->connect(ports);
+    actuators = world.read<NamedValues>("actuators");
+    follower = world.read<FollowerState>("follower");
+  }
+  VehicleDescription description;
+  SignalBus bus;
+  SignalWriter<Odometry> estimate;
+  SignalWriter<PlannedPath> plan;
+  std::unique_ptr<Controller> controller;
+  SignalReader<NamedValues> actuators;
+  SignalReader<FollowerState> follower;
+};
+
+TEST_P(EveryController, StandsStillWithoutPlanOrEstimate) {
+  Bench bench(GetParam());
+  bench.controller->step(Time{});
+  bench.estimate.write(Time{}, Odometry{});
+  bench.controller->step(Time{25'000'000});
+  for (const double value : bench.actuators.value().values) EXPECT_EQ(value, 0.0);
+  EXPECT_FALSE(bench.controller->finished());
+}
+
+TEST_P(EveryController, TakesPlansOfOnePointAndOfNone) {
+  for (const int points : {0, 1}) {
+    Bench bench(GetParam());
+    PlannedPath plan;
+    plan.points.resize(points);
+    bench.plan.write(Time{}, plan);
+    bench.estimate.write(Time{}, Odometry{});
+    bench.controller->step(Time{});
+    for (const double value : bench.actuators.value().values) EXPECT_EQ(value, 0.0);
+  }
+}
+
+TEST_P(EveryController, AllocatesNothingAfterTakingThePlan) {
+  Bench bench(GetParam());
+  bench.plan.write(Time{}, plan_mission(make_small_mission(GetParam())));
+  bench.estimate.write(Time{}, Odometry{});
+  bench.controller->step(Time{});
+  Odometry pose;
+  std::size_t allocations = 0;
+  {
+    AllocationCounter counter;
+    for (int i = 1; i < 400; ++i) {
+      pose.X_WB.p.x() = 0.05 * i;
+      bench.estimate.write(tick(i), pose);
+      bench.controller->step(tick(i));
+    }
+    allocations = counter.count();
+  }
+  EXPECT_EQ(allocations, 0u);
+  EXPECT_GT(bench.follower.value().distance_m, 15.0);
+}
+
+TEST_P(EveryController, StandsStillAfterTheEnd) {
+  Bench bench(GetParam());
+  const PlannedPath plan = plan_mission(make_small_mission(GetParam()));
+  bench.plan.write(Time{}, plan);
+  Odometry pose;
+  for (int i = 0; i <= static_cast<int>(plan.points.size()) + 20; ++i) {
+    const PathPoint& at = plan.points[std::min<std::size_t>(i, plan.points.size() - 1)];
+    pose.X_WB = {quaternion_from_rpy({0, 0, at.yaw_rad}), at.p_W};
+    bench.estimate.write(tick(i), pose);
+    bench.controller->step(tick(i));
+  }
+  EXPECT_TRUE(bench.controller->finished());
+  EXPECT_TRUE(bench.follower.value().finished);
+  for (const double value : bench.actuators.value().values) EXPECT_EQ(value, 0.0);
+}
+
+TEST_P(EveryController, RefusesVehiclesItCannotSteer) {
+  VehicleDescription description;
+  description.type = "quadrotor";
+  description.actuators = {{"rotor_1_speed_radps", "rad/s", 0.0, 900.0}};
+  try {
+    Bench bench(GetParam(), description);
+    FAIL() << "must be refused";
+  } catch (const ConfigError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find("rover.controller (" + GetParam() + ") steers by"), 0u) << text;
+    EXPECT_NE(text.find("rotor_1_speed_radps"), std::string::npos);
+  }
+}
+
+TEST_P(EveryController, DocumentsItsParameters) {
+  for (const ParameterSpec& parameter :
+       parts().spec(PartKind::kController, GetParam()).parameters) {
+    EXPECT_FALSE(parameter.description.empty()) << parameter.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Controllers, EveryController,
+                         testing::ValuesIn(parts().names(PartKind::kController)),
+                         [](const auto& test) { return test.param; });
+
+class EveryEstimator : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryEstimator, AllocatesNothing) {
+  const VehicleDescription description = make_rover_description();
+  SignalBus bus;
+  Ports world(bus, "rover", "test");
+  auto truth = world.write<Odometry>("truth");
+  auto gps = world.write<GnssFix>("gps");
+  auto command = world.write<VelocityCommand>("command");
+  EstimatorContext context;
+  context.part = "rover.estimator";
+  context.period = Duration{25'000'000};
+  context.vehicle_description = &description;
+  const PartSpec& spec = parts().spec(PartKind::kEstimator, GetParam());
+  const auto estimator = parts().make_estimator(GetParam(), make_parameters(spec, {}), context);
+  Ports ports(bus, "rover", "rover.estimator");
+  estimator->connect(ports);
+  std::size_t allocations = 0;
+  {
+    AllocationCounter counter;
+    for (int i = 0; i < 1000; ++i) {
+      const Time now = tick(i);
+      truth.write(now, Odometry{});
+      command.write(now, {1.0, 0.1});
+      GnssFix fix;
+      fix.valid = true;
+      gps.write(now, fix);
+      estimator->step(now);
+    }
+    allocations = counter.count();
+  }
+  EXPECT_EQ(allocations, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Estimators, EveryEstimator,
+                         testing::ValuesIn(parts().names(PartKind::kEstimator)),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace vinerow::test

@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include "controllers/parts/path_pieces.h"
+#include "controllers/path_follower/path_follower_law.h"
+#include "controllers/path_follower/slip_estimate.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+PathFollowerParams make_params() {
+  PathFollowerParams params;
+  params.lookahead_min_m = params.lookahead_max_m = 1.5;
+  params.speed.acceleration_mps2 = 1e3;
+  return params;
+}
+
+TEST(PathFollowerLaw, FollowsAnArcWithoutError) {
+  PathFollowerParams params = make_params();
+  params.speed.speed_mps = 1.0;
+  PathFollowerLaw law(params);
+  law.set_path(make_planned_path({{{{0, 0}, 0.0}, 15.0, 0.4, PathKind::kTurn, -1, 0.0}}, 0.33));
+  Pose2 pose;
+  for (int i = 0; i < 500; ++i) {
+    const VelocityCommand command = law.step(pose);
+    pose = advance(pose, command.v_mps * params.cycle_s, command.yaw_rate_radps * params.cycle_s);
+    // Exact but for rounding: each cycle turns by the arc's own angle.
+    ASSERT_NEAR((pose.p - Eigen::Vector2d(0, 2.5)).norm(), 2.5, 1e-9);
+  }
+}
+
+TEST(PathFollowerLaw, ErrorsDieOutAsTheLinearModelSays) {
+  // zeta = 1: e(s) = e0 (1 + s/L) exp(-s/L) on a straight, for errors small enough for sin(psi) =
+  // psi.
+  PathFollowerParams params = make_params();
+  params.cycle_s = 0.001;
+  PathFollowerLaw law(params);
+  law.set_path(make_planned_path({make_straight({0, 0}, {30, 0}, PathKind::kLeg, 0, 0.0)}, 0.33));
+  const double e0 = 0.01;
+  Pose2 pose = {{0, e0}, 0.0};
+  for (int i = 0; i < 5000; ++i) {
+    const VelocityCommand command = law.step(pose);
+    pose = advance(pose, command.v_mps * params.cycle_s, command.yaw_rate_radps * params.cycle_s);
+    const double s = pose.p.x() / 1.5;
+    // 1 % of e0: the cycle's delay of 2 mm over 1.5 m.
+    ASSERT_NEAR(pose.p.y(), e0 * (1.0 + s) * std::exp(-s), 0.01 * e0);
+  }
+}
+
+TEST(PathFollowerLaw, ComesBackFromFarOffAndFromBackwards) {
+  for (const Pose2& start :
+       {Pose2{{1, 4}, 0.0}, Pose2{{1, -4}, 0.5 * kPi}, Pose2{{1, 0}, kPi}, Pose2{{1, 2}, -3.0}}) {
+    PathFollowerParams params = make_params();
+    PathFollowerLaw law(params);
+    law.set_path(make_planned_path({make_straight({0, 0}, {60, 0}, PathKind::kLeg, 0, 0.0)}, 0.33));
+    Pose2 pose = start;
+    int cycles = 0;
+    for (; cycles < 6000 && !law.finished(); ++cycles) {
+      const VelocityCommand command = law.step(pose);
+      pose = advance(pose, command.v_mps * params.cycle_s, command.yaw_rate_radps * params.cycle_s);
+    }
+    EXPECT_TRUE(law.finished()) << start.p.transpose() << " " << start.yaw_rad;
+    EXPECT_NEAR(pose.p.y(), 0.0, 1e-3);
+    EXPECT_NEAR(pose.p.x(), 60.0, 0.1);
+  }
+}
+
+TEST(SpeedProfile, BrakesBeforeTurnsAndTheEnd) {
+  const Path path(make_planned_path({make_straight({0, 0}, {20, 0}, PathKind::kLeg, 0, 0.0),
+                                     {{{20, 0}, 0.0}, 4.0, 0.5, PathKind::kTurn, -1, 0.0}},
+                                    0.33));
+  SpeedLimits limits;
+  limits.speed_mps = 2.0;
+  limits.acceleration_mps2 = 0.5;
+  limits.lateral_acceleration_mps2 = 0.5;
+  limits.yaw_rate_radps = 10.0;
+  limits.goal_speed_mps = 0.1;
+  const SpeedProfile profile(path, limits);
+  const auto speed_at = [&](double s) { return profile.speed_at(path, path.segment_at(s), s); };
+  // In the turn sqrt(0.5 / 0.5) = 1; v^2 = 1 + 2 * 0.5 * distance before it, 2 at 3 m.
+  EXPECT_DOUBLE_EQ(speed_at(5.0), 2.0);
+  EXPECT_NEAR(speed_at(18.0), std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(speed_at(21.0), 1.0, 1e-9);
+  EXPECT_NEAR(speed_at(23.5), std::sqrt(0.01 + 0.5), 1e-9);
+  EXPECT_NEAR(speed_at(24.0), 0.1, 1e-9);
+}
+
+TEST(SpeedProfile, TakesTheSlowestOfPathAndLimits) {
+  const Path path(
+      make_planned_path({make_straight({0, 0}, {20, 0}, PathKind::kLeg, 0, 0.8)}, 0.33));
+  EXPECT_DOUBLE_EQ(SpeedProfile(path, {}).speed_at(path, 3, 1.0), 0.8);
+}
+
+TEST(SlipEstimate, LearnsTheShareThatIsDriven) {
+  SlipEstimateParams params;
+  params.learn_time_s = 1.0;
+  SlipEstimate slip(params);
+  double driven = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const double asked = 0.6 * std::sin(0.01 * i);
+    slip.update(asked, driven, 0.025);
+    driven = 0.55 * asked;  // one cycle late, as in a simulation
+  }
+  EXPECT_NEAR(slip.effectiveness(), 0.55, 0.02);
+}
+
+TEST(SlipEstimate, StaysWhereNothingSlipsOrTurns) {
+  SlipEstimateParams params;
+  params.learn_time_s = 1.0;
+  SlipEstimate slip(params);
+  for (int i = 0; i < 1000; ++i) slip.update(0.0, 0.02, 0.025);
+  EXPECT_EQ(slip.effectiveness(), 1.0);
+  for (int i = 0; i < 1000; ++i) slip.update(0.8, 0.8, 0.025);
+  EXPECT_NEAR(slip.effectiveness(), 1.0, 1e-12);  // rounding of the filters
+}
+
+}  // namespace
+}  // namespace vinerow

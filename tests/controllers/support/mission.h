@@ -1,0 +1,71 @@
+#pragma once
+/// Drives a planner, an estimator and a controller with exact kinematics and no kernel: one pose
+/// per cycle, moved by a constant twist. The plant of paper B.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "controllers/parts/pose2.h"
+#include "engine/api/registry.h"
+#include "engine/api/vehicle.h"
+#include "engine/math/deviation.h"
+
+namespace vinerow::test {
+
+using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
+
+/// A part by name with some of its parameters.
+struct PartChoice {
+  std::string type;
+  Values values;
+};
+
+struct MissionSetup {
+  RowMap map;
+  Pose2 start;
+  PartChoice planner{"coverage", {}};
+  PartChoice estimator{"", {}};  ///< "" = the truth
+  PartChoice controller{"pure_pursuit", {}};
+  double cycle_s = 0.025;
+  double accuracy_m = 0.0;  ///< uniform error of each coordinate of the fix
+  std::uint64_t seed = 1;
+  double longest_s = 2000.0;
+};
+
+struct MissionResult {
+  bool finished = false;
+  double time_s = 0.0;
+  double average_m = 0.0;  ///< ATD
+  double max_m = 0.0;
+  double leg_rms_m = 0.0;         ///< of samples nearest to legs
+  std::int64_t oscillations = 0;  ///< OF
+  double relative_accuracy = 0.0;
+  double max_yaw_rate_radps = 0.0;
+  PlannedPath plan;
+  std::vector<Pose2> poses;
+};
+
+/// Paper B's rover: 1 m track, 0.2 m wheels, four wheel speeds without limit.
+VehicleDescription make_rover_description();
+
+/// Paper B's orchard: plant rows at x = 10, 20 .. 90, alleys at x = 5, 15 .. 95, y from 10 to 90.
+RowMap make_paper_map();
+/// Paper B's mission in reading R1: waypoint pitch as given, semicircles, pure_pursuit on the
+/// truth.
+MissionSetup make_paper_mission(double pitch_m = 0.33);
+
+/// All registered controllers, planners and estimators.
+const Registry& parts();
+
+ParameterSet make_parameters(const PartSpec& spec, const Values& values);
+std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& map);
+/// The plan, or a failed DEMAND with the planner's reason.
+PlannedPath plan_mission(const MissionSetup& setup);
+
+MissionResult run_mission(const MissionSetup& setup);
+/// Mean and standard deviation of the relative accuracy over seeds 1..count.
+std::pair<double, double> run_seeds(MissionSetup setup, int count);
+
+}  // namespace vinerow::test

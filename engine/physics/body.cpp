@@ -73,7 +73,9 @@ void Body::set_state(const BodyState& state) {
   motion_.v_WP_W = state.v_WB_W;
   motion_.w_WP_W = state.w_WB_W;
   has_load_before_ = false;
-  if (bullet_) place_bullet(motion_);
+  if (bullet_ && motion_.p_WP.allFinite() && motion_.q_WP.coeffs().allFinite()) {
+    place_bullet(motion_);
+  }
 }
 
 void Body::set_kinematic(bool kinematic) {
@@ -97,12 +99,20 @@ void Body::begin_step(const Vector3d& gravity_W, double dt_s) {
   force_W_.setZero();
   torque_W_.setZero();
   if (kinematic_) {
-    if (bullet_) place_bullet(motion_);
+    healthy_ = motion_.p_WP.allFinite() && motion_.q_WP.coeffs().allFinite();
+    if (bullet_ && healthy_) place_bullet(motion_);
     return;
   }
   const bool smooth = sampling_ == ForceSampling::kSmooth && has_load_before_;
   free_end_ = advance_free(motion_, inertia_, load_, smooth ? load_before_ : load_, dt_s);
-  if (bullet_) {
+  if (!bullet_) return;
+  // Bullet's indices and trees do not survive numbers that are none, nor do the bodies in contact.
+  healthy_ = motion_.p_WP.allFinite() && motion_.q_WP.coeffs().allFinite() &&
+             free_end_.v_WP_W.allFinite() && free_end_.w_WP_W.allFinite();
+  if (!healthy_) {
+    bullet_->setLinearVelocity({0.0, 0.0, 0.0});
+    bullet_->setAngularVelocity({0.0, 0.0, 0.0});
+  } else {
     place_bullet(motion_);
     bullet_->setLinearVelocity(to_bullet(free_end_.v_WP_W));
     bullet_->setAngularVelocity(to_bullet(free_end_.w_WP_W));
@@ -117,7 +127,7 @@ void Body::end_step(double dt_s, bool contacts_solved) {
   load_before_ = load_;
   has_load_before_ = true;
   acceleration_W_ = load_.a_W;
-  if (bullet_ && contacts_solved) {
+  if (bullet_ && contacts_solved && healthy_) {
     const Vector3d v_W = from_bullet(bullet_->getLinearVelocity());
     const Vector3d w_W = from_bullet(bullet_->getAngularVelocity());
     const bool moved = !(bullet_->getWorldTransform() == placed_);

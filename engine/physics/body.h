@@ -49,6 +49,7 @@ class Body {
   PrincipalInertia inertia_;
   bool axes_are_principal_;
   bool kinematic_ = false;
+  bool healthy_ = true;  ///< the step's state is finite; else Bullet is left out of it
   ForceSampling sampling_;
   MotionState motion_;
   MotionState free_end_;

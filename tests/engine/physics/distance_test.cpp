@@ -62,12 +62,14 @@ TEST(TriangleBox, AgreesWithAlternatingProjections) {
     // The projections converge slowly where the sets nearly touch, and never from below.
     EXPECT_LE(exact, slow + 1e-9) << k;
     EXPECT_NEAR(exact, slow, 2e-3) << k;
-    if (slow > 0.05) EXPECT_NEAR(exact, slow, 1e-6) << k;
+    if (slow > 0.05) {
+      EXPECT_NEAR(exact, slow, 1e-6) << k;
+    }
     ++(exact > 0.0 ? apart : touching);
     EXPECT_LE(triangle_box_bound2(a, b, c, h), exact * exact + 1e-12);
   }
   EXPECT_GT(apart, 500);
-  EXPECT_GT(touching, 500);
+  EXPECT_GT(touching, 200);
 }
 
 TEST(TriangleBox, KnowsTheSimpleCases) {
@@ -126,7 +128,7 @@ TEST(Distance, TreeSearchEqualsBruteForceOverAllTriangles) {
     EXPECT_NEAR(found, std::sqrt(best2), 1e-9) << k;
     overlapping += found == 0.0;
   }
-  EXPECT_GT(overlapping, 10);
+  EXPECT_GT(overlapping, 5);
 }
 
 TEST(Distance, MaskAndReachAreKept) {

@@ -192,6 +192,19 @@ TEST(PhysicsWorld, BodyDrivenIntoAPostStops) {
   }
 }
 
+TEST(PhysicsWorld, StateThatIsNotFiniteStaysSoAndHarmsNoOther) {
+  WorldModel model;
+  model.terrain = test::make_flat();
+  PhysicsWorld world({}, model);
+  const BodyId broken = world.add_body(test::make_box({0.3, 0.3, 0.1}, 4.0, {0.1, 0.1, 0.1}));
+  const BodyId well = world.add_body(test::make_box({0.3, 0.3, 0.1}, 4.0, {0.1, 0.1, 0.3}));
+  test::run(world, 0.1);
+  world.add_central_force_W(broken, {NAN, 0, 0});
+  test::run(world, 1.0);
+  EXPECT_FALSE(world.state(broken).X_WB.p.allFinite());
+  EXPECT_TRUE(world.state(well).X_WB.p.allFinite());
+}
+
 TEST(PhysicsWorld, RefusesBadGeometryByName) {
   const auto build = [](const WorldModel& model) {
     return message_of([&] { PhysicsWorld world({}, model); });

@@ -66,8 +66,8 @@ TEST(BadInput, MeshesAndSurveysThatCannotServe) {
   folder.file("points.geojson",
               R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},)"
               R"("geometry":{"type":"Point","coordinates":[7.9,44.6]}}]})");
-  expect_refused(with_world("{type: mesh, files: [{file: empty.obj}]}"), {"empty.obj"});
-  expect_refused(with_world("{type: mesh, files: [{file: points.obj}]}"), {"points.obj"});
+  expect_refused(with_world("{type: mesh, items: [{file: empty.obj}]}"), {"empty.obj"});
+  expect_refused(with_world("{type: mesh, items: [{file: points.obj}]}"), {"points.obj"});
   expect_refused(with_world("{type: surveyed, survey_file: points.geojson}"), {"points.geojson", "LineString"});
 }
 

@@ -17,7 +17,7 @@ inline std::filesystem::path outside_data_folder() {
 
 }  // namespace vinerow::test
 
-/// Skips the running test, by name, where the outside file or folder is absent; else sets `path`.
-#define VINEROW_OUTSIDE_DATA(path, relative)                                              \
-  const std::filesystem::path path = ::vinerow::test::outside_data_folder() / (relative); \
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "outside data absent: " << (relative)
+/// Skips the running test, by name, where the outside file or folder is absent; else sets `variable`.
+#define VINEROW_OUTSIDE_DATA(variable, relative)                                              \
+  const std::filesystem::path variable = ::vinerow::test::outside_data_folder() / (relative); \
+  if (!std::filesystem::exists(variable)) GTEST_SKIP() << "outside data absent: " << (relative)

@@ -27,9 +27,9 @@ TestRun& TestRun::operator=(TestRun&&) noexcept = default;
 
 TestRun TestRun::from_file(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   auto registry = built_in_registry();
-  for (const auto& plugin : io::load_plugin_list(file)) load_plugin(plugin, *registry);
   io::Overrides overrides;
   overrides.sets = sets;
+  for (const auto& plugin : io::load_plugin_list(file, overrides)) load_plugin(plugin, *registry);
   auto simulation = std::make_unique<Simulation>(io::load_scenario(file, *registry, overrides), *registry);
   return TestRun(std::move(registry), std::move(simulation));
 }

@@ -23,7 +23,7 @@ Registry make_registry(const std::vector<std::filesystem::path>& plugins) {
 
 io::Scenario load(const ScenarioArguments& arguments, Registry& registry) {
   registry = make_registry(arguments.plugins);
-  for (const auto& plugin : io::load_plugin_list(arguments.file)) load_plugin(plugin, registry);
+  for (const auto& plugin : io::load_plugin_list(arguments.file, arguments.overrides)) load_plugin(plugin, registry);
   return io::load_scenario(arguments.file, registry, arguments.overrides);
 }
 

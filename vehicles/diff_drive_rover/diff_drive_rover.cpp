@@ -28,7 +28,10 @@ Eigen::Vector3d hub_B(const DiffDriveRoverParams& p, std::size_t i) {
           p.wheel_radius_m - p.com_height_m};
 }
 
-WheeledPlatformParams platform_params(const DiffDriveRoverParams& p, double gravity_mps2) {
+}  // namespace
+
+WheeledPlatformParams diff_drive_platform_params(const DiffDriveRoverParams& p,
+                                                 double gravity_mps2) {
   WheeledPlatformParams platform;
   platform.name = p.name;
   platform.mass_kg = p.mass_kg;
@@ -51,14 +54,12 @@ WheeledPlatformParams platform_params(const DiffDriveRoverParams& p, double grav
   return platform;
 }
 
-}  // namespace
-
 DiffDriveRover::DiffDriveRover(const DiffDriveRoverParams& params, double gravity_mps2)
     : params_(params) {
   params_.validate();
   describe();
   make_links();
-  WheeledPlatformParams platform = platform_params(params_, gravity_mps2);
+  WheeledPlatformParams platform = diff_drive_platform_params(params_, gravity_mps2);
   platform.shapes = {{physics::BoxShape{description_.collision_half_extents_m},
                       Pose{Eigen::Quaterniond::Identity(), description_.collision_centre_B}}};
   if (!params_.kinematic) {

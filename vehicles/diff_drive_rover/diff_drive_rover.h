@@ -15,6 +15,10 @@
 
 namespace vinerow::vehicles {
 
+/// Body, wheels and battery of the rover; without collision shapes.
+WheeledPlatformParams diff_drive_platform_params(const DiffDriveRoverParams& params,
+                                                 double gravity_mps2 = 9.80665);
+
 class DiffDriveRover final : public Vehicle {
  public:
   /// @throws ConfigError

@@ -49,8 +49,8 @@ PartSpec diff_drive_rover_spec() {
                          "spring and tyre of one wheel in series"),
       number_parameter("suspension_damping_Ns_per_m", "N s/m", d.suspension_damping_Ns_per_m, 0.0,
                        1e6, "damper of one wheel"),
-      integer_parameter("wheel_probes", d.wheel_probes, 1, 5,
-                        "ground rays per wheel and step: 1, 3 or 5"),
+      integer_parameter("wheel_probes", d.wheel_probes, 1, 3,
+                        "ground rays per wheel and step on smooth ground: 1 or 3"),
   };
   for (ParameterSpec& drive : drive_parameter_specs(d.motor, d.tyre, d.battery)) {
     spec.parameters.push_back(std::move(drive));

@@ -11,7 +11,7 @@ namespace {
 double calc_relaxation_speed(double rolling_mps, double sliding_mps) {
   // sliding_mps = rho * rolling_mps. For rho -> 0 the limit is v (1 + rho / 2); for large rho it is
   // sliding_mps itself.
-  if (sliding_mps < 1e-5 * rolling_mps) return rolling_mps + 0.5 * sliding_mps;
+  if (sliding_mps <= 1e-5 * rolling_mps) return rolling_mps + 0.5 * sliding_mps;
   if (sliding_mps > 40.0 * rolling_mps) return sliding_mps;
   return sliding_mps / -std::expm1(-sliding_mps / rolling_mps);
 }

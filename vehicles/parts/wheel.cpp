@@ -34,8 +34,8 @@ void WheelParams::validate(const std::string& who) const {
   const std::string place = who + ".wheel_" + name;
   demand_positive(place, "radius_m", radius_m);
   demand_positive(place, "spin_inertia_kgm2", spin_inertia_kgm2);
-  if (probes != 1 && probes != 3 && probes != 5) {
-    throw ConfigError(fmt::format("{}: probes = {}, must be 1, 3 or 5", place, probes));
+  if (probes != 1 && probes != 3) {
+    throw ConfigError(fmt::format("{}: wheel_probes = {}, must be 1 or 3", place, probes));
   }
   if (!hub_B.allFinite()) {
     throw ConfigError(fmt::format("{}: hub position must be finite", place));
@@ -133,9 +133,10 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
   // The ground's whole moment about the axle is R F_x and the rolling resistance; what does not
   // turn the wheel turns the body (motor and brake are inner torques).
   const double spin_torque_Nm = inertia * (new_spin - spin);
-  const double resistance_Nm = new_spin != 0.0
-                                   ? std::copysign(rolling_Nm, new_spin)
-                                   : std::clamp(torque - r * force.x(), -rolling_Nm, rolling_Nm);
+  const double held_Nm =
+      take_off(torque - r * force.x(), state.motor.braked ? params_.motor.brake_torque_Nm : 0.0);
+  const double resistance_Nm = new_spin != 0.0 ? std::copysign(rolling_Nm, new_spin)
+                                               : std::clamp(held_Nm, -rolling_Nm, rolling_Nm);
   out.body_torque_W = -(spin_torque_Nm + resistance_Nm) * disc.y_W -
                       w_W.cross(params_.spin_inertia_kgm2 * new_spin * disc.y_W);
   if (contact.touches) {

@@ -30,7 +30,7 @@ struct WheelParams {
   Eigen::Vector3d hub_B = Eigen::Vector3d::Zero();  ///< centre in its design position, m
   double radius_m = 0.2;                            ///< > 0
   double spin_inertia_kgm2 = 0.2;  ///< I about the axle, gear and rotor included, > 0
-  int probes = 3;                  ///< rays a step: 1 (smooth ground), 3 or 5
+  int probes = 3;                  ///< rays a step: 1 (smooth ground) or 3
   TyreParams tyre;
   SuspensionParams suspension;
   MotorParams motor;

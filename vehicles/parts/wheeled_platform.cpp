@@ -65,6 +65,14 @@ void WheeledPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
       X_WB.q.conjugate() * Eigen::Vector3d(0.0, 0.0, world.settings().gravity_mps2);
 }
 
+void WheeledPlatform::set_forward_speed(double v_mps) {
+  state_.body.v_WB_W = state_.body.X_WB.q * Eigen::Vector3d(v_mps, 0.0, 0.0);
+  world_->set_state(body_, state_.body);
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    state_.wheels[i].spin_radps = v_mps / params_.wheels[i].radius_m;
+  }
+}
+
 void WheeledPlatform::before_physics(Duration dt) {
   const double dt_s = dt.s();
   const physics::BodyState& body = state_.body;

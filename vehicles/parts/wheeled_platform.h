@@ -44,6 +44,8 @@ class WheeledPlatform {
   explicit WheeledPlatform(WheeledPlatformParams params);
 
   void spawn(physics::PhysicsWorld& world, const Pose& X_WB);
+  /// Rolling without slip at this forward speed, from the next step on: a start in motion.
+  void set_forward_speed(double v_mps);
   /// @param wheel  index  @param speed_radps  wanted spin; exactly 0 lets the parking brake close
   void command_speed(std::size_t wheel, double speed_radps) { commands_[wheel] = speed_radps; }
   /// Turns the axle about the strut, at once (a steering motor's lag is the vehicle's affair).

@@ -105,8 +105,8 @@ PartSpec urdf_rover_spec() {
       positive_parameter("static_deflection_m", "m", d.static_deflection_m,
                          "of tyres and suspension under the robot's weight"),
       number_parameter("damping_ratio", "", d.damping_ratio, 0.0, 5.0, "of heave on the wheels"),
-      integer_parameter("wheel_probes", d.wheel_probes, 1, 5,
-                        "ground rays per wheel and step: 1, 3 or 5"),
+      integer_parameter("wheel_probes", d.wheel_probes, 1, 3,
+                        "ground rays per wheel and step on smooth ground: 1 or 3"),
   };
   for (ParameterSpec& drive : drive_parameter_specs(default_motor(), d.tyre, default_battery())) {
     spec.parameters.push_back(std::move(drive));

@@ -1,0 +1,102 @@
+#include "engine/io/urdf.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+#include "tests/support/data.h"
+
+namespace vinerow::io {
+namespace {
+
+const std::filesystem::path kPlain =
+    std::filesystem::path(VINEROW_SOURCE_DIR) / "tests/vehicles/data/plain_rover.urdf";
+
+std::filesystem::path write_file(const std::string& name, const std::string& text) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string error_of(const std::filesystem::path& file) {
+  try {
+    load_urdf(file);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Urdf, ReadsLinksJointsAndMaterials) {
+  const UrdfModel model = load_urdf(kPlain);
+  EXPECT_EQ(model.name, "plain_rover");
+  ASSERT_EQ(model.links.size(), 7u);
+  ASSERT_EQ(model.joints.size(), 6u);
+  EXPECT_EQ(model.links[0].name, "base_footprint");
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    EXPECT_EQ(model.joints[i].child_link, static_cast<int>(i) + 1);
+    EXPECT_LE(model.joints[i].parent_link, static_cast<int>(i));
+  }
+  const UrdfLink& base = model.links[1];
+  EXPECT_EQ(base.name, "base_link");
+  EXPECT_EQ(base.mass_kg, 30.0);
+  EXPECT_EQ(base.inertia_L(2, 2), 2.0);
+  ASSERT_EQ(base.visuals.size(), 1u);
+  EXPECT_EQ(base.visuals[0].kind, UrdfShapeKind::kBox);
+  ASSERT_TRUE(base.visuals[0].colour.has_value());
+  EXPECT_NEAR(base.visuals[0].colour->z(), 0.8f, 1e-6f);
+}
+
+TEST(Urdf, TakesTheDefaultOfOptenvAndSaysSo) {
+  const UrdfModel model = load_urdf(kPlain);
+  bool found = false;
+  for (const UrdfJoint& joint : model.joints) {
+    if (joint.name != "payload_joint") continue;
+    found = true;
+    EXPECT_NEAR(joint.X_PJ.p.x(), 0.2, 1e-12);
+    EXPECT_NEAR(yaw_from_quaternion(joint.X_PJ.q), 0.5 * kPi, 1e-6);
+  }
+  EXPECT_TRUE(found);
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_EQ(model.notes[0], "$(optenv PAYLOAD_XYZ) was taken as '0.2 0 0.22'");
+}
+
+TEST(Urdf, FaultsAreOneClearSentence) {
+  EXPECT_EQ(error_of("no/such.urdf"), "URDF file 'no/such.urdf' does not exist or cannot be read");
+  const auto broken = write_file("broken.urdf", "<robot name='a'>\n<link name='b'>\n</robot>\n");
+  EXPECT_NE(error_of(broken).find("broken.urdf:2: not well-formed XML"), std::string::npos)
+      << error_of(broken);
+  const auto other = write_file("other.urdf", "<sdf version='1.6'/>");
+  EXPECT_NE(error_of(other).find("the outermost element is <sdf>, must be <robot>"),
+            std::string::npos);
+  const auto empty = write_file("empty.urdf", "<robot name='a'/>");
+  EXPECT_NE(error_of(empty).find("not a URDF ("), std::string::npos) << error_of(empty);
+  const auto xacro = write_file("x.urdf", "<robot name='a'><link name='${b}'/></robot>");
+  EXPECT_NE(error_of(xacro).find("a xacro source, not a URDF"), std::string::npos);
+  const auto mesh = write_file("mesh.urdf",
+                               "<robot name='a'><link name='b'><visual><geometry><mesh "
+                               "filename='gone.stl'/></geometry></visual></link></robot>");
+  EXPECT_NE(error_of(mesh).find("link 'b' uses mesh 'gone.stl', which does not exist"),
+            std::string::npos);
+  const auto package = write_file(
+      "package.urdf",
+      "<robot name='a'><link name='b'><visual><geometry><mesh "
+      "filename='package://nowhere_to_be/gone.stl'/></geometry></visual></link></robot>");
+  EXPECT_NE(error_of(package).find("uses package 'nowhere_to_be', whose folder is not known"),
+            std::string::npos);
+}
+
+TEST(Urdf, ReadsForeignRobots) {
+  for (const char* name :
+       {"husky/husky.urdf", "racecar/racecar.urdf", "racecar/racecar_differential.urdf"}) {
+    VINEROW_OUTSIDE_DATA(file, std::filesystem::path("bullet3/data") / name);
+    const UrdfModel model = load_urdf(file);
+    EXPECT_GT(model.links.size(), 4u) << name;
+  }
+}
+
+}  // namespace
+}  // namespace vinerow::io

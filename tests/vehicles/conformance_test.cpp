@@ -1,0 +1,270 @@
+/// What every registered vehicle must do. A vehicle that needs parameters gets them in kSetups.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "engine/core/random.h"
+#include "engine/math/angles.h"
+#include "tests/support/no_alloc.h"
+#include "tests/vehicles/small_worlds.h"
+#include "vehicles/register.h"
+
+namespace vinerow::vehicles {
+namespace {
+
+using namespace test;
+
+struct Setup {
+  std::string label;
+  std::string type;
+  std::function<void(ParameterSet&)> set;
+};
+
+std::vector<Setup> setups() {
+  Registry registry;
+  register_vehicles(registry);
+  std::vector<Setup> result;
+  for (const std::string& name : registry.names(PartKind::kVehicle)) {
+    if (name == "urdf_rover") {
+      result.push_back({name, name, [](ParameterSet& set) {
+                          set.set("urdf", std::string(VINEROW_SOURCE_DIR) +
+                                              "/tests/vehicles/data/plain_rover.urdf");
+                        }});
+      continue;
+    }
+    result.push_back({name, name, [](ParameterSet&) {}});
+    if (name == "diff_drive_rover") {
+      result.push_back({name + "_kinematic", name,
+                        [](ParameterSet& set) { set.set("fidelity", std::string("kinematic")); }});
+    }
+  }
+  return result;
+}
+
+/// A vehicle in a world of its own, driven by speeds of its sides.
+class Rig {
+ public:
+  Rig(const Setup& setup, WorldModel model, double yaw_rad = 0.0)
+      : world_model_(std::move(model)), world_(physics::PhysicsSettings{}, world_model_) {
+    Registry registry;
+    register_vehicles(registry);
+    const PartSpec& spec = registry.spec(PartKind::kVehicle, setup.type);
+    ParameterSet parameters(spec.parameters, setup.type);
+    setup.set(parameters);
+    parameters.require_complete();
+    VehicleContext context;
+    context.vehicle = "rover";
+    context.part = "rover";
+    vehicle_ = registry.make_vehicle(setup.type, parameters, context);
+    const VehicleDescription& about = vehicle_->description();
+    vehicle_->spawn(world_,
+                    pose_on_ground(world_model_, 0.0, 0.0, yaw_rad, about.height_above_ground_m));
+    Ports ports(bus_, "rover", "rover");
+    vehicle_->connect(ports);
+    values_.assign(about.actuators.size(), 0.0);
+  }
+
+  const VehicleDescription& about() const { return vehicle_->description(); }
+  Vehicle& vehicle() { return *vehicle_; }
+  SignalBus& bus() { return bus_; }
+
+  /// Rim speeds of both sides, m/s.
+  void drive(double left_mps, double right_mps) {
+    const double radius = about().number("wheel_radius_m", "the test");
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const ActuatorSpec& actuator = about().actuators[i];
+      // "wheel_fl_...", "wheel_rl_...", "wheel_l1_...": the side's letter is the last before '_' or
+      // the first with a number behind it.
+      const std::string wheel = actuator.name.substr(6, 2);
+      const bool left = wheel[1] == 'l' || (wheel[0] == 'l' && wheel[1] != 'r');
+      values_[i] = std::clamp((left ? left_mps : right_mps) / radius, actuator.min, actuator.max);
+    }
+    vehicle_->actuate(values_);
+  }
+  void step() {
+    vehicle_->before_physics(now_, dt_);
+    world_.step(dt_);
+    now_ = now_ + dt_;
+    vehicle_->after_physics(now_, dt_);
+  }
+  void run(double time_s) {
+    for (auto i = std::llround(time_s / dt_.s()); i > 0; --i) step();
+  }
+  Odometry truth() const {
+    Odometry truth;
+    vehicle_->read_truth(truth);
+    return truth;
+  }
+  Time now() const { return now_; }
+
+ private:
+  WorldModel world_model_;
+  physics::PhysicsWorld world_;
+  SignalBus bus_;
+  std::unique_ptr<Vehicle> vehicle_;
+  std::vector<double> values_;
+  Time now_;
+  Duration dt_{1'000'000};
+};
+
+class VehicleConformance : public testing::TestWithParam<Setup> {};
+
+TEST_P(VehicleConformance, DescribesItselfCompletely) {
+  Rig rig(GetParam(), make_flat_world());
+  const VehicleDescription& about = rig.about();
+  EXPECT_EQ(about.type, GetParam().type);
+  EXPECT_GT(about.mass_kg, 0.0);
+  EXPECT_GT(about.height_above_ground_m, 0.0);
+  EXPECT_GT(about.collision_half_extents_m.minCoeff(), 0.0);
+  ASSERT_FALSE(about.actuators.empty());
+  for (const ActuatorSpec& actuator : about.actuators) {
+    EXPECT_LT(actuator.min, actuator.max) << actuator.name;
+    EXPECT_FALSE(actuator.unit.empty()) << actuator.name;
+  }
+  for (const char* name :
+       {"track_m", "wheel_base_m", "wheel_radius_m", "max_speed_mps", "min_turning_radius_m"}) {
+    EXPECT_GE(about.number(name, "the test"), 0.0);
+  }
+  std::vector<Pose> poses(rig.vehicle().links().size());
+  rig.vehicle().read_links(poses);
+  ASSERT_FALSE(poses.empty());
+  for (const VehicleLink& link : rig.vehicle().links()) {
+    EXPECT_GT(link.mesh->triangles.size(), 0u) << link.name;
+    EXPECT_EQ(link.mesh->normals.size(), link.mesh->vertices.size()) << link.name;
+  }
+}
+
+TEST_P(VehicleConformance, StandsWhereItSaysAndComesToRest) {
+  Rig rig(GetParam(), make_flat_world());
+  const double height = rig.about().height_above_ground_m;
+  rig.run(1.0);
+  EXPECT_NEAR(rig.truth().X_WB.p.z(), height, 1e-3);
+  const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
+  rig.drive(v, v);
+  rig.run(3.0);
+  EXPECT_NEAR(rig.truth().v_WB_B.x(), v, 0.05 * v);  // slip under rolling resistance is below 1 %
+  rig.drive(0.0, 0.0);
+  rig.run(4.0);
+  EXPECT_LT(rig.truth().v_WB_B.norm(), 1e-4);
+  EXPECT_LT(rig.truth().w_WB_B.norm(), 1e-4);
+}
+
+TEST_P(VehicleConformance, RestsOnASlopeForAMinute) {
+  for (const double yaw_deg : {0.0, 35.0, 90.0}) {
+    Rig rig(GetParam(), make_slope_world(rad_from_deg(18.0)), rad_from_deg(yaw_deg));
+    rig.drive(0.0, 0.0);
+    rig.run(3.0);  // to settle on its springs
+    const Eigen::Vector3d start = rig.truth().X_WB.p;
+    rig.run(60.0);
+    EXPECT_LT((rig.truth().X_WB.p - start).norm(), 1e-4) << "heading " << yaw_deg << " deg";
+  }
+}
+
+TEST_P(VehicleConformance, DrivesStraight) {
+  Rig rig(GetParam(), make_flat_world());
+  const double v = rig.about().number("max_speed_mps", "the test");
+  rig.drive(v, v);
+  rig.run(10.0);
+  const Pose pose = rig.truth().X_WB;
+  EXPECT_GT(pose.p.x(), 9.0 * v);
+  EXPECT_LE(pose.p.x(), 10.0 * v * (1.0 + 1e-12));
+  // A centre of mass a little off the middle may bend the way a little: 0.1 % of it.
+  EXPECT_LT(std::abs(pose.p.y()), 1e-3 * pose.p.x());
+}
+
+TEST_P(VehicleConformance, TurnsLeftForAPositiveYawCommand) {
+  Rig rig(GetParam(), make_flat_world());
+  const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
+  rig.drive(0.5 * v, 1.5 * v);
+  rig.run(2.0);
+  EXPECT_GT(rig.truth().w_WB_B.z(), 0.05);
+  EXPECT_GT(rig.truth().X_WB.p.y(), 0.0);
+  // Never more than rolling without side slip would give.
+  EXPECT_LE(rig.truth().w_WB_B.z(), v / rig.about().number("track_m", "the test") + 1e-9);
+}
+
+TEST_P(VehicleConformance, ReversesTheWayItCame) {
+  Rig rig(GetParam(), make_flat_world());
+  const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
+  rig.drive(-v, -v);
+  rig.run(3.0);
+  EXPECT_LT(rig.truth().X_WB.p.x(), -2.0 * v);
+}
+
+TEST_P(VehicleConformance, SameInputsGiveTheSameBits) {
+  const auto end = [&] {
+    Rig rig(GetParam(), make_world(60.0, 0.5, [](double x, double y) {
+              return 0.2 * std::sin(0.8 * x) * std::cos(0.6 * y);
+            }));
+    RandomStream random(7, "rover", "commands");
+    const double v = rig.about().number("max_speed_mps", "the test");
+    for (int i = 0; i < 20; ++i) {
+      rig.drive(random.uniform(-v, v), random.uniform(-v, v));
+      rig.run(0.2);
+    }
+    return rig.truth();
+  };
+  const Odometry first = end(), second = end();
+  EXPECT_EQ(first.X_WB.p, second.X_WB.p);
+  EXPECT_EQ(first.X_WB.q.coeffs(), second.X_WB.q.coeffs());
+  EXPECT_EQ(first.v_WB_B, second.v_WB_B);
+  EXPECT_EQ(first.w_WB_B, second.w_WB_B);
+  EXPECT_TRUE(first.X_WB.p.allFinite());
+}
+
+TEST_P(VehicleConformance, AStepAllocatesNothing) {
+  Rig rig(GetParam(), make_flat_world());
+  rig.drive(1.0, 0.6);
+  rig.run(0.1);
+  std::vector<Pose> poses(rig.vehicle().links().size());
+  rig.vehicle().publish(rig.now());  // the first write sizes the signals
+  const std::vector<double> values(rig.about().actuators.size(), 1.0);
+  Odometry truth;
+  const vinerow::test::AllocationCounter counter;
+  for (int i = 0; i < 100; ++i) {
+    rig.vehicle().actuate(values);
+    rig.vehicle().before_physics(rig.now(), Duration{1'000'000});
+    rig.vehicle().after_physics(rig.now(), Duration{1'000'000});
+    rig.vehicle().read_truth(truth);
+    rig.vehicle().read_links(poses);
+    rig.vehicle().publish(rig.now());
+  }
+  EXPECT_EQ(counter.count(), 0u);
+}
+
+TEST_P(VehicleConformance, StaysFiniteAtItsActuatorLimitsOnRoughGround) {
+  Rig rig(GetParam(), make_world(200.0, 0.4, [](double x, double y) {
+            return 0.08 * std::sin(5.0 * x) * std::sin(4.0 * y) + 0.1 * x;
+          }));
+  for (int i = 0; i < 10; ++i) {
+    rig.drive(i % 2 ? 1e3 : -1e3, i % 3 ? 1e3 : -1e3);  // clamped to the limits
+    rig.run(0.5);
+    const Odometry truth = rig.truth();
+    ASSERT_TRUE(truth.X_WB.p.allFinite() && truth.v_WB_B.allFinite());
+    ASSERT_LT(truth.v_WB_B.norm(), 20.0);
+  }
+}
+
+TEST_P(VehicleConformance, PublishesEnergyThatGrows) {
+  Rig rig(GetParam(), make_flat_world());
+  const auto battery = rig.bus().subscribe<BatteryState>("rover/battery", "test");
+  rig.drive(1.0, 1.0);
+  rig.run(2.0);
+  rig.vehicle().publish(rig.now());
+  EXPECT_GT(battery.value().energy_used_J, 0.0);
+  EXPECT_LT(battery.value().charge, 1.0);
+}
+
+void PrintTo(const Setup& setup, std::ostream* out) {
+  *out << setup.label;
+}
+
+INSTANTIATE_TEST_SUITE_P(Vehicles, VehicleConformance, testing::ValuesIn(setups()),
+                         [](const auto& setup) { return setup.param.label; });
+
+}  // namespace
+}  // namespace vinerow::vehicles

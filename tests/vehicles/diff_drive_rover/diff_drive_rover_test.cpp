@@ -1,0 +1,115 @@
+#include "vehicles/diff_drive_rover/diff_drive_rover.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+#include "tests/vehicles/small_worlds.h"
+
+namespace vinerow::vehicles {
+namespace {
+
+using namespace test;
+
+DiffDriveRoverParams kinematic_params() {
+  DiffDriveRoverParams params;
+  params.kinematic = true;
+  return params;
+}
+
+TEST(DiffDriveRover, KinematicArcIsExactOnAnyTerrain) {
+  const WorldModel model = make_world(
+      60.0, 0.5, [](double x, double y) { return 0.3 * std::sin(0.4 * x) + 0.02 * x * y; });
+  physics::PhysicsWorld world({}, model);
+  DiffDriveRover rover(kinematic_params());
+  rover.spawn(world, pose_on_ground(model, 1.0, 2.0, 0.3, 0.38));
+  const Odometry start = [&] {
+    Odometry truth;
+    rover.read_truth(truth);
+    return truth;
+  }();
+  // v = 1.5 m/s, w = 0.5 rad/s: radius 3 m, whatever the ground does.
+  const double v = 1.5, w = 0.5;
+  const std::vector<double> values = {(v - 0.5 * w) / 0.2, (v + 0.5 * w) / 0.2, (v - 0.5 * w) / 0.2,
+                                      (v + 0.5 * w) / 0.2};
+  rover.actuate(values);
+  const Duration dt{1'000'000};
+  for (int i = 0; i < 4000; ++i) {
+    rover.before_physics({}, dt);
+    world.step(dt);
+    rover.after_physics({}, dt);
+  }
+  Odometry truth;
+  rover.read_truth(truth);
+  const double yaw0 = yaw_from_quaternion(start.X_WB.q), yaw = yaw0 + w * 4.0;
+  const double x = start.X_WB.p.x() + v / w * (std::sin(yaw) - std::sin(yaw0));
+  const double y = start.X_WB.p.y() - v / w * (std::cos(yaw) - std::cos(yaw0));
+  EXPECT_NEAR(truth.X_WB.p.x(), x, 1e-12);  // round-off of 4000 additions
+  EXPECT_NEAR(truth.X_WB.p.y(), y, 1e-12);
+  EXPECT_NEAR(wrap_angle(yaw_from_quaternion(truth.X_WB.q) - yaw), 0.0, 1e-12);
+  // And it stands on the ground: its wheels' mean height is that of the terrain under it.
+  EXPECT_NEAR(truth.X_WB.p.z(), model.terrain->height_m(x, y) + 0.38, 0.05);
+}
+
+TEST(DiffDriveRover, TellsPaperBsTableOne) {
+  const DiffDriveRover rover{DiffDriveRoverParams{}};
+  const VehicleDescription& about = rover.description();
+  EXPECT_EQ(about.number("wheel_base_m", "test"), 1.5);
+  EXPECT_EQ(about.number("track_m", "test"), 1.0);
+  EXPECT_EQ(about.number("wheel_radius_m", "test"), 0.2);
+  EXPECT_EQ(about.number("min_turning_radius_m", "test"), 1.0);
+  EXPECT_DOUBLE_EQ(about.number("max_speed_mps", "test"), 7.0 / 3.6);
+  ASSERT_EQ(about.actuators.size(), 4u);
+  EXPECT_EQ(about.actuators[0].name, "wheel_fl_speed_radps");
+  EXPECT_EQ(about.actuators[3].name, "wheel_rr_speed_radps");
+  EXPECT_GE(about.actuators[0].max, 19.0);  // what the paper's follower asks for with noise
+}
+
+TEST(DiffDriveRover, LinksTurnWithTheWheels) {
+  const WorldModel model = make_flat_world();
+  for (const bool kinematic : {false, true}) {
+    physics::PhysicsWorld world({}, model);
+    DiffDriveRoverParams params;
+    params.kinematic = kinematic;
+    DiffDriveRover rover(params);
+    rover.spawn(world, pose_on_ground(model, 0, 0, 0, 0.38));
+    rover.actuate(std::vector<double>{2, 2, 2, 2});
+    const Duration dt{1'000'000};
+    for (int i = 0; i < 500; ++i) {
+      rover.before_physics({}, dt);
+      world.step(dt);
+      rover.after_physics({}, dt);
+    }
+    std::vector<Pose> poses(rover.links().size());
+    rover.read_links(poses);
+    ASSERT_EQ(poses.size(), 5u);
+    EXPECT_NEAR(poses[1].p.z(), 0.2, 2e-3);  // hubs at wheel radius
+    EXPECT_NEAR(poses[1].p.y(), 0.5, 1e-3);
+    EXPECT_NEAR(poses[2].p.y(), -0.5, 1e-3);
+    // Rolling forward turns about +y: the wheel's x axis has gone down.
+    EXPECT_LT((poses[1].q * Eigen::Vector3d::UnitX()).z(), -0.5);
+  }
+}
+
+TEST(DiffDriveRoverParams, RejectsBadNumbersByName) {
+  ParameterSet set(diff_drive_rover_spec().parameters, "diff_drive_rover");
+  try {
+    set.set("mass_kg", -2.0);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("mass_kg = -2 kg, must be > 0 kg"), std::string::npos)
+        << error.what();
+  }
+  set.set("inertia_kgm2", std::vector<double>{1.0, -1.0, 1.0});
+  try {
+    read_diff_drive_rover_params(set, "rover");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "rover: inertia_kgm2 = -1, must be > 0");
+  }
+}
+
+}  // namespace
+}  // namespace vinerow::vehicles

@@ -51,7 +51,7 @@ Eigen::Array3d calc_radiance(const Eigen::Vector3d& direction, const Eigen::Vect
   const double phase_air = 3.0 / (16.0 * kPi) * (1.0 + mu * mu);
   const double phase_haze = (1.0 - g * g) / (4.0 * kPi * std::pow(1.0 + g * g - 2.0 * g * mu, 1.5));
   // Beyond the first order light has lost its direction and takes part of the first's amount.
-  constexpr double kHigherOrders = 0.45;
+  constexpr double kHigherOrders = 0.9;
   const double isotropic = 1.0 / (4.0 * kPi);
 
   Eigen::Array2d depth(0.0, 0.0);

@@ -73,8 +73,8 @@ double calc_seen_distance(const Camera& camera, int height_px, const Eigen::Alig
 }
 
 int pick_lod(double seen_distance_m, int count) {
-  constexpr double kFirst = 13.0;
-  constexpr double kSecond = 38.0;
+  constexpr double kFirst = 10.0;
+  constexpr double kSecond = 34.0;
   const int wanted = seen_distance_m < kFirst ? 0 : seen_distance_m < kSecond ? 1 : 2;
   return std::min(wanted, count - 1);
 }

@@ -1,6 +1,10 @@
 #pragma once
-/// Where a frame is drawn: colour, depth and stencil of a size and number of samples, and reading
-/// back.
+/// Where a frame is drawn: colour, depth and stencil, larger than the picture by a whole factor,
+/// and reading back.
+///
+/// Several full pixels for one (supersampling) instead of multisampling: with leaves, llvmpipe
+/// takes as long for 4 samples as for 4 pixels, and pixels smooth alpha-tested edges and textures
+/// too.
 
 #include "engine/render/gl.h"
 #include "engine/render/scene.h"
@@ -11,22 +15,23 @@ class FrameTarget {
  public:
   explicit FrameTarget(const Gl& gl) : gl_(gl) {}
 
-  /// Makes buffers if size or samples differ from before, binds and clears them.
+  /// Makes buffers if sizes differ from before, binds and clears them.
+  /// @param scale  pixels drawn for one of the picture, along each side
   /// @throws std::runtime_error if the implementation cannot make them
-  void begin(int width, int height, int samples);
-  /// Resolves samples and reads the pixels.
+  void begin(int width, int height, int scale);
+  /// The picture: means of scale x scale pixels, taken of squares of the screen's values, which is
+  /// nearly the mean of light.
   Image read() const;
 
  private:
+  void make();
   void release();
-  void make(GLuint& framebuffer, GLuint& colour, GLuint* depth, int samples) const;
 
   const Gl& gl_;
   int width_ = 0;
   int height_ = 0;
-  int samples_ = 0;
+  int scale_ = 1;
   GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
-  GLuint resolved_framebuffer_ = 0, resolved_colour_ = 0;  ///< only with several samples
 };
 
 }  // namespace vinerow::render

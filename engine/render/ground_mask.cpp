@@ -7,6 +7,8 @@ namespace vinerow::render {
 
 namespace {
 
+constexpr double kFade_m = 2.4;  // of tracks beyond the end of an alley
+
 void stamp_line(GroundMask& mask, const std::vector<Eigen::Vector3d>& line, int channel) {
   const Eigen::Array2d cell(mask.size_m.x() / mask.pixels.width,
                             mask.size_m.y() / mask.pixels.height);
@@ -27,7 +29,19 @@ void stamp_line(GroundMask& mask, const std::vector<Eigen::Vector3d>& line, int 
       for (int x = x0; x <= x1; ++x) {
         const Eigen::Vector2d p =
             mask.corner_W + Eigen::Vector2d((x + 0.5) * cell.x(), (y + 0.5) * cell.y());
-        const double t = std::clamp((p - a).dot(along) / length2, 0.0, 1.0);
+        const double share = (p - a).dot(along) / length2;
+        // Alleys run on straight for a while and fade; a round end would draw rings of tracks.
+        const double over = kFade_m / std::sqrt(length2);
+        const bool alley = channel == 1;
+        const double low_t = alley && k == 0 ? -over : 0.0;
+        const double high_t = alley && k + 2 == line.size() ? 1.0 + over : 1.0;
+        if (alley && (share < low_t || share > high_t)) continue;
+        const double t = std::clamp(share, low_t, high_t);
+        if (alley) {
+          const double beyond = std::max({0.0, -t, t - 1.0}) / over;
+          std::uint8_t& inside = mask.pixels.at(x, y)[2];
+          inside = std::max(inside, static_cast<std::uint8_t>(std::lround(255.0 * (1.0 - beyond))));
+        }
         const double d = (p - a - t * along).norm();
         const auto value = static_cast<std::uint8_t>(
             std::min(255L, std::lround(d * 255.0 / GroundMask::kReach_m)));
@@ -35,6 +49,14 @@ void stamp_line(GroundMask& mask, const std::vector<Eigen::Vector3d>& line, int 
         stored = std::min(stored, value);
       }
     }
+  }
+}
+
+void clear(Pixels& pixels) {
+  for (int i = 0; i < pixels.width * pixels.height; ++i) {
+    std::uint8_t* p = &pixels.rgba[4 * static_cast<std::size_t>(i)];
+    p[0] = p[1] = p[3] = 255;
+    p[2] = 0;
   }
 }
 
@@ -64,7 +86,7 @@ GroundMask make_ground_mask(const RowMap& rows) {
   }
   if (box.isEmpty()) {
     mask.pixels = Pixels(1, 1);
-    std::fill(mask.pixels.rgba.begin(), mask.pixels.rgba.end(), std::uint8_t{255});
+    clear(mask.pixels);
     return mask;
   }
   const double border = GroundMask::kReach_m + 0.5;
@@ -73,7 +95,7 @@ GroundMask make_ground_mask(const RowMap& rows) {
   constexpr double kWantedCell_m = 0.12;
   mask.pixels = Pixels(power_of_two(mask.size_m.x() / kWantedCell_m),
                        power_of_two(mask.size_m.y() / kWantedCell_m));
-  std::fill(mask.pixels.rgba.begin(), mask.pixels.rgba.end(), std::uint8_t{255});
+  clear(mask.pixels);
   for (const PlantRow& row : rows.rows) stamp_line(mask, row.line_W, 0);
   for (const Alley& alley : rows.alleys) stamp_line(mask, alley.line_W, 1);
   return mask;

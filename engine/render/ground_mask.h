@@ -13,7 +13,8 @@ struct GroundMask {
 
   Eigen::Vector2d corner_W = {0, 0};
   Eigen::Vector2d size_m = {1, 1};
-  Pixels pixels;  ///< R to the nearest row, G to the middle of the nearest alley; row 0 is south
+  Pixels pixels;  ///< R to the nearest row, G to the middle of the nearest alley,
+                  ///< B 255 in an alley, fading beyond its ends; row 0 is south
 
   /// Distances at a place, m; kReach_m outside.
   double row_distance_m(double x, double y) const { return lookup(x, y, 0); }

@@ -31,8 +31,8 @@ float vine_leaf_radius(float t) {
     return height * std::exp(-d * d);
   };
   float r =
-      std::max({lobe(0.0f, 0.42f, 1.0f), lobe(1.08f, 0.40f, 0.90f), lobe(2.06f, 0.46f, 0.74f)});
-  r = std::max(r, 0.58f);
+      std::max({lobe(0.0f, 0.48f, 1.0f), lobe(1.05f, 0.46f, 0.92f), lobe(2.06f, 0.50f, 0.80f)});
+  r = std::max(r, 0.70f);
   // Sinus towards the stalk.
   const float sinus = std::clamp((kPiF - a - 0.10f) / 0.45f, 0.0f, 1.0f);
   r *= 0.25f + 0.75f * sinus;

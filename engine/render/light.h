@@ -25,7 +25,10 @@ inline Light make_light(const Daylight& daylight) {
                            std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
   light.atmosphere = calc_atmosphere(elevation);
   light.sun_irradiance = light.atmosphere.sun_irradiance.cast<double>();
-  light.sky_irradiance = light.atmosphere.sky_irradiance.cast<double>();
+  // Clouds and the light that leaves and walls throw at each other add a whitish half to what the
+  // clear sky gives.
+  const Eigen::Vector3d clear = light.atmosphere.sky_irradiance.cast<double>();
+  light.sky_irradiance = 1.35 * clear + 0.055 * light.sun_irradiance;
   const Eigen::Vector3d ground_albedo(0.14, 0.13, 0.07);
   light.ground_irradiance = ground_albedo.cwiseProduct(
       light.sun_irradiance * light.sun_direction_W.z() + light.sky_irradiance);

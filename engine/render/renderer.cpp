@@ -33,7 +33,6 @@ struct Program {
   GLint clip_from_model = -1;
   GLint material = -1;
   GLint texture_mode = -1;
-  GLint coverage = -1;
 };
 
 struct TerrainChunk {
@@ -45,6 +44,11 @@ struct Visible {
   const Drawable* drawable;
   double distance_m;
 };
+
+/// Pixels that are drawn for each pixel of the picture, along each side.
+int scale_of(const Frame& frame) {
+  return std::clamp(static_cast<int>(std::lround(std::sqrt(frame.samples))), 1, 3);
+}
 
 Eigen::Matrix4d matrix_of(const Pose& X_WM) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
@@ -95,7 +99,8 @@ class GlRenderer final : public Renderer {
   std::array<GpuMesh, kTerrainLevels> chunk_indices_;
   std::vector<GpuMesh> surroundings_;
   std::unique_ptr<ShadowMaps> shadows_;
-  Program sky_, ground_, surface_, foliage_, grass_, ribbon_, shadow_solid_, shadow_cards_;
+  Program sky_, ground_, country_, surface_, foliage_, foliage_depth_, grass_, ribbon_,
+      shadow_solid_, shadow_cards_;
   GLuint frame_buffer_ = 0;
   GLuint empty_array_ = 0;
   GpuMesh tufts_;
@@ -161,15 +166,16 @@ Program GlRenderer::make_program(const char* name, const shaders::Pair& sources)
   program.clip_from_model = place("clip_from_model");
   program.material = place("material");
   program.texture_mode = place("texture_mode");
-  program.coverage = place("coverage");
   return program;
 }
 
 void GlRenderer::make_programs() {
   sky_ = make_program("sky", shaders::sky());
   ground_ = make_program("ground", shaders::ground());
+  country_ = make_program("country", shaders::country());
   surface_ = make_program("surface", shaders::surface());
   foliage_ = make_program("foliage", shaders::foliage());
+  foliage_depth_ = make_program("foliage_depth", shaders::foliage_depth());
   grass_ = make_program("grass", shaders::grass());
   ribbon_ = make_program("ribbon", shaders::ribbon());
   shadow_solid_ = make_program("shadow_solid", shaders::shadow_solid());
@@ -374,6 +380,7 @@ void GlRenderer::upload_frame_block(const Frame& frame, const Eigen::Matrix4d& c
     block.shadow_info[0] = static_cast<float>(shadows_->near_texel_m());
     block.shadow_info[1] = static_cast<float>(shadows_->far_texel_m());
     block.shadow_info[2] = 1.0f;
+    block.shadow_info[3] = scale_of(frame) > 1 ? 1.0f : 4.0f;
   }
   const auto haze = [](const Eigen::Vector3f& radiance) {
     return Eigen::Vector3d(radiance.cast<double>());
@@ -420,11 +427,17 @@ void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
   std::stable_sort(cards.begin(), cards.end(), nearer);
   gl_.UseProgram(surface_.id);
   for (const Visible& visible : solid) draw_drawable(surface_, *visible.drawable);
+  // Leaves hide each other many times over: first their depth alone, then light for what is seen.
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  gl_.UseProgram(foliage_depth_.id);
+  for (const Visible& visible : cards) draw_drawable(foliage_depth_, *visible.drawable);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl_.DepthFunc(GL_EQUAL);
+  gl_.DepthMask(GL_FALSE);
   gl_.UseProgram(foliage_.id);
-  gl_.Uniform1f(foliage_.coverage, frame.samples > 1 ? 1.0f : 0.0f);
-  if (frame.samples > 1) gl_.Enable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   for (const Visible& visible : cards) draw_drawable(foliage_, *visible.drawable);
-  gl_.Disable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  gl_.DepthFunc(GL_LEQUAL);
+  gl_.DepthMask(GL_TRUE);
 }
 
 void GlRenderer::draw_tufts(const Frame& frame, const Frustum& frustum) {
@@ -437,11 +450,8 @@ void GlRenderer::draw_tufts(const Frame& frame, const Frustum& frustum) {
   fill_vertices(gl_, tufts_, tuft_vertices_, GL_STREAM_DRAW);
   fill_indices(gl_, tufts_, tuft_indices_, GL_STREAM_DRAW);
   gl_.UseProgram(grass_.id);
-  gl_.Uniform1f(grass_.coverage, frame.samples > 1 ? 1.0f : 0.0f);
-  if (frame.samples > 1) gl_.Enable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   gl_.Disable(GL_CULL_FACE);
   draw_mesh(tufts_);
-  gl_.Disable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
 void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum) {
@@ -463,6 +473,8 @@ void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum) {
     ++statistics_.draw_calls;
     statistics_.triangles += indices.index_count / 3;
   }
+  gl_.UseProgram(country_.id);
+  gl_.UniformMatrix4fv(country_.world_from_model, 1, GL_FALSE, identity.data());
   for (const GpuMesh& sector : surroundings_) {
     if (!settings_.cull || frustum.may_see(sector.bounds_M)) draw_mesh(sector);
   }
@@ -524,6 +536,7 @@ Image GlRenderer::draw(const Frame& frame) {
           store_.make_drawable(link.mesh, drawing.X_WL[i], SurfaceClass::kVehicle, link.material));
     }
   }
+  const int scale = scale_of(frame);
   const double aspect = double{1} * frame.width / frame.height;
   const double near_m = frame.camera.orthographic ? 0.1 : kNear_m;
   const double far_m = frame.camera.orthographic ? 3000.0 : kFar_m;
@@ -536,7 +549,7 @@ Image GlRenderer::draw(const Frame& frame) {
   gl_.DepthFunc(GL_LEQUAL);
   if (shadows_) update_shadows(frame.camera, vehicles);
   upload_frame_block(frame, clip_from_world);
-  target_.begin(frame.width, frame.height, frame.samples > 1 ? 4 : 1);
+  target_.begin(frame.width, frame.height, scale);
   draw_objects(frame, frustum, vehicles);
   draw_tufts(frame, frustum);
   draw_ground(frame, frustum);

@@ -62,7 +62,7 @@ struct Frame {
   std::vector<std::string> caption;  ///< lower left, first line larger
   int width = 1280;
   int height = 720;
-  int samples = 4;  ///< per pixel: 1, or 4 for smooth edges
+  int samples = 4;  ///< pixels drawn for each of the picture: 1, 4 (smooth edges) or 9
 };
 
 struct Image {

@@ -11,11 +11,13 @@ struct Pair {
 };
 
 Pair sky();
-Pair ground();   ///< terrain and what lies beyond it
-Pair surface();  ///< posts, trunks, vehicles, anything opaque
-Pair foliage();  ///< alpha-tested leaf cards
-Pair grass();    ///< alpha-tested tufts near the camera
-Pair ribbon();   ///< lines in clip space
+Pair ground();         ///< terrain
+Pair country();        ///< what lies beyond it
+Pair surface();        ///< posts, trunks, vehicles, anything opaque
+Pair foliage();        ///< leaf cards, where their depth is drawn already
+Pair foliage_depth();  ///< alpha-tested leaf cards, depth only
+Pair grass();          ///< alpha-tested tufts near the camera
+Pair ribbon();         ///< lines in clip space
 Pair shadow_solid();
 Pair shadow_cards();
 

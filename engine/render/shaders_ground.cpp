@@ -52,8 +52,9 @@ void main() {
   return {vertex, fragment};
 }
 
-Pair ground() {
-  const std::string vertex = frame_block() + R"(
+namespace {
+
+const char* const kGroundVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 world_from_model;
@@ -65,54 +66,52 @@ void main() {
   gl_Position = clip_from_world * vec4(p_W, 1.0);
 }
 )";
-  const std::string fragment = frame_block() + light_functions() + grass_colour() + R"(
+
+const char* const kGroundInputs = R"(
 in vec3 p_W;
 in vec3 n_W;
 out vec4 colour;
 uniform sampler2D noise_tile;
 uniform sampler2D ground_tile;  // R grass, G dryness, B soil, A height
-uniform sampler2D row_mask;     // distances / 2.55 m: R to a row, G to the middle of an alley
+uniform sampler2D row_mask;     // distances / 2.55 m: R to a row, G to the middle of an alley; B in an alley
+)";
 
+}  // namespace
+
+Pair ground() {
+  const std::string fragment =
+      frame_block() + light_functions() + grass_colour() + kGroundInputs + R"(
 void main() {
   vec3 n = normalize(n_W);
   vec2 q = p_W.xy;
-  float away = length(p_W - eye.xyz);
   vec4 macro = texture(noise_tile, q * 0.0163);
   vec4 meso = texture(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3);
   vec4 fine = texture(ground_tile, q * 0.476);
   vec4 wide = texture(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7);
   vec4 detail = mix(fine, wide, 0.38);
 
-  vec2 d = vec2(1.0);
   vec2 uv = (q - mask_rect.xy) * mask_rect.zw;
-  if (all(greaterThan(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)))) d = texture(row_mask, uv).rg;
-  d *= 2.55;
+  vec3 mask = texture(row_mask, uv).rgb;  // its border is far from everything
+  vec2 d = mask.rg * 2.55;
 
   // Bare strip under the vines, ragged at its edges and with weeds in it; wheel tracks beside it.
-  float ragged = (meso.a - 0.5) * 0.22 + (detail.a - 0.5) * 0.20;
-  float strip = 1.0 - smoothstep(0.26, 0.46, d.x + ragged);
-  strip *= 1.0 - 0.55 * smoothstep(0.52, 0.75, meso.g + 0.4 * (detail.a - 0.5));
-  float track = 1.0 - smoothstep(0.07, 0.24, abs(d.y - 0.60) + 0.5 * ragged);
-  track *= 0.62 * smoothstep(0.15, 0.7, meso.r + 0.25);
-  float scar = smoothstep(0.70, 0.86, meso.r * 0.6 + macro.g * 0.5) * 0.55;
-  float steep = smoothstep(0.55, 0.85, 1.0 - n.z + 0.3 * (meso.r - 0.5));
-  float bare = clamp(max(max(strip, track), max(scar, steep)) + (0.5 - detail.a) * 0.25 * step(0.02, max(strip, track)), 0.0, 1.0);
+  float ragged = (meso.a - 0.5) * 0.26 + (detail.a - 0.5) * 0.30;
+  float strip = 1.0 - smoothstep(0.24, 0.44, d.x + ragged);
+  strip *= 1.0 - 0.6 * smoothstep(0.50, 0.75, meso.g + 0.5 * (detail.a - 0.5));
+  float track = 1.0 - smoothstep(0.05, 0.24, abs(d.y - 0.60) + 0.7 * ragged);
+  track *= 0.75 * mask.b * smoothstep(0.25, 0.75, meso.r + 0.4 * detail.a);
+  // Thin turf: soil shows between the blades in dry places.
+  float scar = 0.75 * smoothstep(0.66, 0.92, meso.r * 0.5 + macro.g * 0.42 + (0.5 - detail.a) * 0.5);
+  float steep = smoothstep(0.45, 0.75, 1.0 - n.z + 0.3 * (meso.r - 0.5));
+  float bare = max(max(strip, track), max(scar, steep));
+  bare = clamp(bare + (0.5 - detail.a) * 0.9 * bare * (1.0 - bare) * 2.0, 0.0, 1.0);
 
   vec2 tone = vec2(macro.r * 0.6 + meso.g * 0.4, macro.g * 0.65 + meso.r * 0.35);
   vec3 grass = grass_albedo(detail.r * 1.15, detail.g, tone);
   // The mown middle of an alley is lighter, the fringe at the vines taller and darker.
-  grass *= 0.86 + 0.22 * smoothstep(0.9, 0.2, d.y);
-  vec3 soil = mix(vec3(0.105, 0.068, 0.042), vec3(0.36, 0.268, 0.178), detail.b * 0.9 + 0.25 * (meso.r - 0.5));
+  grass *= 0.88 + 0.18 * mask.b * smoothstep(0.9, 0.2, d.y);
+  vec3 soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), detail.b * 0.9 + 0.25 * (meso.r - 0.5));
   vec3 albedo = mix(grass, soil, bare);
-
-  // Far fields: meadow, stubble and dark woods take turns over hundreds of metres.
-  float far = smoothstep(90.0, 500.0, away);
-  if (far > 0.0) {
-    vec4 fields = texture(noise_tile, q * 0.00071 + 0.2);
-    vec3 patch_colour = mix(vec3(0.075, 0.105, 0.034), vec3(0.215, 0.195, 0.085), smoothstep(0.42, 0.60, fields.r));
-    patch_colour = mix(patch_colour, vec3(0.022, 0.040, 0.016), smoothstep(0.55, 0.62, fields.a * 0.6 + meso.b * 0.15 + macro.b * 0.25));
-    albedo = mix(albedo, patch_colour * (0.75 + 0.5 * macro.b), far * 0.85);
-  }
 
   float sun = sun_visibility(p_W, n, 0.0);
   float relief = 0.80 + 0.35 * (detail.a + detail.r * (1.0 - bare) * 0.4);
@@ -122,7 +121,34 @@ void main() {
   colour = vec4(finish(albedo * light * kOneOverPi, p_W), 1.0);
 }
 )";
-  return {vertex, fragment};
+  return {frame_block() + kGroundVertex, fragment};
+}
+
+Pair country() {
+  const std::string fragment =
+      frame_block() + light_functions() + grass_colour() + kGroundInputs + R"(
+void main() {
+  vec3 n = normalize(n_W);
+  vec2 q = p_W.xy;
+  vec4 macro = texture(noise_tile, q * 0.0163);
+  vec4 meso = texture(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3);
+  vec4 detail = texture(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7);
+  vec2 tone = vec2(macro.r * 0.6 + meso.g * 0.4, macro.g * 0.65 + meso.r * 0.35);
+  vec3 albedo = grass_albedo(detail.r * 1.15, detail.g, tone);
+
+  // Farther away meadow, stubble and dark woods take turns over hundreds of metres.
+  float far = smoothstep(60.0, 420.0, length(p_W - eye.xyz));
+  vec4 fields = texture(noise_tile, q * 0.00071 + 0.2);
+  vec3 field = mix(vec3(0.088, 0.112, 0.042), vec3(0.205, 0.185, 0.088), smoothstep(0.36, 0.64, fields.r + 0.25 * (macro.g - 0.5)));
+  float woods = smoothstep(0.52, 0.64, fields.a * 0.55 + macro.r * 0.30 + meso.b * 0.18);
+  field = mix(field, vec3(0.026, 0.042, 0.020) * (0.7 + 0.6 * meso.r), woods);
+  albedo = mix(albedo, field * (0.8 + 0.4 * macro.b), far * 0.9);
+
+  vec3 light = sun_irradiance.rgb * max(dot(n, sun_direction.xyz), 0.0) + ambient(n);
+  colour = vec4(finish(albedo * light * kOneOverPi, p_W), 1.0);
+}
+)";
+  return {frame_block() + kGroundVertex, fragment};
 }
 
 Pair grass() {
@@ -157,12 +183,10 @@ in vec2 tone;
 in vec2 shade;
 out vec4 colour;
 uniform sampler2DArray leaf_cards;
-uniform float coverage;  // 1: alpha becomes coverage of the samples
 
 void main() {
   vec4 blade = texture(leaf_cards, card);
-  float alpha = coverage > 0.5 ? clamp((blade.a - 0.5) / max(fwidth(blade.a), 0.02) + 0.5, 0.0, 1.0) : blade.a;
-  if (alpha < (coverage > 0.5 ? 0.02 : 0.5)) discard;
+  if (blade.a < 0.5) discard;
   vec3 n = normalize(n_W);
   float brightness = clamp(blade.r * shade.r * 1.25, 0.0, 1.0);
   vec3 albedo = grass_albedo(brightness, (blade.g - 0.2) / 0.6 * 0.7 + shade.g * 0.3, tone);
@@ -171,7 +195,7 @@ void main() {
   float through = pow(clamp(dot(view, sun_direction.xyz), 0.0, 1.0), 3.0) * card.y;
   float lit = max(dot(n, sun_direction.xyz), 0.0) * (0.75 + 0.35 * card.y) + 0.55 * through;
   vec3 light = sun_irradiance.rgb * lit * sun + ambient(n) * (0.6 + 0.4 * card.y);
-  colour = vec4(finish(albedo * light * kOneOverPi, p_W), alpha);
+  colour = vec4(finish(albedo * light * kOneOverPi, p_W), 1.0);
 }
 )";
   return {vertex, fragment};

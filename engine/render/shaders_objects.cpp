@@ -5,6 +5,7 @@ namespace vinerow::render::shaders {
 namespace {
 
 const char* const kMeshVertex = R"(
+invariant gl_Position;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv_in;
@@ -48,7 +49,7 @@ void main() {
   if (!gl_FrontFacing) n = -n;
   vec3 albedo = material.rgb * vertex_colour;
   if (texture_mode > 1.5) {
-    albedo *= pow(texture(image, vec2((p_M.x + p_M.y) * 4.0, p_M.z * 0.8)).rgb, vec3(2.2)) * 1.9;
+    albedo *= pow(texture(image, vec2((p_M.x + p_M.y) * 4.0, p_M.z * 0.8)).rgb, vec3(2.2)) * 3.4;
   } else if (texture_mode > 0.5) {
     albedo *= pow(texture(image, uv).rgb, vec3(2.2));
   }
@@ -92,13 +93,10 @@ in vec3 vertex_colour;
 out vec4 colour;
 uniform sampler2DArray leaf_cards;
 uniform vec4 material;
-uniform float coverage;  // 1: alpha becomes coverage of the samples
 
+// Runs where foliage_depth has left its depth, so there is nothing to discard.
 void main() {
   vec4 leaf = texture(leaf_cards, vec3(uv, layer));
-  float alpha = coverage > 0.5 ? clamp((leaf.a - 0.5) / max(fwidth(leaf.a), 0.02) + 0.5, 0.0, 1.0) : leaf.a;
-  if (alpha < (coverage > 0.5 ? 0.02 : 0.5)) discard;
-
   // Normal of the canopy's volume, tilted leaf by leaf.
   vec3 n = normalize(n_W);
   vec3 t = normalize(vec3(n.y, -n.x, 0.02));
@@ -113,17 +111,28 @@ void main() {
   float front = max((n_l + 0.25) / 1.25, 0.0);
   float toward = max(dot(-v, sun_direction.xyz), 0.0);
   float through = max((0.35 - n_l) / 1.35, 0.0) * (0.35 + 1.1 * toward * toward * toward);
-  vec3 transmitted = albedo * vec3(1.35, 1.30, 0.45);
+  vec3 transmitted = albedo * vec3(1.25, 1.22, 0.55);
   vec3 h = normalize(sun_direction.xyz + v);
-  float gloss = pow(max(dot(n, h), 0.0), 22.0) * 0.045;
+  float gloss = pow(max(dot(n, h), 0.0), 22.0) * 0.03;
 
   vec3 direct = sun_irradiance.rgb * sun;
   vec3 radiance = kOneOverPi * (albedo * (direct * front + ambient(n)) + transmitted * direct * through);
   radiance += direct * gloss;
-  colour = vec4(finish(radiance, p_W), alpha);
+  colour = vec4(finish(radiance, p_W), 1.0);
 }
 )";
   return {frame_block() + kMeshVertex, fragment};
+}
+
+Pair foliage_depth() {
+  return {frame_block() + kMeshVertex, R"(#version 330 core
+in vec2 uv;
+flat in float layer;
+uniform sampler2DArray leaf_cards;
+void main() {
+  if (texture(leaf_cards, vec3(uv, layer)).a < 0.5) discard;
+}
+)"};
 }
 
 Pair ribbon() {

@@ -1,0 +1,111 @@
+#include "engine/render/png.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "engine/core/random.h"
+#include "engine/render/scene.h"
+
+namespace vinerow::render {
+namespace {
+
+std::string temporary_file(const std::string& name) {
+  const auto folder = std::filesystem::path(VINEROW_BINARY_DIR) / "test_output";
+  std::filesystem::create_directories(folder);
+  return (folder / name).string();
+}
+
+std::string bytes_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+Image random_image(int width, int height) {
+  RandomStream random(7, "test", "png");
+  Image image{width, height, {}};
+  for (int i = 0; i < width * height * 3; ++i) {
+    image.rgb.push_back(static_cast<std::uint8_t>(random.uniform(0.0, 256.0)));
+  }
+  return image;
+}
+
+TEST(Png, LibpngReadsBackEveryPixel) {
+  const Image image = random_image(37, 23);
+  const std::string file = temporary_file("round_trip.png");
+  write_png(file, image);
+  // The decoder is libpng's own, used directly.
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  ASSERT_TRUE(png_image_begin_read_from_file(&header, file.c_str()));
+  header.format = PNG_FORMAT_RGB;
+  ASSERT_EQ(header.width, 37u);
+  ASSERT_EQ(header.height, 23u);
+  std::vector<std::uint8_t> read(37 * 23 * 3);
+  ASSERT_TRUE(png_image_finish_read(&header, nullptr, read.data(), 0, nullptr));
+  EXPECT_EQ(read, image.rgb);
+}
+
+TEST(Png, SameImageGivesTheSameFileWithoutTimeStamp) {
+  const Image image = random_image(16, 16);
+  write_png(temporary_file("a.png"), image);
+  write_png(temporary_file("b.png"), image);
+  const std::string bytes = bytes_of(temporary_file("a.png"));
+  EXPECT_EQ(bytes, bytes_of(temporary_file("b.png")));
+  EXPECT_EQ(bytes.find("tIME"), std::string::npos);
+}
+
+TEST(Png, ReadsWhatItWrites) {
+  const Image image = random_image(5, 9);
+  const std::string file = temporary_file("small.png");
+  write_png(file, image);
+  const Result<Pixels> pixels = read_png(file);
+  ASSERT_TRUE(pixels.ok()) << pixels.reason();
+  for (int y = 0; y < 9; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ(pixels->at(x, y)[c], image.rgb[static_cast<std::size_t>(y * 5 + x) * 3 + c]);
+      }
+      EXPECT_EQ(pixels->at(x, y)[3], 255);
+    }
+  }
+}
+
+TEST(Png, FailuresNameTheFile) {
+  const Image image = random_image(2, 2);
+  try {
+    write_png("/nonexistent_folder/x.png", image);
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "/nonexistent_folder/x.png: cannot be opened for writing");
+  }
+  try {
+    write_png(temporary_file("x.png"), Image{3, 3, {1, 2, 3}});
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("an image of 3 x 3 pixels with 3 bytes is no image"),
+              std::string::npos);
+  }
+  const Result<Pixels> missing = read_png("/nonexistent_folder/x.png");
+  ASSERT_FALSE(missing.ok());
+  EXPECT_EQ(missing.reason().find("/nonexistent_folder/x.png: "), 0u);
+}
+
+TEST(ImageDigest, TellsSizeAndEveryPixel) {
+  Image image = random_image(4, 6);
+  const std::string digest = image_digest(image);
+  EXPECT_EQ(digest.size(), 32u);
+  EXPECT_EQ(digest, image_digest(random_image(4, 6)));
+  std::swap(image.width, image.height);
+  EXPECT_NE(digest, image_digest(image));
+  std::swap(image.width, image.height);
+  image.rgb[71] ^= 1;
+  EXPECT_NE(digest, image_digest(image));
+}
+
+}  // namespace
+}  // namespace vinerow::render

@@ -1,0 +1,77 @@
+#include "engine/render/ribbons.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/render/culling.h"
+#include "tests/engine/render/test_scenes.h"
+
+namespace vinerow::render {
+namespace {
+
+TEST(Ribbon, HasItsWidthInPixelsWhateverTheDistance) {
+  const Camera camera = look_at({0, 0, 0}, {1, 0, 0}, 0.9);
+  const Eigen::Matrix4d clip_from_world = calc_clip_from_world(camera, 2.0, 0.1, 500.0);
+  for (const double away : {3.0, 40.0, 200.0}) {
+    Polyline line;
+    line.width_px = 6.0f;
+    line.points_W = {{away, -0.3 * away, 0}, {away, 0.3 * away, 0}};
+    const std::vector<RibbonVertex> vertices =
+        make_ribbon(line, nullptr, clip_from_world, camera, 400, 200);
+    ASSERT_EQ(vertices.size(), 6u);
+    Eigen::AlignedBox1d rows;
+    for (const RibbonVertex& v : vertices)
+      rows.extend(Eigen::Matrix<double, 1, 1>(100.0 * v.clip[1] / v.clip[3]));
+    EXPECT_NEAR(rows.sizes()[0], 6.0, 1e-3);  // single precision
+  }
+}
+
+TEST(Ribbon, IsCutBehindTheEye) {
+  const Camera camera = look_at({0, 0, 1}, {1, 0, 1}, 0.9);
+  const Eigen::Matrix4d clip_from_world = calc_clip_from_world(camera, 2.0, 0.1, 500.0);
+  Polyline line;
+  line.points_W = {{-10, 0, 0}, {10, 0, 0}};
+  for (const RibbonVertex& v : make_ribbon(line, nullptr, clip_from_world, camera, 400, 200))
+    EXPECT_GT(v.clip[3], 0.0f);
+  line.points_W = {{-10, 0, 0}, {-5, 0, 0}};
+  EXPECT_TRUE(make_ribbon(line, nullptr, clip_from_world, camera, 400, 200).empty());
+}
+
+TEST(Ribbon, OddInputMakesNoOddTriangles) {
+  const Camera camera = look_at({0, 0, 1}, {1, 0, 1}, 0.9);
+  const Eigen::Matrix4d clip_from_world = calc_clip_from_world(camera, 2.0, 0.1, 500.0);
+  Polyline line;
+  EXPECT_TRUE(make_ribbon(line, nullptr, clip_from_world, camera, 400, 200).empty());
+  line.points_W = {{5, 0, 0}};
+  EXPECT_TRUE(make_ribbon(line, nullptr, clip_from_world, camera, 400, 200).empty());
+  line.points_W = {{5, 0, 0}, {5, 0, 0}, {NAN, 0, 0}, {6, 0, 0}, {7, 1, 0}};
+  for (const RibbonVertex& v : make_ribbon(line, nullptr, clip_from_world, camera, 400, 200)) {
+    for (const float c : v.clip) EXPECT_TRUE(std::isfinite(c));
+  }
+}
+
+TEST(Ribbon, FollowsTheGround) {
+  HeightField field = test::make_level_ground(16.0);
+  for (int j = 0; j < 33; ++j)
+    field.heights_m[static_cast<std::size_t>(j) * 33 + 16] = 1.0f;  // a ridge at x = 0
+  const Camera camera = look_at({0, -30, 10}, {0, 0, 0}, 0.9);
+  const Eigen::Matrix4d clip_from_world = calc_clip_from_world(camera, 2.0, 0.1, 500.0);
+  Polyline line;
+  line.points_W = {{-5, 0, 0}, {5, 0, 0}};
+  double top = -1e9;
+  for (const RibbonVertex& v : make_ribbon(line, &field, clip_from_world, camera, 400, 200)) {
+    top = std::max(top, 100.0 - 100.0 * v.clip[1] / v.clip[3]);
+  }
+  Eigen::Vector2d ridge;
+  ASSERT_TRUE(project(camera, 400, 200, {0, 0, 1.04}, ridge));
+  Eigen::Vector2d ends;
+  ASSERT_TRUE(project(camera, 400, 200, {5, 0, 0.04}, ends));
+  double highest = 1e9;
+  for (const RibbonVertex& v : make_ribbon(line, &field, clip_from_world, camera, 400, 200)) {
+    highest = std::min(highest, 100.0 - 100.0 * v.clip[1] / v.clip[3]);
+  }
+  EXPECT_NEAR(highest, ridge.y(), 2.0);  // half the width
+  EXPECT_NEAR(top, ends.y(), 2.0);
+}
+
+}  // namespace
+}  // namespace vinerow::render

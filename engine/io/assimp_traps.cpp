@@ -1,10 +1,18 @@
 #include "engine/io/assimp_traps.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
+
+#include "engine/core/error.h"
 
 namespace Assimp {
 
@@ -18,7 +26,6 @@ namespace Assimp {
 }  // namespace Assimp
 
 namespace vinerow::io {
-
 namespace {
 
 /// Bytes of a scalar PLY type, 0 for an unknown one.
@@ -31,63 +38,149 @@ std::size_t size_of_type(const std::string& type) {
   return found == kSizes.end() ? 0 : found->second;
 }
 
-/// A binary PLY header whose first element is `vertex` with scalar properties alone.
-struct PlyHeader {
-  std::string text;  ///< with the guard property, LF line ends
-  std::size_t vertices = 0;
-  std::size_t stride = 0;  ///< bytes per vertex in the file
+struct Property {
+  std::size_t count_size;  // 0: a scalar
+  std::size_t value_size;
+  bool is_index;
 };
 
+struct Element {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+
+  bool all_scalar() const {
+    return std::all_of(properties.begin(), properties.end(),
+                       [](const Property& p) { return p.count_size == 0; });
+  }
+  std::size_t stride() const {
+    std::size_t bytes = 0;
+    for (const Property& p : properties) bytes += p.value_size;
+    return bytes;
+  }
+};
+
+struct PlyHeader {
+  std::vector<Element> elements;
+  std::vector<std::string> lines;  // without line ends
+  bool big_endian = false;
+};
+
+/// @returns nullopt for ASCII files and for headers this reader does not understand
 std::optional<PlyHeader> read_header(std::istream& stream) {
   PlyHeader header;
-  int elements = 0;
-  bool binary = false;
-  for (std::string line; std::getline(stream, line);) {
+  constexpr std::size_t kMostLines = 10000;
+  for (std::string line; std::getline(stream, line) && header.lines.size() < kMostLines;) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (header.text.empty() && line != "ply") return std::nullopt;
-    header.text += line + "\n";
+    if (header.lines.empty() && line != "ply") return std::nullopt;
+    header.lines.push_back(line);
     std::istringstream words(line);
-    std::string first, second;
-    words >> first >> second;
-    if (first == "format") binary = second.rfind("binary", 0) == 0;
-    if (first == "element") {
-      if (++elements == 1) {
-        if (!binary || second != "vertex" || !(words >> header.vertices)) return std::nullopt;
-        header.text += "property uchar guard\n";
+    std::string first, second, third, fourth;
+    words >> first >> second >> third >> fourth;
+    if (first == "format") {
+      if (second.rfind("binary", 0) != 0) return std::nullopt;
+      header.big_endian = second == "binary_big_endian";
+    } else if (first == "element") {
+      std::istringstream number(third);
+      Element element;
+      element.name = second;
+      if (!(number >> element.count)) return std::nullopt;
+      header.elements.push_back(element);
+    } else if (first == "property") {
+      if (header.elements.empty()) return std::nullopt;
+      Property property{0, size_of_type(second), false};
+      if (second == "list") {
+        property = {size_of_type(third), size_of_type(fourth), true};
+        if (property.count_size == 0 || property.count_size > 4) return std::nullopt;
       }
-    } else if (first == "property" && elements == 1) {
-      const std::size_t size = size_of_type(second);
-      if (size == 0) return std::nullopt;
-      header.stride += size;
+      if (property.value_size == 0) return std::nullopt;
+      header.elements.back().properties.push_back(property);
     } else if (first == "end_header") {
-      return elements > 0 ? std::optional(std::move(header)) : std::nullopt;
+      return header;
     }
-    constexpr std::size_t kLongestHeader = 1 << 20;
-    if (header.text.size() > kLongestHeader) return std::nullopt;
   }
   return std::nullopt;
 }
 
+std::uint64_t read_unsigned(const char* bytes, std::size_t size, bool big_endian) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto byte = static_cast<unsigned char>(bytes[big_endian ? i : size - 1 - i]);
+    value = value << 8 | byte;
+  }
+  return value;
+}
+
+/// Walks over the data as the header describes it.
+void check_data(const PlyHeader& header, const std::string& data,
+                const std::filesystem::path& file) {
+  std::size_t at = 0, vertices = 0;
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex") vertices = element.count;
+    for (std::size_t i = 0; i < element.count; ++i) {
+      const auto need = [&](std::size_t bytes) {
+        if (bytes > data.size() - at) {
+          throw ConfigError(
+              fmt::format("mesh file '{}' is cut off: element {} {} of {} is not whole",
+                          file.string(), element.name, i + 1, element.count));
+        }
+      };
+      for (const Property& property : element.properties) {
+        std::size_t values = 1;
+        if (property.count_size > 0) {
+          need(property.count_size);
+          values = read_unsigned(data.data() + at, property.count_size, header.big_endian);
+          at += property.count_size;
+        }
+        need(values * property.value_size);
+        if (element.name == "face" && property.is_index && property.value_size == 4 &&
+            vertices > 0 && &property == &element.properties.front()) {
+          for (std::size_t k = 0; k < values; ++k) {
+            const auto index = read_unsigned(data.data() + at + 4 * k, 4, header.big_endian);
+            if (index >= vertices) {
+              throw ConfigError(
+                  fmt::format("mesh file '{}': face {} names vertex {}, it has {} (0 to {})",
+                              file.string(), i + 1, index, vertices, vertices - 1));
+            }
+          }
+        }
+        at += values * property.value_size;
+      }
+    }
+  }
+}
+
+/// The same file with a byte before each vertex. @pre the first element is scalar
+std::string add_guard(const PlyHeader& header, const std::string& data) {
+  std::string content;
+  int elements = 0;
+  for (const std::string& line : header.lines) {
+    content += line + "\n";
+    if (line.rfind("element", 0) == 0 && ++elements == 1) content += "property uchar guard\n";
+  }
+  const Element& first = header.elements.front();
+  const std::size_t stride = first.stride();
+  content.reserve(content.size() + data.size() + first.count);
+  for (std::size_t i = 0; i < first.count; ++i) {
+    content += '\xff';
+    content.append(data, i * stride, stride);
+  }
+  content.append(data, first.count * stride, std::string::npos);
+  return content;
+}
+
 }  // namespace
 
-std::optional<std::string> read_guarded_ply(const std::filesystem::path& file) {
+std::optional<std::string> check_ply(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::optional<PlyHeader> header = read_header(stream);
-  if (!header) return std::nullopt;
-  const int first_byte = stream.peek();
-  if (first_byte != '\n' && first_byte != '\r') return std::nullopt;
+  const std::optional<PlyHeader> header = read_header(stream);
+  if (!header || header->elements.empty()) return std::nullopt;
   const std::string data((std::istreambuf_iterator<char>(stream)),
                          std::istreambuf_iterator<char>());
-  if (header->stride == 0 || header->vertices > data.size() / header->stride) return std::nullopt;
-  std::string content = std::move(header->text);
-  content.reserve(content.size() + data.size() + header->vertices);
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < header->vertices; ++i, at += header->stride) {
-    content += '\xff';
-    content.append(data, at, header->stride);
-  }
-  content.append(data, at, std::string::npos);
-  return content;
+  check_data(*header, data, file);
+  const bool mistaken = !data.empty() && (data[0] == '\n' || data[0] == '\r');
+  if (!mistaken || !header->elements.front().all_scalar()) return std::nullopt;
+  return add_guard(*header, data);
 }
 
 }  // namespace vinerow::io

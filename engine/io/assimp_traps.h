@@ -1,12 +1,13 @@
 #pragma once
-/// Two traps of assimp 5.2 and how load_mesh steps round them.
+/// Traps of assimp 5.2 and how load_mesh steps round them.
 ///
 /// 1. Debian's build has assertions on: some broken files would abort the process. assimp_traps.cpp
 /// defines the function
 ///    that assimp calls then, so that it throws and ReadFile returns with an error text.
-/// 2. Its reader of binary PLY swallows a line feed that is the first byte of the data (assimp
-/// issue 5341), one file in
-///    256, and reads everything behind it shifted. A byte put before each vertex keeps it in step.
+/// 2. Its reader of binary PLY walks past the end of a file that was cut off.
+/// 3. It swallows a line feed that is the first byte of the data (assimp issue 5341), one file in
+/// 256, and reads
+///    everything behind it shifted.
 
 #include <filesystem>
 #include <optional>
@@ -14,9 +15,13 @@
 
 namespace vinerow::io {
 
-/// The contents of a binary PLY file with one more leading property, `guard`, per vertex.
-/// @returns nullopt where the file needs no guard: ASCII, no PLY, or a first byte that assimp does
-/// not mistake
-std::optional<std::string> read_guarded_ply(const std::filesystem::path& file);
+/// Checks a binary PLY file and guards it where needed.
+/// @returns the contents with one more leading property per vertex where trap 3 would strike; else
+/// nullopt: the file
+///          itself can be read. ASCII PLY is left to assimp.
+/// @throws ConfigError "mesh file 'x.ply' is cut off: element face 12 of 96 is not whole"; a face's
+/// index beyond the
+///         vertices
+std::optional<std::string> check_ply(const std::filesystem::path& file);
 
 }  // namespace vinerow::io

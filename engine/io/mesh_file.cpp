@@ -244,13 +244,16 @@ MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& opt
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType;
   if (options.join_vertices) steps |= aiProcess_JoinIdenticalVertices;
-  const std::optional<std::string> ply =
-      extension == ".ply" ? read_guarded_ply(file) : std::nullopt;
+  const std::optional<std::string> ply = extension == ".ply" ? check_ply(file) : std::nullopt;
   const aiScene* scene = ply ? importer.ReadFileFromMemory(ply->data(), ply->size(), steps, "ply")
                              : importer.ReadFile(file.string(), steps);
   if (scene == nullptr) {
     // assimp has no error text for a file that holds nothing it could use.
     const std::string reason = importer.GetErrorString();
+    // Points and lines alone: assimp's words for what is said below.
+    if (reason.find("No meshes") != std::string::npos) {
+      throw ConfigError(fmt::format("mesh file '{}' has no triangles", file.string()));
+    }
     throw ConfigError(fmt::format("mesh file '{}' cannot be read: {}", file.string(),
                                   reason.empty() ? "it holds no geometry" : reason));
   }

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cstring>
 #include <fstream>
+#include <iterator>
+#include <string_view>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/hash.h"
 
 namespace vinerow::io {
 namespace {
@@ -21,10 +23,17 @@ void append(std::string& bytes, const Eigen::Matrix<float, N, 1>& value) {
   bytes.append(reinterpret_cast<const char*>(value.data()), size);
 }
 
+const std::string kBeginning = "ply\nformat binary_little_endian 1.0\ncomment vinerow mesh ";
+
+std::string digest_of(std::string_view bytes) {
+  Hasher hasher;
+  hasher.add_bytes(bytes.data(), bytes.size());
+  return hasher.hex();
+}
+
 }  // namespace
 
-void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file,
-               const std::string& comment) {
+void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file) {
   const std::size_t count = mesh.vertices.size();
   const bool normals = !mesh.normals.empty(), uvs = !mesh.uvs.empty();
   const bool colours = !mesh.colours.empty();
@@ -32,9 +41,7 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file,
   VINEROW_DEMAND(!uvs || mesh.uvs.size() == count);
   VINEROW_DEMAND(!colours || mesh.colours.size() == count);
 
-  std::string bytes = "ply\nformat binary_little_endian 1.0\n";
-  if (!comment.empty()) bytes += "comment " + comment + "\n";
-  bytes += fmt::format("element vertex {}\n", count);
+  std::string bytes = fmt::format("element vertex {}\n", count);
   bytes += "property float x\nproperty float y\nproperty float z\n";
   if (normals) bytes += "property float nx\nproperty float ny\nproperty float nz\n";
   if (uvs) bytes += "property float s\nproperty float t\n";
@@ -54,18 +61,21 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file,
     bytes.append(reinterpret_cast<const char*>(t.data()), sizeof t);
   }
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  const std::string beginning = kBeginning + digest_of(bytes) + "\n";
+  stream.write(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();
   if (!stream) throw ConfigError(fmt::format("mesh file '{}' cannot be written", file.string()));
 }
 
-std::string read_ply_comment(const std::filesystem::path& file) {
+bool is_intact_ply(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string kComment = "comment ";
-  for (std::string line; std::getline(stream, line) && line != "end_header";) {
-    if (line.rfind(kComment, 0) == 0) return line.substr(kComment.size());
-  }
-  return "";
+  const std::string text((std::istreambuf_iterator<char>(stream)),
+                         std::istreambuf_iterator<char>());
+  const std::size_t line_end = kBeginning.size() + 32;  // the digest's hexadecimal digits
+  return text.size() > line_end && text.rfind(kBeginning, 0) == 0 && text[line_end] == '\n' &&
+         text.substr(kBeginning.size(), 32) ==
+             digest_of(std::string_view(text).substr(line_end + 1));
 }
 
 }  // namespace vinerow::io

@@ -40,8 +40,6 @@ std::string file_name_of(std::string name) {
   return name + ".ply";
 }
 
-constexpr const char* kDigestWord = "vinerow mesh ";
-
 }  // namespace
 
 std::shared_ptr<const TriangleMesh> MemoryMeshStore::get(
@@ -65,20 +63,12 @@ std::shared_ptr<const TriangleMesh> FileMeshStore::get(const std::string& name,
   auto& known = meshes_[name];
   if (known) return known;
   const std::filesystem::path file = folder_ / file_name_of(name);
-  const std::string comment = io::read_ply_comment(file);
-  if (comment.rfind(kDigestWord, 0) == 0) {
-    try {
-      const auto mesh = read_back(file);
-      if (mesh && kDigestWord + mesh_digest(*mesh) == comment) return known = mesh;
-    } catch (const ConfigError&) {
-      // A damaged file of our own is no fault of the user's: it is made again below.
-    }
-  }
+  if (io::is_intact_ply(file)) return known = read_back(file);
   TriangleMesh fresh = make();
   drop_degenerate(fresh);
   const std::filesystem::path partial =
       folder_ / fmt::format("{}.{}.{}.partial.ply", file_name_of(name), ::getpid(), files_written_);
-  io::write_ply(fresh, partial, kDigestWord + mesh_digest(fresh));
+  io::write_ply(fresh, partial);
   std::error_code error;
   std::filesystem::rename(partial, file, error);
   if (error) {

@@ -1,0 +1,170 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/math/angles.h"
+#include "tests/worlds/world_fixture.h"
+#include "worlds/parts/canopy.h"
+#include "worlds/parts/foliage.h"
+#include "worlds/parts/primitives.h"
+#include "worlds/parts/row_map.h"
+#include "worlds/parts/soil.h"
+#include "worlds/parts/terrain.h"
+#include "worlds/parts/trellis.h"
+
+namespace vinerow::worlds {
+namespace {
+
+TEST(RowCurve, PositionsByArcLength) {
+  const RowCurve row({{0, 0}, {3, 0}, {3, 4}});
+  EXPECT_DOUBLE_EQ(row.length_m(), 7.0);
+  EXPECT_EQ(row.point_W(1.0), Eigen::Vector2d(1, 0));
+  EXPECT_EQ(row.point_W(5.0), Eigen::Vector2d(3, 2));
+  EXPECT_EQ(row.point_W(-1.0), Eigen::Vector2d(-1, 0));
+  EXPECT_EQ(row.point_W(8.0), Eigen::Vector2d(3, 5));
+  double apart_m = 0.0;
+  EXPECT_DOUBLE_EQ(row.nearest_s_m({2, 3}, &apart_m), 6.0);
+  EXPECT_DOUBLE_EQ(apart_m, 1.0);
+}
+
+TEST(RowCurve, FrameLeansAlongTheRowAndStandsUprightAcross) {
+  const auto ground = [](double x, double y) { return 0.5 * x + 0.3 * y; };
+  const Pose X_WR = row_frame(RowCurve({{0, 0}, {10, 0}}), ground, 4.0);
+  EXPECT_TRUE(X_WR.p.isApprox(Eigen::Vector3d(4, 0, 2)));
+  EXPECT_TRUE(
+      (X_WR.q * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(1, 0, 0.5).normalized(), 1e-9));
+  EXPECT_TRUE((X_WR.q * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d(0, 1, 0), 1e-9));
+}
+
+TEST(RowMap, OrdersMixedUpRowsAcrossTheBlock) {
+  // Three rows to the north, given in disorder and one of them southward.
+  std::vector<RowCurve> rows;
+  rows.emplace_back(std::vector<Eigen::Vector2d>{{0, 0}, {0, 10}});
+  rows.emplace_back(std::vector<Eigen::Vector2d>{{5, 10}, {5, 0}});
+  rows.emplace_back(std::vector<Eigen::Vector2d>{{2.5, 0}, {2.5, 10}});
+  const auto ordered = order_rows(rows);
+  ASSERT_EQ(ordered.size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(ordered[static_cast<std::size_t>(i)].points_W().front(), Eigen::Vector2d(2.5 * i, 0));
+  }
+  EXPECT_EQ(middle_line(ordered[0], ordered[1]),
+            (std::vector<Eigen::Vector2d>{{1.25, 0}, {1.25, 10}}));
+  const auto boundary = parcel_boundary(ordered, 8.0, 2.0);
+  double area = 0.0;  // shoelace; positive is counter-clockwise
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto &a = boundary[i], &b = boundary[(i + 1) % 4];
+    area += 0.5 * (a.x() * b.y() - b.x() * a.y());
+  }
+  EXPECT_NEAR(area, (10 + 16) * (5 + 4), 1e-9);
+}
+
+TEST(Terrain, PlaneHasItsSlopeAndWavesTheirHeight) {
+  TerrainShape shape;
+  shape.gradient = 0.1 * bearing_direction(90.0);
+  const TerrainSurface plane(shape, RandomStream(1, "", "t"));
+  EXPECT_NEAR(plane.height_m({20, 7}) - plane.height_m({10, 7}), 1.0, 1e-12);
+  EXPECT_NEAR(plane.height_m({20, 17}) - plane.height_m({20, 7}), 0.0, 1e-12);
+  TerrainShape waves;
+  waves.wave_height_m = 2.0;
+  const TerrainSurface surface(waves, RandomStream(1, "", "t"));
+  double sum = 0.0;
+  int count = 0;
+  for (double x = -2000; x < 2000; x += 13) {
+    for (double y = -2000; y < 2000; y += 13) {
+      const double h = surface.height_m({x, y});
+      sum += h * h;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(std::sqrt(sum / count), 1.0, 0.03);  // rms is half the height
+}
+
+TEST(Terrain, ClodsHaveTheirDeviation) {
+  const TerrainSurface flat(TerrainShape{}, RandomStream(1, "", "t"));
+  const Eigen::AlignedBox2d box(Eigen::Vector2d(0, 0), Eigen::Vector2d(50, 50));
+  const HeightField field = make_height_field(flat, box, 0.25, 0.02, RandomStream(1, "", "c"));
+  double sum = 0.0;
+  for (const float h : field.heights_m) sum += double{h} * h;
+  // 40,401 samples: the deviation's own is 0.4 %.
+  EXPECT_NEAR(std::sqrt(sum / static_cast<double>(field.heights_m.size())), 0.02, 0.0004);
+}
+
+TEST(Canopy, ShapeStaysInItsLimits) {
+  const CanopyParams params;
+  for (int variant = 0; variant < 20; ++variant) {
+    const CanopyShape shape(params, 7.2, 8, RandomStream(7, "", std::to_string(variant)));
+    for (double u = 0.0; u <= 7.2; u += 0.05) {
+      for (double angle = 0.0; angle < 2 * kPi; angle += 0.1) {
+        const Eigen::Vector2d p = shape.surface_point(u, angle);
+        ASSERT_LT(std::abs(p.x()), 0.5 * params.width_m * 1.5);
+        ASSERT_LT(p.y(), params.top_m * 1.15);
+        ASSERT_GT(p.y(), params.base_m * 0.8);
+      }
+    }
+  }
+}
+
+TEST(Foliage, LeavesStayNearTheHullTheyBelongTo) {
+  const CanopyParams params;
+  const CanopyShape shape(params, 7.2, 8, RandomStream(7, "", "shape"));
+  for (int level = 0; level < 3; ++level) {
+    const FoliageDetail detail = vine_foliage_detail(260, level);
+    const TriangleMesh leaves = make_vine_foliage(shape, detail, RandomStream(7, "", "leaves"));
+    EXPECT_EQ(leaves.triangles.size(),
+              2u * static_cast<std::size_t>(std::lround(detail.cards_per_m * 7.2)));
+    const Eigen::AlignedBox3d box = leaves.bounds();
+    // A card reaches half its length over its centre at most.
+    const double reach_m = 0.5 * detail.card_length_m;
+    EXPECT_LT(box.max().y(), 0.5 * params.width_m * 1.35 + 1.3 * reach_m) << level;
+    EXPECT_LT(box.max().z(), params.top_m * 1.15 + reach_m) << level;
+    EXPECT_GT(box.min().z(), params.base_m * 0.85 - reach_m) << level;
+    for (const auto& uv : leaves.uvs) {
+      ASSERT_TRUE((uv.array() >= 0.0f).all() && (uv.array() <= 1.0f).all());
+    }
+  }
+}
+
+TEST(Foliage, LevelsShowTheSameLeafArea) {
+  for (int level = 1; level < 3; ++level) {
+    const FoliageDetail near = vine_foliage_detail(260, 0), far = vine_foliage_detail(260, level);
+    EXPECT_NEAR(near.cards_per_m * near.card_length_m * near.card_length_m,
+                far.cards_per_m * far.card_length_m * far.card_length_m, 1e-9);
+  }
+}
+
+TEST(Primitives, TubeIsClosedWithTheVolumeOfItsPrism) {
+  TriangleMesh mesh;
+  const TubePoint points[] = {{{0, 0, 0}, 0.1}, {{0, 0, 1}, 0.1}, {{0, 0, 2}, 0.1}};
+  constexpr int kSides = 12;
+  append_tube(mesh, points, kSides, Eigen::Vector3f::Ones());
+  double volume = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
+    volume +=
+        a.dot(mesh.vertices[t[1]].cast<double>().cross(mesh.vertices[t[2]].cast<double>())) / 6.0;
+  }
+  // Regular polygon of n sides: n/2 r^2 sin(2 pi / n), times the length.
+  EXPECT_NEAR(volume, 2.0 * 0.5 * kSides * 0.01 * std::sin(2 * kPi / kSides), 1e-6);
+}
+
+TEST(Trellis, PostsAreSpreadEvenlyAndNotTooFarApart) {
+  EXPECT_EQ(spread_posts(0, 10, 5), (std::vector<double>{0, 5, 10}));
+  EXPECT_EQ(spread_posts(0, 11, 5).size(), 4u);
+  EXPECT_EQ(spread_posts(0, 2, 5), (std::vector<double>{0, 2}));
+}
+
+TEST(Soil, KnownByName) {
+  for (const std::string& name : soil_names()) {
+    const Soil soil = find_soil(name);
+    EXPECT_EQ(soil.name, name);
+    EXPECT_GE(soil.peak_friction, soil.sliding_friction);
+    EXPECT_GT(soil.sliding_friction, soil.rolling_resistance);
+  }
+  const std::string error = test::config_error_of([] { find_soil("wet_sol"); });
+  EXPECT_NE(error.find("soil = 'wet_sol', must be one of: dry_grass"), std::string::npos);
+  EXPECT_NE(error.find("did you mean 'wet_soil'?"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vinerow::worlds

@@ -1,0 +1,133 @@
+#include "worlds/surveyed/surveyed.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/io/geojson.h"
+#include "engine/math/angles.h"
+#include "tests/support/data.h"
+#include "tests/worlds/world_fixture.h"
+
+namespace vinerow::worlds {
+namespace {
+
+ParameterSet riseholme() {
+  ParameterSet parameters = test::world_parameters("surveyed");
+  parameters.set("survey_file", test::riseholme_file());
+  parameters.set("origin_latitude_deg", 53.26810042662116);
+  parameters.set("origin_longitude_deg", -0.5244249078498293);
+  return parameters;
+}
+
+TEST(Surveyed, RiseholmeHasTheMeasuredFigures) {
+  const auto world = test::make_world("surveyed", riseholme());
+  EXPECT_TRUE(world->notes.empty());
+  ASSERT_EQ(world->rows.rows.size(), 10u);
+  ASSERT_EQ(world->rows.alleys.size(), 9u);
+  for (const Alley& alley : world->rows.alleys) {
+    // data/README.md: pitch 2.48 to 2.53 m, bearing 171.6 deg.
+    EXPECT_GT(alley.width_m, 2.475);
+    EXPECT_LT(alley.width_m, 2.535);
+    const Eigen::Vector2d d = (alley.line_W.back() - alley.line_W.front()).head<2>();
+    EXPECT_NEAR(deg_from_rad(std::atan2(d.x(), d.y())), 171.6, 0.3);
+    EXPECT_NEAR(d.norm(), 17.0, 0.5);
+  }
+}
+
+TEST(Surveyed, MiddleLinesAgreeWithTheAuthorsMidRowLines) {
+  VINEROW_OUTSIDE_DATA(file, "vineyard_detection/data/mid_row_lines.geojson");
+  const auto world = test::make_world("surveyed", riseholme());
+  const io::LocalFrame frame(world->origin);
+  const auto lines = io::read_survey(file, "mid_row_line").rows;
+  ASSERT_EQ(lines.size(), 9u);
+  for (const io::GeoFeature& line : lines) {
+    double best_m = 1e9;
+    const Eigen::Vector2d middle = 0.5 * (frame.to_local(line.points.front()).head<2>() +
+                                          frame.to_local(line.points.back()).head<2>());
+    for (const Alley& alley : world->rows.alleys) {
+      const Eigen::Vector2d a = alley.line_W.front().head<2>();
+      const Eigen::Vector2d d = (alley.line_W.back().head<2>() - a).normalized();
+      const Eigen::Vector2d r = middle - a;
+      best_m = std::min(best_m, std::abs(d.x() * r.y() - d.y() * r.x()));
+    }
+    // Theirs come from drone-detected poles (median error 0.21 m) and are rounded to 1e-6 deg (0.11
+    // m).
+    EXPECT_LT(best_m, 0.25);
+  }
+}
+
+TEST(Surveyed, EveryVineAndPoleStandsWhereItWasMeasured) {
+  const auto world = test::make_world("surveyed", riseholme());
+  const io::LocalFrame frame(world->origin);
+  std::vector<Eigen::Vector3f> trunks;
+  for (const MeshInstance& m : world->meshes) {
+    if (m.surface == SurfaceClass::kTrunk && m.collides) {
+      trunks.insert(trunks.end(), m.mesh->vertices.begin(), m.mesh->vertices.end());
+    }
+  }
+  const io::SurveyFile survey = io::read_survey(test::riseholme_file());
+  ASSERT_EQ(survey.vines.size(), 120u);
+  ASSERT_EQ(survey.poles.size(), 40u);
+  for (const io::GeoFeature& vine : survey.vines) {
+    const Eigen::Vector2d p = frame.to_local(vine.points[0]).head<2>();
+    double best_m = 1e9;
+    for (const Eigen::Vector3f& v : trunks) {
+      const double above_m = v.z() - world->terrain->height_m(v.x(), v.y());
+      if (above_m < 0.1) best_m = std::min(best_m, (v.head<2>().cast<double>() - p).norm());
+    }
+    // Vines are put onto the straight row: they stand up to 6 cm beside it, and a stem has 4 cm
+    // radius at its foot.
+    EXPECT_LT(best_m, 0.12) << vine.property("name");
+  }
+}
+
+TEST(Surveyed, AuthorsOwnFileLoadsAsWell) {
+  VINEROW_OUTSIDE_DATA(file, "vineyard_detection/data/vineyard_poles_and_rows.geojson");
+  ParameterSet parameters = riseholme();
+  parameters.set("survey_file", file.string());
+  const auto world = test::make_world("surveyed", parameters);
+  EXPECT_EQ(world->rows.rows.size(), 10u);
+}
+
+TEST(Surveyed, RefusesBadInputInOneSentence) {
+  const auto error_of = [](const std::string& file) {
+    return test::config_error_of([&] {
+      ParameterSet parameters = test::world_parameters("surveyed");
+      parameters.set("survey_file", file);
+      test::make_world("surveyed", parameters);
+    });
+  };
+  EXPECT_EQ(error_of("/none.geojson"), "GeoJSON file '/none.geojson' does not exist");
+  const std::string points = test::temporary_file(
+      "points.geojson",
+      R"({"type":"FeatureCollection","features":[{"type":"Feature","geometry":{"type":"Point","coordinates":[1,2]}}]})");
+  EXPECT_NE(error_of(points).find("has no LineString (1 points"), std::string::npos);
+  const std::string zero =
+      test::temporary_file("zero.geojson", R"({"type":"LineString","coordinates":[[1,2],[1,2]]})");
+  EXPECT_EQ(error_of(zero), "'" + zero + "', feature 0: the row has no length");
+  const std::string far = test::temporary_file(
+      "far.geojson",
+      R"({"type":"MultiLineString","coordinates":[[[1,2],[1,2.0001]],[[50,2],[50,2.0001]]]})");
+  EXPECT_NE(error_of(far).find("km from the world's origin, must be within 20 km"),
+            std::string::npos);
+  EXPECT_NE(test::config_error_of([] {
+              test::make_world("surveyed", test::world_parameters("surveyed"));
+            }).find("survey_file must be given"),
+            std::string::npos);
+}
+
+TEST(Surveyed, PointsFarFromEveryRowAreNoted) {
+  const std::string file = test::temporary_file("stray.geojson",
+                                                R"({"type":"FeatureCollection","features":[
+        {"type":"Feature","properties":{"type":"row"},"geometry":{"type":"LineString","coordinates":[[8.0,45.0],[8.0,45.0002]]}},
+        {"type":"Feature","properties":{"type":"vine"},"geometry":{"type":"Point","coordinates":[8.001,45.0001]}}]})");
+  ParameterSet parameters = test::world_parameters("surveyed");
+  parameters.set("survey_file", file);
+  const auto world = test::make_world("surveyed", parameters);
+  ASSERT_EQ(world->notes.size(), 1u);
+  EXPECT_NE(world->notes[0].find("1 vines stand farther than 1.00 m from every row"),
+            std::string::npos)
+      << world->notes[0];
+}
+
+}  // namespace
+}  // namespace vinerow::worlds

@@ -1,0 +1,153 @@
+#include "worlds/vineyard/vineyard.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/io/geo.h"
+#include "engine/math/angles.h"
+#include "tests/worlds/world_fixture.h"
+#include "worlds/parts/mesh_store.h"
+
+namespace vinerow::worlds {
+namespace {
+
+const WorldModel& parcel_f() {
+  static const auto world = test::make_world("vineyard", test::world_parameters("vineyard"));
+  return *world;
+}
+
+TEST(Vineyard, DefaultIsParcelF) {
+  const RowMap& map = parcel_f().rows;
+  ASSERT_EQ(map.rows.size(), 16u);
+  EXPECT_EQ(map.alleys.size(), 15u);
+  for (const PlantRow& row : map.rows) {
+    EXPECT_NEAR((row.line_W.back() - row.line_W.front()).head<2>().norm(), 118.0, 1e-9);
+  }
+  for (const Alley& alley : map.alleys) EXPECT_NEAR(alley.width_m, 2.5, 1e-9);
+}
+
+TEST(Vineyard, ReliefUnderTheRowsIsThirtyMetres) {
+  double low = 1e9, high = -1e9;
+  for (const PlantRow& row : parcel_f().rows.rows) {
+    for (int i = 0; i <= 1000; ++i) {
+      const Eigen::Vector3d p = row.line_W[0] + (row.line_W[1] - row.line_W[0]) * (i / 1000.0);
+      const double h = parcel_f().terrain->height_m(p.x(), p.y());
+      low = std::min(low, h);
+      high = std::max(high, h);
+    }
+  }
+  // Fitted on samples each 2 m; a cell of 0.5 m on a slope of 25 % bends by millimetres.
+  EXPECT_NEAR(high - low, 30.0, 0.05);
+}
+
+TEST(Vineyard, ParcelLiesInsideThePapersCoordinates) {
+  const io::LocalFrame frame(parcel_f().origin);
+  for (const PlantRow& row : parcel_f().rows.rows) {
+    for (const Eigen::Vector3d& p : row.line_W) {
+      const io::Geodetic g = frame.to_geodetic(p);
+      EXPECT_GT(deg_from_rad(g.latitude_rad), 44.6150);
+      EXPECT_LT(deg_from_rad(g.latitude_rad), 44.6157);
+      EXPECT_GT(deg_from_rad(g.longitude_rad), 7.9244);
+      EXPECT_LT(deg_from_rad(g.longitude_rad), 7.9262);
+    }
+  }
+}
+
+TEST(Vineyard, HasTheWantedNumberOfTriangles) {
+  std::vector<const TriangleMesh*> seen;
+  std::size_t triangles = 2u * (parcel_f().terrain->columns - 1) * (parcel_f().terrain->rows - 1);
+  for (const MeshInstance& instance : parcel_f().meshes) {
+    if (std::find(seen.begin(), seen.end(), instance.mesh.get()) != seen.end()) continue;
+    seen.push_back(instance.mesh.get());
+    triangles += instance.mesh->triangles.size();
+  }
+  EXPECT_GT(triangles, 500000u);
+  EXPECT_LT(triangles, 800000u);
+}
+
+ParameterSet small_vineyard(const std::filesystem::path& folder) {
+  ParameterSet parameters = test::world_parameters("vineyard");
+  parameters.set("row_count", 2.0).set("row_length_m", 12.0).set("relief_m", 1.0);
+  parameters.set("mesh_folder", folder.string());
+  return parameters;
+}
+
+std::string meshes_digest(const WorldModel& world) {
+  Hasher hasher;
+  for (const MeshInstance& m : world.meshes) hasher.add(mesh_digest(*m.mesh));
+  return hasher.hex();
+}
+
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(Vineyard, WarmColdAndDamagedCacheGiveTheSameBits) {
+  const auto folder = std::filesystem::temp_directory_path() / "vinerow_vineyard_cache_test";
+  std::filesystem::remove_all(folder);
+  const std::string cold = meshes_digest(*test::make_world("vineyard", small_vineyard(folder)));
+  const auto files = files_below(folder);
+  ASSERT_GT(files.size(), 5u);
+  const auto written = std::filesystem::last_write_time(files.front());
+  EXPECT_EQ(meshes_digest(*test::make_world("vineyard", small_vineyard(folder))), cold);
+  EXPECT_EQ(std::filesystem::last_write_time(files.front()), written) << "written again";
+  EXPECT_EQ(files_below(folder), files) << "left something behind";
+
+  // Cut off, changed in one byte, gone.
+  std::filesystem::resize_file(files[0], std::filesystem::file_size(files[0]) / 2);
+  {
+    std::fstream stream(files[1], std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(-30, std::ios::end);
+    stream.put('\x55');
+  }
+  std::filesystem::remove(files[2]);
+  EXPECT_EQ(meshes_digest(*test::make_world("vineyard", small_vineyard(folder))), cold);
+  EXPECT_EQ(files_below(folder), files);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Vineyard, OtherParametersUseOtherFiles) {
+  const auto folder = std::filesystem::temp_directory_path() / "vinerow_vineyard_key_test";
+  std::filesystem::remove_all(folder);
+  test::make_world("vineyard", small_vineyard(folder));
+  ParameterSet sunny = small_vineyard(folder);
+  sunny.set("sun_elevation_deg", 20.0).set("soil", std::string("wet_soil"));
+  test::make_world("vineyard", sunny);
+  const auto count = [&] {
+    return std::distance(std::filesystem::directory_iterator(folder),
+                         std::filesystem::directory_iterator());
+  };
+  EXPECT_EQ(count(), 1) << "light and soil change no mesh";
+  ParameterSet wider = small_vineyard(folder);
+  wider.set("canopy_width_m", 0.7);
+  test::make_world("vineyard", wider);
+  EXPECT_EQ(count(), 2);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Vineyard, RefusesBadInputInOneSentence) {
+  const auto error = [](const char* name, ParameterSet::Value value) {
+    return test::config_error_of([&] {
+      ParameterSet parameters = test::world_parameters("vineyard");
+      parameters.set(name, std::move(value));
+      test::make_world("vineyard", parameters);
+    });
+  };
+  EXPECT_EQ(error("row_count", -2.0), "row_count = -2, must be >= 1 and <= 1000");
+  EXPECT_EQ(error("pitch_m", std::nan("")), "pitch_m = nan, must be a finite number");
+  EXPECT_EQ(error("canopy_base_m", 3.0), "canopy_base_m = 3 m, must be < canopy_top_m = 2 m");
+  EXPECT_EQ(error("dem_file", std::string("/none.tif")), "raster '/none.tif' does not exist");
+  EXPECT_EQ(error("terrain_cell_m", 0.01), "terrain_cell_m = 0.01 m, must be >= 0.05 m");
+  EXPECT_NE(error("soil", std::string("dry_gras")).find("did you mean 'dry_grass'?"),
+            std::string::npos);
+  EXPECT_NE(error("headland_m", 3.0).find("must be >= 8 m"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vinerow::worlds

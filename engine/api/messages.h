@@ -89,7 +89,7 @@ struct VelocityCommand {
 };
 
 /// Named numbers of one kind: actuator commands, wheel states. Names are fixed when the writer
-/// connects. ROS 2: sensor_msgs/msg/JointState (names, `value` as position, see record/).
+/// connects. ROS 2: vinerow_msgs/msg/NamedValues (see record/).
 struct NamedValues {
   static constexpr const char* kType = "NamedValues";
   std::vector<std::string> names;

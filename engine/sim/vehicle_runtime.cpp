@@ -293,12 +293,17 @@ void VehicleRuntime::after_physics(Time now, Duration step) {
 void VehicleRuntime::watch_contacts(Time now) {
   const physics::Contact* touched = nullptr;
   for (const physics::Contact& contact : run_.physics.contacts()) {
-    const bool ours = contact.body.index >= first_body_ && contact.body.index < end_body_;
-    if (ours && contact.surface != SurfaceClass::kTerrain && contact.depth_m >= 0.0)
-      touched = &contact;
+    // Between two vehicles a contact is listed once, from either side.
+    const auto is_ours = [this](physics::BodyId body) {
+      return body.index >= first_body_ && body.index < end_body_;
+    };
+    if (!is_ours(contact.body) && !is_ours(contact.other)) continue;
+    if (contact.surface != SurfaceClass::kTerrain && contact.depth_m >= 0.0) touched = &contact;
   }
   const bool was_touching = contacts_.values[1] != 0.0;
   if (!touched && !was_touching) return;
+  const double touches_before = contacts_.values[0];
+  contacts_.values[1] = touched ? 1.0 : 0.0;
   if (touched) {
     if (now - last_contact_ > kContactGap) {
       contacts_.values[0] += 1.0;
@@ -308,8 +313,8 @@ void VehicleRuntime::watch_contacts(Time now) {
     }
     last_contact_ = now;
   }
-  if (touched != nullptr || was_touching) {
-    contacts_.values[1] = touched ? 1.0 : 0.0;
+  const bool is_touching = touched != nullptr;
+  if (is_touching != was_touching || contacts_.values[0] != touches_before) {
     contacts_writer_.write(now, contacts_);
   }
 }

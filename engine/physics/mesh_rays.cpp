@@ -31,7 +31,7 @@ double calc_plane_distance(const TriangleMesh& mesh, std::uint32_t triangle, con
 }  // namespace
 
 struct MeshRays::Impl {
-  /// One instance, in the order of Embree's geometry ids.
+  /// One mesh instance, in the order of Embree's geometry ids.
   struct Entry {
     const MeshInstance* instance;
     int mesh_index;
@@ -52,29 +52,37 @@ struct MeshRays::Impl {
 
   RTCScene new_scene() {
     RTCScene result = rtcNewScene(device);
-    // Robust: no ray slips through between two neighbouring triangles. Compact: 600 thousand
-    // triangles stay well below 100 MB.
-    rtcSetSceneFlags(result,
-                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
+    // No ray may slip through between two neighbouring triangles.
+    rtcSetSceneFlags(result, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(result, RTC_BUILD_QUALITY_MEDIUM);
     return result;
+  }
+
+  /// Triangles with vertices at X * (where the mesh has them).
+  RTCGeometry new_triangles(const TriangleMesh& mesh, const Pose& X, SurfaceMask mask) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Copies: a shared buffer would have to be readable 4 bytes past its end.
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), mesh.vertices.size()));
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                              3 * sizeof(std::uint32_t), mesh.triangles.size());
+    const Eigen::Matrix3d R = X.q.toRotationMatrix();
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      const Vector3d p = R * mesh.vertices[v].cast<double>() + X.p;
+      for (int axis = 0; axis < 3; ++axis) vertices[3 * v + axis] = static_cast<float>(p[axis]);
+    }
+    std::memcpy(triangles, mesh.triangles.data(),
+                mesh.triangles.size() * sizeof(mesh.triangles[0]));
+    rtcSetGeometryMask(geometry, mask);
+    rtcCommitGeometry(geometry);
+    return geometry;
   }
 
   RTCScene scene_of(const TriangleMesh& mesh) {
     const auto found = shared.find(&mesh);
     if (found != shared.end()) return found->second;
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Copies: a shared buffer would have to be readable 4 bytes past its end.
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             3 * sizeof(float), mesh.vertices.size());
-    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                              3 * sizeof(std::uint32_t), mesh.triangles.size());
-    static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(Eigen::Vector3f));
-    std::memcpy(triangles, mesh.triangles.data(),
-                mesh.triangles.size() * sizeof(mesh.triangles[0]));
-    rtcSetGeometryMask(geometry, 0xffffffffu);
-    rtcCommitGeometry(geometry);
+    RTCGeometry geometry = new_triangles(mesh, Pose{}, kAllSurfaces);
     RTCScene result = new_scene();
     rtcAttachGeometry(result, geometry);
     rtcReleaseGeometry(geometry);
@@ -83,7 +91,7 @@ struct MeshRays::Impl {
     return result;
   }
 
-  void add_instance(const MeshInstance& instance, int mesh_index) {
+  RTCGeometry new_instance(const MeshInstance& instance) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, scene_of(*instance.mesh));
     const Eigen::Matrix3d R_WM = instance.X_WM.q.toRotationMatrix();
@@ -97,18 +105,28 @@ struct MeshRays::Impl {
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
     rtcSetGeometryMask(geometry, mask_of(instance.surface));
     rtcCommitGeometry(geometry);
+    return geometry;
+  }
+
+  /// A mesh that stands once goes straight into the scene, which saves its rays a change of frame.
+  void add(const MeshInstance& instance, int mesh_index, bool stands_once) {
+    RTCGeometry geometry =
+        stands_once ? new_triangles(*instance.mesh, instance.X_WM, mask_of(instance.surface))
+                    : new_instance(instance);
     const unsigned id = rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     VINEROW_DEMAND(id == entries.size());
-    entries.push_back(
-        {&instance, mesh_index, R_WM.transpose(), -(R_WM.transpose() * instance.X_WM.p)});
+    const Eigen::Matrix3d R_MW = instance.X_WM.q.toRotationMatrix().transpose();
+    entries.push_back({&instance, mesh_index, R_MW, -(R_MW * instance.X_WM.p)});
   }
 };
 
 MeshRays::MeshRays(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
-  bool any = false;
-  for (const MeshInstance& instance : world.meshes) any = any || is_seen_by_rays(instance);
-  if (!any) return;
+  std::map<const TriangleMesh*, int> uses;
+  for (const MeshInstance& instance : world.meshes) {
+    if (is_seen_by_rays(instance)) ++uses[instance.mesh.get()];
+  }
+  if (uses.empty()) return;
   // One thread: the tree, and with it which of two equal hits is taken, is the same every time.
   impl_->device = rtcNewDevice("threads=1,set_affinity=0");
   if (!impl_->device) throw ConfigError("Embree could not be started: no device for ray casts");
@@ -119,9 +137,9 @@ MeshRays::MeshRays(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
   }
   impl_->scene = impl_->new_scene();
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
-    if (is_seen_by_rays(world.meshes[i])) {
-      impl_->add_instance(world.meshes[i], static_cast<int>(i));
-    }
+    const MeshInstance& instance = world.meshes[i];
+    if (!is_seen_by_rays(instance)) continue;
+    impl_->add(instance, static_cast<int>(i), uses[instance.mesh.get()] == 1);
   }
   rtcCommitScene(impl_->scene);
 }
@@ -156,7 +174,8 @@ std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
   rtcIntersect1(impl_->scene, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
-  const Impl::Entry& entry = impl_->entries[ray.hit.instID[0]];
+  const bool in_instance = ray.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+  const Impl::Entry& entry = impl_->entries[in_instance ? ray.hit.instID[0] : ray.hit.geomID];
   Vector3d normal_M;
   const Vector3d dir_M = entry.R_MW * dir_W;
   const double distance_m = calc_plane_distance(*entry.instance->mesh, ray.hit.primID,

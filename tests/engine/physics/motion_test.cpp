@@ -129,7 +129,7 @@ TEST(FreeMotion, TumblingBrickFollowsEulersEquations) {
   }
   // Fourth order at 1 kHz leaves rounding; plain Bullet is at 0.044 deg/s.
   EXPECT_LT(worst_deg, 1e-9);
-  RecordProperty("worst_deg_per_s", std::to_string(worst_deg));
+  RecordProperty("worst_fdeg_per_s", std::to_string(worst_deg * 1e15));
 }
 
 TEST(FreeMotion, RotationErrorShrinksWithTheFourthPowerOfTheStep) {
@@ -221,6 +221,7 @@ TEST(FreeMotion, NescCase02AgreesWithTheSimulatorsOfNasa) {
   }
   // Simulator 04 prints 12 digits and integrates to about 3e-10 deg/s; the six spread by 0.005.
   EXPECT_LT(worst_deg, 1e-8);
+  RecordProperty("worst_fdeg_per_s", std::to_string(worst_deg * 1e15));
 }
 
 /// US Standard Atmosphere 1976 below 11 km: density, kg/m3. Source: NOAA-S/T 76-1562, Eqs. 33a, 42.
@@ -289,10 +290,12 @@ TEST(FreeMotion, DroppedSphereFollowsTheExactFall) {
   const Eigen::Vector2d end =
       DroppedSphere::simulate(0.001, 30.0, 30.0, ForceSampling::kSmooth).back();
   // Second order: 1 kHz leaves about 1e-5 m after 4197 m; plain Bullet is at 0.14 m.
+  RecordProperty("error_um", std::to_string((end[0] - exact[0]) * 1e6));
   EXPECT_NEAR(end[0], exact[0], 1e-4);
   EXPECT_NEAR(end[1], exact[1], 1e-5);
   const Eigen::Vector2d held =
       DroppedSphere::simulate(0.001, 30.0, 30.0, ForceSampling::kHeld).back();
+  RecordProperty("held_error_um", std::to_string((held[0] - exact[0]) * 1e6));
   EXPECT_NEAR(held[0], exact[0], 0.02);
 }
 
@@ -319,7 +322,7 @@ TEST(FreeMotion, NescCase04AgreesWithTheSimulatorsOfNasa) {
     worst_m = std::max(worst_m, std::abs(course[k][0] - rows[k + 1][1] * kFoot_m));
     worst_mps = std::max(worst_mps, std::abs(course[k][1] + rows[k + 1][2] * kFoot_m));
   }
-  RecordProperty("worst_m", std::to_string(worst_m));
+  RecordProperty("worst_um", std::to_string(worst_m * 1e6));
   EXPECT_LT(worst_m, 0.01);
   EXPECT_LT(worst_mps, 0.001);
 }

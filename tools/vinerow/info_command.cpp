@@ -18,6 +18,8 @@ void add_info_command(CLI::App& app, int& exit_status) {
     for (const auto& [key, value] : info.metadata) fmt::print("  {}: {}\n", key, value);
     const double span_s = (info.last - info.first).s();
     for (const record::ChannelInfo& channel : info.channels) {
+      // The lossless twin of a channel whose standard type cannot hold everything.
+      if (channel.metadata.contains("exact_of")) continue;
       const double rate_Hz = channel.messages > 1 && span_s > 0.0
                                  ? static_cast<double>(channel.messages - 1) / span_s
                                  : 0.0;

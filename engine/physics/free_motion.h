@@ -48,8 +48,8 @@ Eigen::Vector3d calc_angular_momentum_W(const MotionState& state, const Principa
 ///        the step. Otherwise the velocities first get 1/2 dt (load - load_before), which makes the
 ///        sequence of steps velocity Verlet: second order for loads that depend on position (no
 ///        energy drift in springs) and on velocity, at one evaluation of the load per step.
-///        Source: Groot, Warren, "Dissipative particle dynamics", J. Chem. Phys. 107 (1997), Eq. 17
-///        with lambda = 1.
+///        Source: Groot, Warren, "Dissipative particle dynamics", J. Chem. Phys. 107 (1997), the
+///        modified velocity Verlet with lambda = 1.
 MotionState advance_free(const MotionState& start, const PrincipalInertia& inertia,
                          const HeldLoad& load, const HeldLoad& load_before, double dt_s);
 

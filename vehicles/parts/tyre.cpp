@@ -13,7 +13,14 @@ double calc_relaxation_speed(double rolling_mps, double sliding_mps) {
   // sliding_mps itself.
   if (sliding_mps <= 1e-5 * rolling_mps) return rolling_mps + 0.5 * sliding_mps;
   if (sliding_mps > 40.0 * rolling_mps) return sliding_mps;
-  return sliding_mps / -std::expm1(-sliding_mps / rolling_mps);
+  const double rho = sliding_mps / rolling_mps;
+  // 1 - exp(-rho) loses digits for small rho only; expm1 costs three times as much.
+  return sliding_mps / (rho > 0.1 ? 1.0 - std::exp(-rho) : -std::expm1(-rho));
+}
+
+/// Length of (x, y) without hypot's care for overflow: speeds and ratios are of moderate size.
+double length_of(double x, double y) {
+  return std::sqrt(x * x + y * y);
 }
 
 }  // namespace
@@ -47,9 +54,9 @@ TyreStep Tyre::begin(const TyreState& state, const Eigen::Vector2d& velocity_C, 
   const double v_sx = velocity_C.x() - radius_m_ * spin_radps;
   const double v_sy = velocity_C.y();
   const double rolling = std::abs(radius_m_ * spin_radps);
-  const double mu_x = calc_friction(soil, std::hypot(v_sx, v_sy), params_.stribeck_speed_mps);
+  const double mu_x = calc_friction(soil, length_of(v_sx, v_sy), params_.stribeck_speed_mps);
   const double mu_y = mu_x * lateral;
-  const double s = std::hypot(mu_x * v_sx, mu_y * v_sy);
+  const double s = length_of(mu_x * v_sx, mu_y * v_sy);
   const double relax_x = calc_relaxation_speed(rolling, step.stiffness.x() * s / (mu_x * mu_x));
   const double relax_y = calc_relaxation_speed(rolling, step.stiffness.y() * s / (mu_y * mu_y));
 

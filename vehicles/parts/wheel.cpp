@@ -30,6 +30,16 @@ double solve_spin(double inertia_per_dt, double spin, double constant_Nm, double
 
 }  // namespace
 
+double WheelOutput::slip() const {
+  const double fastest = std::max(std::abs(rim_speed_mps), std::abs(v_x_mps));
+  return touches && fastest > kRestSpeed_mps ? (rim_speed_mps - v_x_mps) / fastest : 0.0;
+}
+
+double WheelOutput::slip_angle_rad() const {
+  const bool moves = touches && std::hypot(v_x_mps, v_y_mps) > kRestSpeed_mps;
+  return moves ? std::atan2(v_y_mps, std::abs(v_x_mps)) : 0.0;
+}
+
 void WheelParams::validate(const std::string& who) const {
   const std::string place = who + ".wheel_" + name;
   demand_positive(place, "radius_m", radius_m);
@@ -87,7 +97,8 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
     const double rate = -v_C.dot(n) / upright;
     out.load_N = calc_suspension_force(params_.suspension, contact.travel_m, rate) / upright;
     out.touches = out.load_N > 0.0;
-    x_C = disc.y_W.cross(n).normalized();
+    x_C = disc.y_W.cross(n);
+    x_C *= 1.0 / std::sqrt(x_C.squaredNorm());
     y_C = n.cross(x_C);
     tyre_step = tyre_.begin(state.tyre, {v_C.dot(x_C), v_C.dot(y_C)}, spin, out.load_N, soil, dt_s);
   } else {
@@ -128,7 +139,8 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
   }
   motor_.finish(motor_step, new_spin, torque, dt_s, state.motor);
   state.spin_radps = new_spin;
-  state.angle_rad = wrap_angle(state.angle_rad + 0.5 * (spin + new_spin) * dt_s);
+  state.angle_rad += 0.5 * (spin + new_spin) * dt_s;
+  if (std::abs(state.angle_rad) > kPi) state.angle_rad = wrap_angle(state.angle_rad);
 
   // The ground's whole moment about the axle is R F_x and the rolling resistance; what does not
   // turn the wheel turns the body (motor and brake are inner torques).
@@ -144,11 +156,10 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
     out.force_x_N = force.x();
     out.force_y_N = force.y();
     out.force_W = out.load_N * contact.normal_W + force.x() * x_C + force.y() * y_C;
-    const double v_x = v_C.dot(x_C), v_y = v_C.dot(y_C), v_roll = r * new_spin;
-    const double fastest = std::max(std::abs(v_roll), std::abs(v_x));
-    if (fastest > kRestSpeed_mps) out.slip = (v_roll - v_x) / fastest;
-    if (std::hypot(v_x, v_y) > kRestSpeed_mps) out.slip_angle_rad = std::atan2(v_y, std::abs(v_x));
+    out.v_x_mps = tyre_step.velocity.x();
+    out.v_y_mps = tyre_step.velocity.y();
   }
+  out.rim_speed_mps = r * new_spin;
   return out;
 }
 

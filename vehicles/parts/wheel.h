@@ -50,14 +50,20 @@ struct WheelState {
 /// What the wheel did in the last step.
 struct WheelOutput {
   bool touches = false;
-  double load_N = 0.0;          ///< along the ground's normal
-  double force_x_N = 0.0;       ///< of the ground on the wheel, rolling direction
-  double force_y_N = 0.0;       ///< to the left
-  double slip = 0.0;            ///< (R omega - v_x) / max(|R omega|, |v_x|), 0 at rest
-  double slip_angle_rad = 0.0;  ///< atan2(v_y, |v_x|), 0 at rest
+  double load_N = 0.0;         ///< along the ground's normal
+  double force_x_N = 0.0;      ///< of the ground on the wheel, rolling direction
+  double force_y_N = 0.0;      ///< to the left
+  double v_x_mps = 0.0;        ///< of the vehicle at the contact point, rolling direction
+  double v_y_mps = 0.0;        ///< to the left
+  double rim_speed_mps = 0.0;  ///< R omega
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();            ///< contact point
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();        ///< of the ground, at p_W
   Eigen::Vector3d body_torque_W = Eigen::Vector3d::Zero();  ///< beside the force's own moment
+
+  /// (R omega - v_x) / max(|R omega|, |v_x|); 0 at rest, where slip has no meaning.
+  double slip() const;
+  /// atan2(v_y, |v_x|); 0 at rest.
+  double slip_angle_rad() const;
 };
 
 class Wheel {

@@ -137,7 +137,7 @@ void WheeledPlatform::publish(Time now) {
     const WheelState& state = state_.wheels[i];
     const WheelOutput& out = outputs_[i];
     for (const double value : {state.spin_radps, state.steer_rad, state.motor.torque_Nm, out.load_N,
-                               out.slip, out.slip_angle_rad, out.force_x_N, out.force_y_N}) {
+                               out.slip(), out.slip_angle_rad(), out.force_x_N, out.force_y_N}) {
       wheels_message_.values[k++] = value;
     }
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "engine/sim/run.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
@@ -26,6 +28,16 @@ TEST(Determinism, PauseAndResumeChangesNothing) {
   TestRun sliced = TestRun::from_file(scenario_file("riseholme_rover"));
   for (const double slice_s : {0.001, 0.5, 2.499, 3.0}) sliced.run_for_s(slice_s);
   EXPECT_EQ(sliced.digest(), digest_after(kSpan_s));
+}
+
+TEST(Determinism, WorkersSideBySideDoNotDisturbEachOther) {
+  constexpr double kShort_s = 2.0;
+  std::string digests[3];
+  std::vector<std::thread> workers;
+  for (std::string& digest : digests) workers.emplace_back([&digest] { digest = digest_after(kShort_s); });
+  for (std::thread& worker : workers) worker.join();
+  const std::string alone = digest_after(kShort_s);
+  for (const std::string& digest : digests) EXPECT_EQ(digest, alone);
 }
 
 TEST(Determinism, AnotherSeedGivesAnotherDigest) { EXPECT_NE(digest_after(1.0), digest_after(1.0, {"seed=2"})); }

@@ -7,6 +7,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "engine/core/error.h"
@@ -62,7 +63,10 @@ std::string replace_optenv(const std::string& text, std::vector<std::string>& no
   }
 }
 
-void demand_well_formed(const std::string& text, const std::string& file) {
+/// Checks the XML, and drops a material that is defined again under the same name: liburdfdom
+/// refuses the whole file for it. @returns the text to parse
+std::string check_xml(const std::string& text, const std::string& file,
+                      std::vector<std::string>& notes) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw ConfigError(fmt::format("{}:{}: not well-formed XML ({})", file, document.ErrorLineNum(),
@@ -78,6 +82,23 @@ void demand_well_formed(const std::string& text, const std::string& file) {
     throw ConfigError(
         fmt::format("{}: a xacro source, not a URDF; expand it with xacro first", file));
   }
+
+  std::set<std::string> materials;
+  const std::size_t notes_before = notes.size();
+  tinyxml2::XMLElement* material = document.RootElement()->FirstChildElement("material");
+  while (material != nullptr) {
+    tinyxml2::XMLElement* next = material->NextSiblingElement("material");
+    const char* name = material->Attribute("name");
+    if (name != nullptr && !materials.insert(name).second) {
+      notes.push_back(fmt::format("material '{}' is defined again; the first one counts", name));
+      document.DeleteNode(material);
+    }
+    material = next;
+  }
+  if (notes.size() == notes_before) return text;
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
 }
 
 std::filesystem::path resolve_mesh(const std::string& name, const std::filesystem::path& urdf,
@@ -231,8 +252,8 @@ void add_tree(const urdf::Link& source, int parent_joint, const Packages& packag
 UrdfModel load_urdf(const std::filesystem::path& file, const Packages& packages) {
   UrdfModel model;
   model.file = std::filesystem::absolute(file);
-  const std::string text = replace_optenv(read_text(file), model.notes);
-  demand_well_formed(text, file.string());
+  const std::string text =
+      check_xml(replace_optenv(read_text(file), model.notes), file.string(), model.notes);
 
   urdf::ModelInterfaceSharedPtr parsed;
   ComplaintCatcher complaints;

@@ -223,10 +223,15 @@ MeshBuilder& MeshBuilder::ring_sector(double inner_m, double outer_m, double hal
   for (int k = 0; k < segments; ++k) {
     const double a = from_rad + (to_rad - from_rad) * k / segments;
     const double b = from_rad + (to_rad - from_rad) * (k + 1) / segments;
-    quad(on_ring(outer_m, w, a), on_ring(outer_m, w, b), on_ring(outer_m, -w, b),
-         on_ring(outer_m, -w, a));
-    quad(on_ring(inner_m, -w, a), on_ring(inner_m, -w, b), on_ring(inner_m, w, b),
-         on_ring(inner_m, w, a));
+    // The curved faces are shaded smooth: their normals point along the radius.
+    for (const auto& [radius, out] : {std::pair{outer_m, 1.0}, std::pair{inner_m, -1.0}}) {
+      const std::uint32_t i = add_vertex(on_ring(radius, out * w, a), on_ring(out, 0.0, a));
+      add_vertex(on_ring(radius, out * w, b), on_ring(out, 0.0, b));
+      add_vertex(on_ring(radius, -out * w, b), on_ring(out, 0.0, b));
+      add_vertex(on_ring(radius, -out * w, a), on_ring(out, 0.0, a));
+      mesh_.triangles.push_back({i, i + 1, i + 2});
+      mesh_.triangles.push_back({i, i + 2, i + 3});
+    }
     quad(on_ring(outer_m, -w, a), on_ring(outer_m, -w, b), on_ring(inner_m, -w, b),
          on_ring(inner_m, -w, a));
     quad(on_ring(inner_m, w, a), on_ring(inner_m, w, b), on_ring(outer_m, w, b),

@@ -90,12 +90,27 @@ TEST(Urdf, FaultsAreOneClearSentence) {
 }
 
 TEST(Urdf, ReadsForeignRobots) {
-  for (const char* name :
-       {"husky/husky.urdf", "racecar/racecar.urdf", "racecar/racecar_differential.urdf"}) {
+  for (const char* name : {"husky/husky.urdf", "racecar/racecar.urdf"}) {
     VINEROW_OUTSIDE_DATA(file, std::filesystem::path("bullet3/data") / name);
     const UrdfModel model = load_urdf(file);
     EXPECT_GT(model.links.size(), 4u) << name;
   }
+}
+
+TEST(Urdf, NamesTheMeshThatAForeignRobotLacks) {
+  VINEROW_OUTSIDE_DATA(file, "bullet3/data/racecar/racecar_differential.urdf");
+  EXPECT_NE(error_of(file).find("uses mesh 'differential/diff_ring.stl', which does not exist"),
+            std::string::npos)
+      << error_of(file);
+}
+
+TEST(Urdf, RepeatedMaterialIsTakenOnceAndSaid) {
+  const std::string colour = "<material name='white'><color rgba='1 1 1 1'/></material>";
+  const auto file =
+      write_file("twice.urdf", "<robot name='a'>" + colour + colour + "<link name='b'/></robot>");
+  const UrdfModel model = load_urdf(file);
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_EQ(model.notes[0], "material 'white' is defined again; the first one counts");
 }
 
 }  // namespace

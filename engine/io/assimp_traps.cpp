@@ -102,6 +102,16 @@ std::optional<PlyHeader> read_header(std::istream& stream) {
   return std::nullopt;
 }
 
+bool has_header_end(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  constexpr int kMostLines = 10000;
+  std::string line;
+  for (int i = 0; i < kMostLines && std::getline(stream, line); ++i) {
+    if (line.rfind("end_header", 0) == 0) return true;
+  }
+  return false;
+}
+
 std::uint64_t read_unsigned(const char* bytes, std::size_t size, bool big_endian) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -172,6 +182,10 @@ std::string add_guard(const PlyHeader& header, const std::string& data) {
 }  // namespace
 
 std::optional<std::string> check_ply(const std::filesystem::path& file) {
+  if (!has_header_end(file)) {
+    throw ConfigError(fmt::format(
+        "mesh file '{}' is cut off or no PLY: its header has no 'end_header'", file.string()));
+  }
   std::ifstream stream(file, std::ios::binary);
   const std::optional<PlyHeader> header = read_header(stream);
   if (!header || header->elements.empty()) return std::nullopt;

@@ -4,7 +4,8 @@
 /// 1. Debian's build has assertions on: some broken files would abort the process. assimp_traps.cpp
 /// defines the function
 ///    that assimp calls then, so that it throws and ReadFile returns with an error text.
-/// 2. Its reader of binary PLY walks past the end of a file that was cut off.
+/// 2. Its reader of binary PLY walks past the end of a file that was cut off, and never returns
+/// from a header without end.
 /// 3. It swallows a line feed that is the first byte of the data (assimp issue 5341), one file in
 /// 256, and reads
 ///    everything behind it shifted.

@@ -171,6 +171,8 @@ TEST_F(MeshFileTest, PlyThatIsCutOffOrPointsOutsideIsRefused) {
   EXPECT_NE(error_of(write("cut.ply", whole.substr(0, whole.size() - 20)))
                 .find("cut.ply' is cut off: element vertex 3 of 3 is not whole"),
             std::string::npos);
+  EXPECT_NE(error_of(write("cut.ply", whole.substr(0, 60))).find("its header has no 'end_header'"),
+            std::string::npos);
   std::string outside = whole;
   outside[outside.size() - 4] = 9;
   EXPECT_NE(

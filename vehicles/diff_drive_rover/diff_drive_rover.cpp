@@ -102,7 +102,7 @@ void DiffDriveRover::describe() {
       {"min_turning_radius_m", p.min_turning_radius_m},
       {"wheel_speed_limit_radps", p.wheel_speed_limit_radps},
       {"effective_track_m",
-       p.kinematic ? p.track_m : calc_effective_track_m(p.track_m, p.wheel_base_m, Soil{})},
+       p.kinematic ? p.track_m : calc_effective_track_m(p.track_m, p.wheel_base_m)},
   };
 }
 

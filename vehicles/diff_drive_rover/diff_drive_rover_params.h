@@ -27,7 +27,7 @@ struct DiffDriveRoverParams {
   double suspension_stiffness_N_per_m = 20000.0;
   double suspension_damping_Ns_per_m = 1000.0;
   int wheel_probes = 3;
-  MotorParams motor;
+  MotorParams motor{.max_power_W = 1200.0};
   TyreParams tyre;
   BatteryParams battery;
 

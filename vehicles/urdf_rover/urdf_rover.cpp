@@ -171,7 +171,7 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
       {"max_speed_mps", params.max_speed_mps},
       {"min_turning_radius_m", params.min_turning_radius_m},
       {"wheel_speed_limit_radps", params.wheel_speed_limit_radps},
-      {"effective_track_m", calc_effective_track_m(model_.track_m, model_.wheel_base_m, Soil{})},
+      {"effective_track_m", calc_effective_track_m(model_.track_m, model_.wheel_base_m)},
   };
 }
 

@@ -213,11 +213,10 @@ TEST(WheeledPlatform, ClimbsUpToTheFrictionLimitAndNotBeyond) {
   }
 }
 
-TEST(WheeledPlatform, WideTurnFollowsTheEffectiveTrack) {
-  // Small slip: yaw rate = R (w_r - w_l) / (B (1 + (c_y / c_x)(L / B)^2)),
-  // vehicles/parts/README.md.
+TEST(WheeledPlatform, WideTurnFollowsTheSmallSlipTrack) {
+  // yaw rate = R (w_r - w_l) / (B (1 + (c_y / c_x)(L / B)^2)), vehicles/parts/README.md.
   WorldModel world = make_flat_world();
-  const double track = calc_effective_track_m(1.0, 1.5, world.soil);
+  const double track = calc_small_slip_track_m(1.0, 1.5, world.soil);
   EXPECT_NEAR(track, 2.5, 1e-12);
   Rig rig(std::move(world), rover_params());
   rig.command(4.98, 5.02);
@@ -228,16 +227,27 @@ TEST(WheeledPlatform, WideTurnFollowsTheEffectiveTrack) {
   EXPECT_LT(rig.yaw_rate_radps(), 0.5 * 0.2 * 0.04 / 1.0);  // far below the kinematic rate
 }
 
-TEST(WheeledPlatform, PivotTurnFollowsCoulombFriction) {
+TEST(WheeledPlatform, TightTurnsFollowTheEffectiveTrack) {
   // Full sliding, friction the same in all directions: no net moment means that each tyre slides
   // along its lever, R w = yaw rate (b + a^2 / b) with half track b and half wheel base a.
-  Rig rig(make_flat_world(), rover_params());
-  rig.command(-4.0, 4.0);
-  rig.run(4.0);
-  const double expected = 0.2 * 4.0 / (0.5 + 0.75 * 0.75 / 0.5);
-  // The tyre's curve has reached the limit to 1e-4; the wheels' speed controllers to 1e-3.
-  EXPECT_NEAR(rig.yaw_rate_radps(), expected, 0.01 * expected);
-  EXPECT_NEAR(rig.body().X_WB.p.head<2>().norm(), 0.0, 0.01);  // on the spot
+  const double track = calc_effective_track_m(1.0, 1.5);
+  EXPECT_NEAR(track, 2.0 * (0.5 + 0.75 * 0.75 / 0.5), 1e-12);
+  {
+    Rig rig(make_flat_world(), rover_params());
+    rig.command(-4.0, 4.0);
+    rig.run(4.0);
+    const double expected = 0.2 * 8.0 / track;
+    // The tyre's curve has reached the limit to 1e-4; the wheels' speed controllers to 1e-3.
+    EXPECT_NEAR(rig.yaw_rate_radps(), expected, 0.01 * expected);
+    EXPECT_NEAR(rig.body().X_WB.p.head<2>().norm(), 0.0, 0.01);  // on the spot
+  }
+  for (const double radius : {1.25, 3.0, 10.0}) {
+    Rig rig(make_flat_world(), rover_params());
+    const double v = 1.2, w = v / radius;
+    rig.command((v - 0.5 * w * track) / 0.2, (v + 0.5 * w * track) / 0.2);
+    rig.run(4.0);
+    EXPECT_NEAR(rig.yaw_rate_radps(), w, 0.08 * w) << radius;
+  }
 }
 
 TEST(WheeledPlatform, NeverExceedsTheFrictionEllipse) {

@@ -36,9 +36,9 @@ void append_leaf(TriangleMesh& mesh, const Eigen::Vector3d& p, const Eigen::Vect
   card.normal = (1.0 * outward + 0.55 * face + 0.25 * Eigen::Vector3d::UnitZ()).normalized();
   // Linear RGB of grapevine leaves from young (yellow-green, near the top) to old (blue-green).
   const double age = std::clamp(1.0 - height + 0.35 * random.normal(), 0.0, 1.0);
-  const Eigen::Vector3d young(0.17, 0.29, 0.045), old(0.055, 0.14, 0.03), dry(0.26, 0.2, 0.05);
+  const Eigen::Vector3d young(0.14, 0.245, 0.045), old(0.05, 0.125, 0.03), dry(0.2, 0.16, 0.05);
   Eigen::Vector3d colour = (1.0 - age) * young + age * old;
-  if (random.uniform() < 0.02) colour = dry;
+  if (random.uniform() < 0.006) colour = dry;
   const double shade = (1.0 - 0.62 * depth) * (0.72 + 0.28 * height) * random.uniform(0.82, 1.18);
   card.colour = (shade * colour).cast<float>();
   append_card(mesh, card);

@@ -16,7 +16,7 @@ namespace {
 
 /// Raised whenever generated meshes change for equal parameters: files of older programs are then
 /// not read.
-constexpr int kGeneratorVersion = 1;
+constexpr int kGeneratorVersion = 2;
 
 constexpr double kGroundMargin_m =
     6.0;  // ground beyond the parcel, so that its edge is out of sight

@@ -33,6 +33,7 @@ struct Program {
   GLint clip_from_model = -1;
   GLint material = -1;
   GLint texture_mode = -1;
+  GLint thicken = -1;
 };
 
 struct TerrainChunk {
@@ -108,6 +109,7 @@ class GlRenderer final : public Renderer {
   std::vector<std::uint32_t> tuft_indices_;
   GLuint ribbon_array_ = 0;
   GLuint ribbon_buffer_ = 0;
+  double half_pixel_rad_ = 0.0;  ///< of the pixels that are drawn, in this frame
   FrameStatistics statistics_;
 };
 
@@ -166,6 +168,7 @@ Program GlRenderer::make_program(const char* name, const shaders::Pair& sources)
   program.clip_from_model = place("clip_from_model");
   program.material = place("material");
   program.texture_mode = place("texture_mode");
+  program.thicken = place("thicken");
   return program;
 }
 
@@ -290,6 +293,10 @@ void GlRenderer::draw_drawable(const Program& program, const Drawable& drawable)
   gl_.UniformMatrix4fv(program.world_from_model, 1, GL_FALSE, matrix.data());
   const float* c = drawable.material.colour;
   if (program.material >= 0) gl_.Uniform4f(program.material, c[0], c[1], c[2], c[3]);
+  if (program.thicken >= 0) {
+    const bool wire = drawable.surface == SurfaceClass::kWire;
+    gl_.Uniform1f(program.thicken, wire ? static_cast<float>(1.3 * half_pixel_rad_) : 0.0f);
+  }
   if (program.texture_mode >= 0) {
     gl_.Uniform1f(program.texture_mode, static_cast<float>(drawable.material.texture_mode));
     if (drawable.material.image != 0) gl_.BindTexture(GL_TEXTURE_2D, drawable.material.image);
@@ -331,7 +338,7 @@ void GlRenderer::update_shadows(const Camera& camera, const std::vector<Drawable
         std::min(above / std::max(-forward.z(), 0.05), std::max(25.0, 2.5 * above));
     radius = 0.8 * reach + 0.5 * above;
     Eigen::Vector3d ahead(forward.x(), forward.y(), 0.0);
-    focus += ahead * std::max(reach, 12.0);
+    focus += ahead * std::max(reach, 7.0);
   }
   focus.z() = ground_height_m(focus.x(), focus.y());
 
@@ -537,6 +544,9 @@ Image GlRenderer::draw(const Frame& frame) {
     }
   }
   const int scale = scale_of(frame);
+  half_pixel_rad_ = frame.camera.orthographic
+                        ? 0.0
+                        : std::tan(0.5 * frame.camera.fov_rad) / (frame.height * scale);
   const double aspect = double{1} * frame.width / frame.height;
   const double near_m = frame.camera.orthographic ? 0.1 : kNear_m;
   const double far_m = frame.camera.orthographic ? 3000.0 : kFar_m;

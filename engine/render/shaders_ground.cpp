@@ -74,6 +74,31 @@ out vec4 colour;
 uniform sampler2D noise_tile;
 uniform sampler2D ground_tile;  // R grass, G dryness, B soil, A height
 uniform sampler2D row_mask;     // distances / 2.55 m: R to a row, G to the middle of an alley; B in an alley
+
+// What terrain and country have in common: noises, turf and soil at a place.
+struct Turf {
+  vec4 macro, meso, detail;
+  vec3 grass, soil;
+  float scar;  // share of bare soil in dry places
+};
+
+Turf turf_at(vec2 q) {
+  Turf t;
+  t.macro = texture(noise_tile, q * 0.0163);
+  t.meso = texture(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3);
+  vec4 fine = texture(ground_tile, q * 0.476);
+  vec4 wide = texture(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7);
+  t.detail = mix(fine, wide, 0.38);
+  vec2 tone = vec2(t.macro.r * 0.6 + t.meso.g * 0.4, t.macro.g * 0.65 + t.meso.r * 0.35);
+  t.grass = grass_albedo(t.detail.r * 1.15, t.detail.g, tone);
+  t.soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), t.detail.b * 0.9 + 0.25 * (t.meso.r - 0.5));
+  t.scar = 0.6 * smoothstep(0.70, 0.98, t.meso.r * 0.5 + t.macro.g * 0.40 + (0.5 - t.detail.a) * 0.7);
+  return t;
+}
+
+float turf_relief(Turf t, float bare) {
+  return 0.80 + 0.35 * (t.detail.a + t.detail.r * (1.0 - bare) * 0.4);
+}
 )";
 
 }  // namespace
@@ -84,38 +109,27 @@ Pair ground() {
 void main() {
   vec3 n = normalize(n_W);
   vec2 q = p_W.xy;
-  vec4 macro = texture(noise_tile, q * 0.0163);
-  vec4 meso = texture(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3);
-  vec4 fine = texture(ground_tile, q * 0.476);
-  vec4 wide = texture(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7);
-  vec4 detail = mix(fine, wide, 0.38);
-
+  Turf t = turf_at(q);
   vec2 uv = (q - mask_rect.xy) * mask_rect.zw;
   vec3 mask = texture(row_mask, uv).rgb;  // its border is far from everything
   vec2 d = mask.rg * 2.55;
 
   // Bare strip under the vines, ragged at its edges and with weeds in it; wheel tracks beside it.
-  float ragged = (meso.a - 0.5) * 0.26 + (detail.a - 0.5) * 0.30;
+  float ragged = (t.meso.a - 0.5) * 0.26 + (t.detail.a - 0.5) * 0.30;
   float strip = 1.0 - smoothstep(0.24, 0.44, d.x + ragged);
-  strip *= 1.0 - 0.6 * smoothstep(0.50, 0.75, meso.g + 0.5 * (detail.a - 0.5));
+  strip *= 1.0 - 0.6 * smoothstep(0.50, 0.75, t.meso.g + 0.5 * (t.detail.a - 0.5));
   float track = 1.0 - smoothstep(0.05, 0.24, abs(d.y - 0.60) + 0.7 * ragged);
-  track *= 0.75 * mask.b * smoothstep(0.25, 0.75, meso.r + 0.4 * detail.a);
-  // Thin turf: soil shows between the blades in dry places.
-  float scar = 0.75 * smoothstep(0.66, 0.92, meso.r * 0.5 + macro.g * 0.42 + (0.5 - detail.a) * 0.5);
-  float steep = smoothstep(0.45, 0.75, 1.0 - n.z + 0.3 * (meso.r - 0.5));
-  float bare = max(max(strip, track), max(scar, steep));
-  bare = clamp(bare + (0.5 - detail.a) * 0.9 * bare * (1.0 - bare) * 2.0, 0.0, 1.0);
+  track *= 0.75 * mask.b * smoothstep(0.25, 0.75, t.meso.r + 0.4 * t.detail.a);
+  float steep = smoothstep(0.45, 0.75, 1.0 - n.z + 0.3 * (t.meso.r - 0.5));
+  float bare = max(max(strip, track), max(t.scar, steep));
+  bare = clamp(bare + (0.5 - t.detail.a) * 0.9 * bare * (1.0 - bare) * 2.0, 0.0, 1.0);
 
-  vec2 tone = vec2(macro.r * 0.6 + meso.g * 0.4, macro.g * 0.65 + meso.r * 0.35);
-  vec3 grass = grass_albedo(detail.r * 1.15, detail.g, tone);
   // The mown middle of an alley is lighter, the fringe at the vines taller and darker.
-  grass *= 0.88 + 0.18 * mask.b * smoothstep(0.9, 0.2, d.y);
-  vec3 soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), detail.b * 0.9 + 0.25 * (meso.r - 0.5));
-  vec3 albedo = mix(grass, soil, bare);
+  vec3 grass = t.grass * (0.88 + 0.18 * mask.b * smoothstep(0.9, 0.2, d.y));
+  vec3 albedo = mix(grass, t.soil, bare);
 
   float sun = sun_visibility(p_W, n, 0.0);
-  float relief = 0.80 + 0.35 * (detail.a + detail.r * (1.0 - bare) * 0.4);
-  vec3 light = sun_irradiance.rgb * (max(dot(n, sun_direction.xyz), 0.0) * sun) + ambient(n) * relief;
+  vec3 light = sun_irradiance.rgb * (max(dot(n, sun_direction.xyz), 0.0) * sun) + ambient(n) * turf_relief(t, bare);
   // The foot of the vines sees little sky.
   light *= 1.0 - 0.22 * (1.0 - smoothstep(0.0, 0.8, d.x));
   colour = vec4(finish(albedo * light * kOneOverPi, p_W), 1.0);
@@ -130,21 +144,20 @@ Pair country() {
 void main() {
   vec3 n = normalize(n_W);
   vec2 q = p_W.xy;
-  vec4 macro = texture(noise_tile, q * 0.0163);
-  vec4 meso = texture(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3);
-  vec4 detail = texture(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7);
-  vec2 tone = vec2(macro.r * 0.6 + meso.g * 0.4, macro.g * 0.65 + meso.r * 0.35);
-  vec3 albedo = grass_albedo(detail.r * 1.15, detail.g, tone);
+  Turf t = turf_at(q);
+  vec3 albedo = mix(t.grass * 0.88, t.soil, t.scar);
 
   // Farther away meadow, stubble and dark woods take turns over hundreds of metres.
-  float far = smoothstep(60.0, 420.0, length(p_W - eye.xyz));
+  float far = smoothstep(80.0, 700.0, length(p_W - eye.xyz));
   vec4 fields = texture(noise_tile, q * 0.00071 + 0.2);
-  vec3 field = mix(vec3(0.088, 0.112, 0.042), vec3(0.205, 0.185, 0.088), smoothstep(0.36, 0.64, fields.r + 0.25 * (macro.g - 0.5)));
-  float woods = smoothstep(0.52, 0.64, fields.a * 0.55 + macro.r * 0.30 + meso.b * 0.18);
-  field = mix(field, vec3(0.026, 0.042, 0.020) * (0.7 + 0.6 * meso.r), woods);
-  albedo = mix(albedo, field * (0.8 + 0.4 * macro.b), far * 0.9);
+  vec4 trees = texture(noise_tile, q * 0.0051 + 0.6);
+  vec3 field = mix(vec3(0.082, 0.102, 0.042), vec3(0.165, 0.152, 0.078), smoothstep(0.30, 0.70, fields.r + 0.3 * (trees.g - 0.5)));
+  float woods = smoothstep(0.50, 0.66, fields.a * 0.50 + trees.r * 0.35 + t.macro.b * 0.15);
+  field = mix(field, vec3(0.034, 0.050, 0.026) * (0.6 + 0.8 * trees.a), woods * 0.9);
+  albedo = mix(albedo, field, far * 0.9);
 
-  vec3 light = sun_irradiance.rgb * max(dot(n, sun_direction.xyz), 0.0) + ambient(n);
+  float sun = sun_visibility(p_W, n, 0.0);
+  vec3 light = sun_irradiance.rgb * (max(dot(n, sun_direction.xyz), 0.0) * sun) + ambient(n) * turf_relief(t, t.scar);
   colour = vec4(finish(albedo * light * kOneOverPi, p_W), 1.0);
 }
 )";

@@ -11,6 +11,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv_in;
 layout(location = 3) in vec4 tint;  // rgb; a: card layer
 uniform mat4 world_from_model;
+uniform float thicken;  // m per m of distance: wires get no thinner than a pixel
 out vec3 p_W;
 out vec3 n_W;
 out vec3 p_M;
@@ -21,6 +22,7 @@ void main() {
   p_M = position;
   p_W = (world_from_model * vec4(position, 1.0)).xyz;
   n_W = mat3(world_from_model) * normal;
+  if (thicken > 0.0) p_W += n_W * (thicken * length(p_W - eye.xyz));
   uv = uv_in;
   layer = floor(tint.a * 255.0 + 0.5);
   vertex_colour = tint.rgb * tint.rgb;

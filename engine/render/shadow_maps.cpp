@@ -113,7 +113,7 @@ void ShadowMaps::update(const Eigen::Vector3d& focus_W, double radius_m,
     far_is_drawn_ = true;
   }
   // The near map: the smallest of a few sizes, on a grid of a quarter of its radius.
-  double half = 18.0;
+  double half = 12.0;
   while (half < radius_m) half *= 2.0;
   if (half >= 0.9 * far_.half_m) {
     near_ = far_;

@@ -131,7 +131,7 @@ std::vector<PreparedMesh> make_surroundings(const Eigen::AlignedBox2d& rectangle
     // Long ridges with finer shapes on them.
     const double shape = tiled_fbm(static_cast<float>(p.x() / 9000.0 + 0.37),
                                    static_cast<float>(p.y() / 9000.0 + 0.59), 9, 4, 91);
-    const double hills = (shape - 0.40) * 0.19 * std::max(0.0, away - 60.0);
+    const double hills = (shape - 0.40) * 0.14 * std::max(0.0, away - 60.0);
     return edge + blend * (mean - edge) + hills * blend;
   };
   const auto on_ring = [&](int step, double away) {

@@ -1,5 +1,8 @@
 #include "controllers/path_follower/path_follower.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "controllers/parts/drive_ports.h"
 #include "controllers/path_follower/path_follower_law.h"
 #include "controllers/path_follower/slip_estimate.h"
@@ -24,25 +27,36 @@ PathFollowerParams read_params(const ParameterSet& parameters, Duration period) 
   params.speed.speed_mps = parameters.number("speed_mps");
   params.speed.acceleration_mps2 = parameters.number("acceleration_mps2");
   params.speed.lateral_acceleration_mps2 = parameters.number("lateral_acceleration_mps2");
-  params.speed.yaw_rate_radps = parameters.number("yaw_rate_max_radps");
+  params.speed.yaw_rate_radps = parameters.number("turn_rate_radps");
+  params.yaw_rate_max_radps = parameters.number("yaw_rate_max_radps");
   return params;
 }
 
-SlipEstimateParams read_slip(const ParameterSet& parameters) {
+SlipEstimateParams read_slip(const ParameterSet& parameters, const VehicleDescription& vehicle) {
   SlipEstimateParams params;
-  params.initial = parameters.number("turn_effectiveness");
+  const auto track = vehicle.numbers.find("effective_track_m");
+  if (parameters.has("turn_effectiveness")) {
+    params.effectiveness = parameters.number("turn_effectiveness");
+  } else if (track != vehicle.numbers.end() && track->second > 0.0) {
+    params.effectiveness = vehicle.number("track_m", "path_follower") / track->second;
+  }
+  params.arm_m = parameters.number("slide_arm_m");
   params.learn_time_s = parameters.number("slip_learn_s");
   params.response_s = parameters.number("response_s");
   return params;
 }
+
+constexpr double kOverspeedFilter_s = 0.1;
 
 class PathFollower final : public Controller {
  public:
   PathFollower(const ParameterSet& parameters, const ControllerContext& context)
       : ports_(context, "path_follower"),
         law_(read_params(parameters, context.period)),
-        slip_(read_slip(parameters)),
-        period_s_(context.period.s()) {}
+        slip_(read_slip(parameters, *context.vehicle_description)),
+        period_s_(context.period.s()),
+        speed_gain_(parameters.number("speed_gain")),
+        overspeed_share_(1.0 - std::exp(-period_s_ / kOverspeedFilter_s)) {}
 
   void connect(Ports& ports) override { ports_.connect(ports); }
 
@@ -50,11 +64,17 @@ class PathFollower final : public Controller {
     if (ports_.has_new_plan()) law_.set_path(ports_.plan());
     VelocityCommand command;
     if (ports_.has_estimate()) {
-      slip_.update(wheels_.yaw_rate_radps, ports_.estimate().w_WB_B.z(), period_s_);
-      command = law_.step(ports_.pose());
+      const Odometry& estimate = ports_.estimate();
+      slip_.update(wheels_.yaw_rate_radps, estimate.w_WB_B.z(), estimate.v_WB_B.head<2>(),
+                   period_s_);
+      overspeed_mps_ += overspeed_share_ * (estimate.v_WB_B.x() - commanded_mps_ - overspeed_mps_);
+      command = law_.step(ports_.pose(), slip_.slide(), overspeed_mps_);
     }
     // The wheels turn harder than the vehicle is to turn, by what slips away.
+    commanded_mps_ = command.v_mps;
     wheels_ = command;
+    if (command.v_mps > 0.0)
+      wheels_.v_mps = std::max(command.v_mps - speed_gain_ * overspeed_mps_, 0.0);
     wheels_.yaw_rate_radps /= slip_.effectiveness();
     wheels_ = ports_.drive().limit(wheels_);
     ports_.write(now, command, wheels_, law_.state());
@@ -67,6 +87,10 @@ class PathFollower final : public Controller {
   PathFollowerLaw law_;
   SlipEstimate slip_;
   double period_s_;
+  double speed_gain_;
+  double overspeed_share_;
+  double overspeed_mps_ = 0.0;  ///< low-passed
+  double commanded_mps_ = 0.0;
   VelocityCommand wheels_;
 };
 
@@ -92,12 +116,20 @@ PartSpec path_follower_spec() {
                        "time that the vehicle's yaw rate lags behind the command"),
       positive_parameter("acceleration_mps2", "m/s2", 0.8, "speeding up and braking"),
       positive_parameter("lateral_acceleration_mps2", "m/s2", 1.0, "slows down in turns"),
-      positive_parameter("yaw_rate_max_radps", "rad/s", 7.0 / 3.6, "limit of the yaw rate"),
+      positive_parameter("turn_rate_radps", "rad/s", 0.6,
+                         "yaw rate of the planned turns: slows down so that v kappa stays below"),
+      positive_parameter("yaw_rate_max_radps", "rad/s", 1.2, "limit of the commanded yaw rate"),
       positive_parameter("min_turning_radius_m", "m", 0.5, "tightest curve commanded"),
-      number_parameter("turn_effectiveness", "", 1.0, 0.25, 1.25,
-                       "yaw rate driven per yaw rate of the wheels, at the start"),
-      number_parameter("slip_learn_s", "s", 0.0, 0.0, 1e3,
-                       "time over which that share is learnt while turning; 0 = kept"),
+      number_parameter("speed_gain", "", 0.5, 0.0, 5.0,
+                       "share of a speed too high or low that the wheels are told to make up"),
+      optional(number_parameter("turn_effectiveness", "", 1.0, 0.2, 1.25,
+                                "yaw rate driven per yaw rate of the wheels, at the start; default "
+                                "what the vehicle tells (track_m / effective_track_m), else 1")),
+      number_parameter(
+          "slide_arm_m", "m", 0.0, -0.6, 0.6,
+          "the vehicle turns about a point this far ahead of its centre, at the start"),
+      number_parameter("slip_learn_s", "s", 1.0, 0.0, 1e3,
+                       "time over which slip and slide are learnt; 0 = kept as at the start"),
       positive_parameter("goal_tolerance_m", "m", 0.05,
                          "the mission ends this far before the path's end"),
   };

@@ -26,8 +26,8 @@ void PathFollowerLaw::set_path(const PlannedPath& plan) {
   if (!path_.empty()) profile_ = SpeedProfile(path_, params_.speed);
 }
 
-double PathFollowerLaw::calc_lookahead_m() const {
-  return std::clamp(params_.lookahead_s * speed_mps_, params_.lookahead_min_m,
+double PathFollowerLaw::calc_lookahead_m(double speed_mps) const {
+  return std::clamp(params_.lookahead_s * speed_mps, params_.lookahead_min_m,
                     params_.lookahead_max_m);
 }
 
@@ -39,12 +39,25 @@ double PathFollowerLaw::calc_speed(const Path::Nearest& at, double heading_error
   return std::clamp(wanted, std::max(speed_mps_ - 2.0 * step, 0.0), speed_mps_ + step);
 }
 
-double PathFollowerLaw::calc_curvature(const Path::Nearest& at, double heading_error_rad) {
-  const double way_m = std::max(speed_mps_ * params_.cycle_s, 1e-3);
-  const double from_m = at.distance_m + speed_mps_ * params_.response_s;
-  const double feed_forward = path_.turn_between_rad(from_m, from_m + way_m, at.segment) / way_m;
+double PathFollowerLaw::calc_curvature(const Path::Nearest& at, double heading_error_rad,
+                                       const Sideslip& slide, double speed_mps) {
+  const double way_m = std::max(speed_mps * params_.cycle_s, 1e-3);
+  const double from_m = at.distance_m + speed_mps * params_.response_s;
+  double feed_forward = path_.turn_between_rad(from_m, from_m + way_m, at.segment) / way_m;
+  double course_error = heading_error_rad;
+  if (slide.arm_m != 0.0 || slide.drift_rad != 0.0) {
+    // The wanted lead of the heading, and how it changes along the path.
+    const double h = params_.smoothing_m;
+    const double before_m = std::max(from_m - h, 0.0), after_m = from_m + h;
+    const double smoothed = path_.turn_between_rad(before_m, after_m, at.segment) / (2.0 * h);
+    course_error = wrap_angle(heading_error_rad - slide.arm_m * smoothed + slide.drift_rad);
+    feed_forward +=
+        slide.arm_m *
+        (path_.curvature_at(after_m, at.segment) - path_.curvature_at(before_m, at.segment)) /
+        (2.0 * h);
+  }
 
-  const double lookahead = calc_lookahead_m();
+  const double lookahead = calc_lookahead_m(speed_mps);
   const double damping = 2.0 * params_.damping / lookahead;
   const double e = at.lateral_error_m;
   if (params_.integral > 0.0) {
@@ -57,14 +70,14 @@ double PathFollowerLaw::calc_curvature(const Path::Nearest& at, double heading_e
   const double approach = std::clamp((e + integral_m_) / (lookahead * lookahead * damping),
                                      -kSteepestApproach, kSteepestApproach);
   // Beyond a quarter turn the sine falls again; the vehicle is to turn all the harder.
-  const double sine = std::abs(heading_error_rad) > 0.5 * kPi
-                          ? std::copysign(1.0, heading_error_rad)
-                          : std::sin(heading_error_rad);
+  const double sine = std::abs(course_error) > 0.5 * kPi ? std::copysign(1.0, course_error)
+                                                         : std::sin(course_error);
   return std::clamp(feed_forward - damping * (sine + approach), -params_.max_curvature_per_m,
                     params_.max_curvature_per_m);
 }
 
-VelocityCommand PathFollowerLaw::step(const Pose2& pose) {
+VelocityCommand PathFollowerLaw::step(const Pose2& pose, const Sideslip& slide,
+                                      double overspeed_mps) {
   if (!has_path_ || finished_) {
     speed_mps_ = 0.0;
     return {};
@@ -88,9 +101,11 @@ VelocityCommand PathFollowerLaw::step(const Pose2& pose) {
     return {};
   }
   speed_mps_ = calc_speed(at, heading_error);
-  const double yaw_rate = speed_mps_ * calc_curvature(at, heading_error);
+  // A curvature is driven with the speed there is, not the one wanted.
+  const double speed = std::max(speed_mps_ + overspeed_mps, 0.0);
+  const double yaw_rate = speed * calc_curvature(at, heading_error, slide, speed);
   return {speed_mps_,
-          std::clamp(yaw_rate, -params_.speed.yaw_rate_radps, params_.speed.yaw_rate_radps)};
+          std::clamp(yaw_rate, -params_.yaw_rate_max_radps, params_.yaw_rate_max_radps)};
 }
 
 }  // namespace vinerow

@@ -9,11 +9,24 @@
 /// vehicle's response takes time and not distance, and shrinks in turns, where the speed profile
 /// brakes. kappa_ref is the mean over the way of the coming cycle, so that a perfect vehicle ends
 /// each cycle on the path; with a response time it is taken that much further ahead.
+///
+/// psi is measured from the heading that keeps the velocity, not the nose, on the path. A
+/// skid-steered vehicle slides outwards in a turn, beta = -arm w / v + beta_0: it turns about a
+/// point `arm` ahead of its centre, and slides down a slope by beta_0. So the wanted heading leads
+/// the path's by arm * kappa_ref (smoothed, because the nose cannot swing at once) less beta_0.
+/// Feeding the course itself back instead would be unstable: turning harder first pushes the centre
+/// the other way.
 
 #include "controllers/parts/path.h"
 #include "controllers/path_follower/speed_profile.h"
 
 namespace vinerow {
+
+/// Sideslip angle beta = -arm w / v + drift.
+struct Sideslip {
+  double arm_m = 0.0;
+  double drift_rad = 0.0;
+};
 
 struct PathFollowerParams {
   double lookahead_s = 1.0;  ///< L = lookahead_s * v, within the two limits
@@ -23,7 +36,9 @@ struct PathFollowerParams {
   double integral = 0.0;         ///< of e over distance, as a share of 1/L^3
   double integral_max_m = 0.15;  ///< lateral offset the integral may stand for
   double response_s = 0.0;
+  double smoothing_m = 0.5;  ///< half the length over which the lead of the heading builds up
   double max_curvature_per_m = 2.0;
+  double yaw_rate_max_radps = 1.2;
   double goal_tolerance_m = 0.05;
   double cycle_s = 0.025;
   SpeedLimits speed;
@@ -37,7 +52,9 @@ class PathFollowerLaw {
   void set_path(const PlannedPath& plan);
 
   /// One cycle. No heap.
-  VelocityCommand step(const Pose2& pose);
+  /// @param slide         how the vehicle slides; zero for pure rolling
+  /// @param overspeed_mps  by how much it is faster than commanded
+  VelocityCommand step(const Pose2& pose, const Sideslip& slide = {}, double overspeed_mps = 0.0);
 
   bool has_path() const { return has_path_; }
   bool finished() const { return finished_; }
@@ -45,9 +62,10 @@ class PathFollowerLaw {
   FollowerState state() const { return state_; }
 
  private:
-  double calc_lookahead_m() const;
+  double calc_lookahead_m(double speed_mps) const;
   double calc_speed(const Path::Nearest& at, double heading_error_rad);
-  double calc_curvature(const Path::Nearest& at, double heading_error_rad);
+  double calc_curvature(const Path::Nearest& at, double heading_error_rad, const Sideslip& slide,
+                        double speed_mps);
 
   PathFollowerParams params_;
   Path path_;

@@ -4,23 +4,52 @@
 #include <cmath>
 
 namespace vinerow {
+namespace {
 
-void SlipEstimate::update(double asked_radps, double measured_radps, double dt_s) {
+constexpr double kKnee_radps = 0.15;  // yaw rate at which turning begins to tell something
+constexpr double kCrawl_mps = 0.3;    // below, angles of the velocity are noise
+constexpr double kLeastEffectiveness = 0.2, kMostEffectiveness = 1.25;
+constexpr double kLargestArm_m = 0.6;
+constexpr double kLargestDrift_rad = 0.3;
+
+/// Share of the way to an input in one step of a first-order low-pass.
+double low_pass_share(double dt_s, double time_s) {
+  return time_s > 0.0 ? 1.0 - std::exp(-dt_s / time_s) : 1.0;
+}
+
+double weight_of(double yaw_rate_radps) {
+  const double square = yaw_rate_radps * yaw_rate_radps;
+  return square / (square + kKnee_radps * kKnee_radps);
+}
+
+}  // namespace
+
+void SlipEstimate::update(double asked_radps, double measured_radps, const Eigen::Vector2d& v_B,
+                          double dt_s) {
   if (params_.learn_time_s <= 0.0) return;
-  const auto low_pass = [dt_s](double& state, double input, double time_s) {
-    state += (input - state) * (time_s > 0.0 ? 1.0 - std::exp(-dt_s / time_s) : 1.0);
-  };
-  low_pass(lagged_radps_, asked_radps, params_.response_s);
-  low_pass(asked_radps_, lagged_radps_, params_.filter_s);
-  low_pass(measured_radps_, measured_radps, params_.filter_s);
-  // Slow turning tells little and is full of noise: its weight goes to zero with its square.
-  constexpr double kKnee_radps = 0.15;
-  const double square = asked_radps_ * asked_radps_;
-  const double weight = square / (square + kKnee_radps * kKnee_radps);
-  if (square < 1e-6) return;
-  const double seen = measured_radps_ / asked_radps_;
-  effectiveness_ += dt_s / params_.learn_time_s * weight * (seen - effectiveness_);
-  effectiveness_ = std::clamp(effectiveness_, params_.min, params_.max);
+  lagged_radps_ += low_pass_share(dt_s, params_.response_s) * (asked_radps - lagged_radps_);
+  const double share = low_pass_share(dt_s, params_.filter_s);
+  asked_radps_ += share * (lagged_radps_ - asked_radps_);
+  measured_radps_ += share * (measured_radps - measured_radps_);
+  v_B_ += share * (v_B - v_B_);
+
+  const double learn = dt_s / params_.learn_time_s;
+  constexpr double kNoTurn_radps = 1e-3;
+  if (std::abs(asked_radps_) > kNoTurn_radps) {
+    const double seen = std::clamp(measured_radps_ / asked_radps_, 0.0, 2.0);
+    effectiveness_ += learn * weight_of(asked_radps_) * (seen - effectiveness_);
+    effectiveness_ = std::clamp(effectiveness_, kLeastEffectiveness, kMostEffectiveness);
+  }
+  if (v_B_.x() < kCrawl_mps) return;
+  const double turning = weight_of(measured_radps_);
+  if (std::abs(measured_radps_) > kNoTurn_radps) {
+    const double seen = (v_B_.x() * slide_.drift_rad - v_B_.y()) / measured_radps_;
+    slide_.arm_m += learn * turning * (std::clamp(seen, -1.0, 1.0) - slide_.arm_m);
+    slide_.arm_m = std::clamp(slide_.arm_m, -kLargestArm_m, kLargestArm_m);
+  }
+  const double drift = (v_B_.y() + slide_.arm_m * measured_radps_) / v_B_.x();
+  slide_.drift_rad += learn * (1.0 - turning) * (drift - slide_.drift_rad);
+  slide_.drift_rad = std::clamp(slide_.drift_rad, -kLargestDrift_rad, kLargestDrift_rad);
 }
 
 }  // namespace vinerow

@@ -1,38 +1,46 @@
 #pragma once
-/// How much of the yaw rate asked of the wheels a skid-steered vehicle really turns.
+/// How a skid-steered vehicle slips, learnt while it drives.
 ///
-/// Wheels that are pushed sideways slip, so the vehicle turns as if its track were wider than it is
-/// (1.3 to 2.5 times on soil): w = eta * w_wheels. eta is learnt while turning by a normalised
-/// gradient step on the low-passed yaw rates, both through the same filter so that lags cancel.
+/// Wheels that are pushed sideways slip, so the vehicle turns as if its track were wider than it
+/// is: w = eta w_wheels; and it turns about a point ahead of its centre, so that the centre slides
+/// outwards: v_y = -arm w + v drift (the instantaneous centres of rotation of Martinez, Mandow,
+/// Morales, Pedraza, Garcia-Cerezo, "Approximating kinematics for tracked mobile robots", Int. J.
+/// Robotics Research 24(10), 2005). eta and arm are learnt while turning, drift while driving
+/// straight, each as a low-passed quotient whose weight falls where the yaw rate says little.
+
+#include "controllers/path_follower/path_follower_law.h"
 
 namespace vinerow {
 
 struct SlipEstimateParams {
-  double initial = 1.0;       ///< eta
-  double learn_time_s = 0.0;  ///< time constant of learning; 0 = eta stays
-  double filter_s = 0.3;      ///< low-pass of both yaw rates
-  double response_s = 0.0;    ///< lag of the vehicle's yaw rate behind the wheels'
-  double min = 0.25;
-  double max = 1.25;
+  double effectiveness = 1.0;  ///< eta at the start
+  double arm_m = 0.0;          ///< at the start
+  double learn_time_s = 0.0;   ///< time constant of learning; 0 = all stay
+  double filter_s = 0.2;       ///< low-pass of what is measured
+  double response_s = 0.0;     ///< lag of the vehicle's yaw rate behind the wheels'
 };
 
 class SlipEstimate {
  public:
   explicit SlipEstimate(const SlipEstimateParams& params)
-      : params_(params), effectiveness_(params.initial) {}
+      : params_(params), effectiveness_(params.effectiveness), slide_{params.arm_m, 0.0} {}
 
   /// @param asked_radps     yaw rate the wheels stood for since the last call
   /// @param measured_radps  yaw rate of the vehicle now
-  void update(double asked_radps, double measured_radps, double dt_s);
+  /// @param v_B             velocity of the vehicle now, m/s
+  void update(double asked_radps, double measured_radps, const Eigen::Vector2d& v_B, double dt_s);
 
   double effectiveness() const { return effectiveness_; }
+  const Sideslip& slide() const { return slide_; }
 
  private:
   SlipEstimateParams params_;
   double effectiveness_;
+  Sideslip slide_;
   double lagged_radps_ = 0.0;
   double asked_radps_ = 0.0;
   double measured_radps_ = 0.0;
+  Eigen::Vector2d v_B_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace vinerow

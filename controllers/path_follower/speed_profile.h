@@ -11,7 +11,7 @@ struct SpeedLimits {
   double speed_mps = 7.0 / 3.6;
   double acceleration_mps2 = 0.8;          ///< along the path, both ways
   double lateral_acceleration_mps2 = 1.0;  ///< v^2 |kappa|
-  double yaw_rate_radps = 1.944;           ///< v |kappa|
+  double yaw_rate_radps = 0.6;             ///< v |kappa|
   double goal_speed_mps = 0.1;             ///< left at the path's end
 };
 

@@ -1,5 +1,6 @@
 #include "engine/render/cameras.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vinerow::render {
@@ -28,14 +29,20 @@ Camera look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W, do
 }
 
 Camera chase_camera(const Pose& X_WB, const ChaseOptions& options) {
+  // Up and down the slope with the body's x axis, but never with its roll.
+  const Eigen::Vector3d forward = X_WB.q * Eigen::Vector3d::UnitX();
+  const double level = std::max(forward.head<2>().norm(), 0.2);
+  const double slope = forward.z() / level;
   const double yaw = yaw_from_quaternion(X_WB.q);
   const double from = yaw + options.side_rad;
+  const double back = options.distance_m;
   const Eigen::Vector3d eye =
-      X_WB.p + Eigen::Vector3d(-std::cos(from) * options.distance_m,
-                               -std::sin(from) * options.distance_m, options.height_m);
+      X_WB.p + Eigen::Vector3d(-std::cos(from) * back, -std::sin(from) * back,
+                               options.height_m - slope * std::cos(options.side_rad) * back);
+  const double ahead = options.target_ahead_m;
   const Eigen::Vector3d target =
-      X_WB.p + Eigen::Vector3d(std::cos(yaw) * options.target_ahead_m,
-                               std::sin(yaw) * options.target_ahead_m, options.target_height_m);
+      X_WB.p + Eigen::Vector3d(std::cos(yaw) * ahead, std::sin(yaw) * ahead,
+                               options.target_height_m + slope * ahead);
   return look_at(eye, target, options.fov_rad);
 }
 

@@ -15,14 +15,14 @@ Camera look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W,
 
 struct ChaseOptions {
   double distance_m = 5.0;  ///< behind the vehicle, horizontally
-  double height_m = 2.2;    ///< above it
+  double height_m = 2.2;    ///< above it (and above the line of its slope)
   double side_rad = 0.0;    ///< eye is turned by this around the vehicle, positive to the left
   double target_ahead_m = 1.5;
   double target_height_m = 0.3;
   double fov_rad = 0.96;
 };
 
-/// Follows a vehicle; uses position and heading only, so that bumps do not shake the picture.
+/// Follows a vehicle up and down hill, with the horizon level: roll does not reach the picture.
 Camera chase_camera(const Pose& X_WB, const ChaseOptions& options = {});
 
 /// Orthographic view from above, north up, that shows the whole box.

@@ -2,6 +2,8 @@
 /// The scene's light in the renderer's own scale, from the time of day.
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 
 #include "engine/api/world_model.h"
 #include "engine/render/atmosphere.h"

@@ -35,16 +35,26 @@ TEST(Cameras, OnBoardCameraLooksAlongTheBodysXAxis) {
   EXPECT_FALSE(project(camera, 200, 100, {-1, 0, 0}, p));
 }
 
-TEST(Cameras, ChaseCameraStandsBehindTheHeadingWhateverRollAndPitch) {
+TEST(Cameras, ChaseCameraStandsBehindTheHeadingWhateverTheRoll) {
   const double yaw = 0.7;
   ChaseOptions options;
   options.distance_m = 4.0;
   options.height_m = 2.0;
-  const Pose level{quaternion_from_rpy({0, 0, yaw}), {10, 20, 3}};
-  const Pose tilted{quaternion_from_rpy({0.3, -0.2, yaw}), {10, 20, 3}};
   const Eigen::Vector3d eye(10 - 4 * std::cos(yaw), 20 - 4 * std::sin(yaw), 5);
-  EXPECT_NEAR((chase_camera(level, options).X_WC.p - eye).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((chase_camera(tilted, options).X_WC.p - eye).norm(), 0.0, 1e-9);
+  for (const double roll : {0.0, 0.3}) {
+    const Pose X_WB{quaternion_from_rpy({roll, 0, yaw}), {10, 20, 3}};
+    EXPECT_NEAR((chase_camera(X_WB, options).X_WC.p - eye).norm(), 0.0, 1e-9);
+  }
+}
+
+TEST(Cameras, ChaseCameraKeepsItsHeightAboveASlope) {
+  // Uphill by 20 % along x: a negative pitch lifts the nose.
+  const Pose X_WB{quaternion_from_rpy({0, -std::atan(0.2), 0}), {0, 0, 0}};
+  ChaseOptions options;
+  options.distance_m = 5.0;
+  options.height_m = 2.0;
+  EXPECT_NEAR((chase_camera(X_WB, options).X_WC.p - Eigen::Vector3d(-5, 0, 2 - 5 * 0.2)).norm(),
+              0.0, 1e-9);
 }
 
 TEST(Cameras, TopCameraShowsTheWholeBox) {

@@ -1,0 +1,86 @@
+#pragma once
+/// The renderer on OpenGL: what make_renderer() gives. gl_renderer_world.cpp uploads the world,
+/// gl_renderer_frame.cpp draws frames of it.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/render/drawables.h"
+#include "engine/render/frame_target.h"
+#include "engine/render/ground_mask.h"
+#include "engine/render/light.h"
+#include "engine/render/offscreen_context.h"
+#include "engine/render/shaders.h"
+#include "engine/render/shadow_maps.h"
+#include "engine/render/terrain_mesh.h"
+
+namespace vinerow::render {
+
+/// A linked program and the places of its uniforms (-1: it has none of that name).
+struct Program {
+  GLuint id = 0;
+  GLint world_from_model = -1;
+  GLint clip_from_model = -1;
+  GLint material = -1;
+  GLint texture_mode = -1;
+  GLint thicken = -1;
+};
+
+class GlRenderer final : public Renderer {
+ public:
+  GlRenderer(std::unique_ptr<OffscreenContext> context, const WorldModel& world,
+             const RendererSettings& settings);
+  Image draw(const Frame& frame) override;
+  FrameStatistics statistics() const override { return statistics_; }
+
+ private:
+  Program make_program(const char* name, const shaders::Pair& sources) const;
+  void make_programs();
+  void make_textures();
+  void make_terrain(const WorldModel& world);
+  void make_shadows();
+
+  void update_shadows(const Camera& camera, const std::vector<Drawable>& vehicles);
+  void cast_shadows(const std::vector<const Drawable*>& casters,
+                    const Eigen::Matrix4d& clip_from_world);
+  void upload_frame_block(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
+  void draw_objects(const Frame& frame, const Frustum& frustum,
+                    const std::vector<Drawable>& vehicles);
+  void draw_ground(const Frame& frame, const Frustum& frustum);
+  void draw_tufts(const Frame& frame, const Frustum& frustum);
+  void draw_sky();
+  void draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
+  void draw_drawable(const Program& program, const Drawable& drawable);
+  void draw_mesh(const GpuMesh& mesh);
+  double ground_height_m(double x, double y) const;
+
+  std::unique_ptr<OffscreenContext> context_;
+  const RendererSettings settings_;
+  Gl gl_;
+  Light light_;
+  GroundMask mask_;
+  std::optional<HeightField> terrain_;
+  DrawableStore store_;
+  FrameTarget target_;
+  std::vector<LodGroup> groups_;         ///< all but ground
+  std::vector<Drawable> ground_meshes_;  ///< meshes of class kTerrain
+  std::vector<GpuMesh> chunks_;
+  std::array<GpuMesh, kTerrainLevels> chunk_indices_;
+  std::vector<GpuMesh> surroundings_;
+  std::unique_ptr<ShadowMaps> shadows_;
+  Program sky_, ground_, country_, surface_, foliage_, foliage_depth_, grass_, ribbon_,
+      shadow_solid_, shadow_cards_;
+  GLuint frame_buffer_ = 0;
+  GLuint empty_array_ = 0;
+  GpuMesh tufts_;
+  std::vector<GpuVertex> tuft_vertices_;
+  std::vector<std::uint32_t> tuft_indices_;
+  GLuint ribbon_array_ = 0;
+  GLuint ribbon_buffer_ = 0;
+  double half_pixel_rad_ = 0.0;  ///< of the pixels that are drawn, in this frame
+  FrameStatistics statistics_;
+};
+
+}  // namespace vinerow::render

@@ -58,8 +58,8 @@ class OdometryFilter final : public Estimator {
  public:
   OdometryFilter(const ParameterSet& parameters, const EstimatorContext& context)
       : gps_name_(parameters.text("gps")),
-        use_wheels_(parameters.text("odometry_source") == "wheels"),
-        odometry_name_(use_wheels_ ? parameters.text("wheels") : "command"),
+        source_(read_source(parameters.text("odometry_source"))),
+        wheels_name_(parameters.text("wheels")),
         odometry_scale_(parameters.number("odometry_scale")),
         gps_std_m_(parameters.number("gps_std_m")),
         period_s_(context.period.s()),
@@ -67,7 +67,7 @@ class OdometryFilter final : public Estimator {
         heading_(parameters, context.period) {
     const auto& antenna = parameters.numbers("antenna_m");
     p_BA_ = {antenna[0], antenna[1], antenna[2]};
-    if (use_wheels_) {
+    if (source_ == Source::kWheels) {
       wheel_radius_m_ = context.vehicle_description->number("wheel_radius_m",
                                                             context.part + " (odometry_filter)");
       for (const ActuatorSpec& actuator : context.vehicle_description->actuators) {
@@ -86,11 +86,8 @@ class OdometryFilter final : public Estimator {
   void connect(Ports& ports) override {
     gps_ = ports.read<GnssFix>(gps_name_);
     heading_.connect(ports);
-    if (use_wheels_) {
-      wheel_speeds_ = ports.read<NamedValues>(odometry_name_);
-    } else {
-      command_ = ports.read<VelocityCommand>(odometry_name_);
-    }
+    if (source_ == Source::kWheels) wheel_speeds_ = ports.read<NamedValues>(wheels_name_);
+    if (source_ == Source::kCommand) command_ = ports.read<VelocityCommand>("command");
     estimate_ = ports.write<Odometry>("estimate");
   }
 
@@ -101,17 +98,26 @@ class OdometryFilter final : public Estimator {
     heading_.step(is_new ? &gps_.value() : nullptr);
     if (!heading_.ready()) return;
 
-    const double v_mps = odometry_scale_ * read_speed_mps();
+    const Eigen::Vector2d v_B = odometry_scale_ * read_velocity_B();
     if (filter_.ready() && was_ready) {
+      // An arc: the velocity turns with the heading, so its chord lies along the mean heading.
       const double turn = wrap_angle(heading_.yaw_rad() - yaw_before);
-      filter_.predict(advance({{0.0, 0.0}, yaw_before}, v_mps * period_s_, turn).p);
+      const double slide_rad = std::atan2(v_B.y(), v_B.x());
+      const double way_m = v_B.norm() * period_s_;
+      filter_.predict(advance({{0.0, 0.0}, yaw_before + slide_rad}, way_m, turn).p);
       trace_.add(now, filter_.p());
     }
     if (is_new) take_fix(now);
-    if (filter_.ready()) write_estimate(now, v_mps);
+    if (filter_.ready()) write_estimate(now, v_B);
   }
 
  private:
+  enum class Source { kCommand, kWheels, kGpsVelocity };
+  static Source read_source(const std::string& name) {
+    if (name == "wheels") return Source::kWheels;
+    return name == "command" ? Source::kCommand : Source::kGpsVelocity;
+  }
+
   static OdometryKalmanParams read_filter(const ParameterSet& parameters) {
     OdometryKalmanParams params;
     params.drift_m_per_sqrt_m = parameters.number("drift_m_per_sqrt_m");
@@ -137,8 +143,18 @@ class OdometryFilter final : public Estimator {
     filter_.correct(p_B.head<2>() - was, std_m);
   }
 
-  double read_speed_mps() {
-    if (!use_wheels_) return command_.has_value() ? command_.value().v_mps : 0.0;
+  /// Velocity in the plane of B, m/s. Wheels and command know nothing of sliding sideways.
+  Eigen::Vector2d read_velocity_B() {
+    if (source_ == Source::kWheels) return {read_wheel_speed_mps(), 0.0};
+    if (source_ == Source::kCommand)
+      return {command_.has_value() ? command_.value().v_mps : 0.0, 0.0};
+    if (!gps_.has_value() || !gps_.value().valid) return velocity_B_;
+    const Eigen::Vector3d v_B =
+        heading_.q_WB().conjugate() * gps_.value().v_W - heading_.w_WB_B().cross(p_BA_);
+    return velocity_B_ = v_B.head<2>();
+  }
+
+  double read_wheel_speed_mps() {
     if (!wheel_speeds_.has_value()) return 0.0;
     const NamedValues& speeds = wheel_speeds_.value();
     double left = 0.0, right = 0.0;
@@ -164,11 +180,11 @@ class OdometryFilter final : public Estimator {
     }
   }
 
-  void write_estimate(Time now, double v_mps) {
+  void write_estimate(Time now, const Eigen::Vector2d& v_B) {
     Odometry estimate;
     estimate.X_WB.q = heading_.q_WB();
     estimate.X_WB.p = {filter_.p().x(), filter_.p().y(), height_m_};
-    estimate.v_WB_B = {v_mps * filter_.scale(), 0.0, 0.0};
+    estimate.v_WB_B.head<2>() = filter_.scale() * v_B;
     estimate.w_WB_B = heading_.w_WB_B();
     estimate.position_std_m.head<2>() = filter_.std_m();
     estimate_.write(now, estimate);
@@ -177,8 +193,8 @@ class OdometryFilter final : public Estimator {
   static constexpr double kLeastStd_m = 1e-3;  // an ideal receiver states zero
 
   std::string gps_name_;
-  bool use_wheels_;
-  std::string odometry_name_;
+  Source source_;
+  std::string wheels_name_;
   double odometry_scale_;
   double gps_std_m_;
   double period_s_;
@@ -188,6 +204,7 @@ class OdometryFilter final : public Estimator {
   double wheel_radius_m_ = 0.0;
   std::vector<Wheel> wheels_;
   double height_m_ = 0.0;
+  Eigen::Vector2d velocity_B_ = Eigen::Vector2d::Zero();  ///< last from a valid fix
   Trace trace_;
   std::uint64_t seen_fix_ = 0;
   SignalReader<GnssFix> gps_;
@@ -209,8 +226,9 @@ PartSpec odometry_filter_spec() {
       text_parameter("gps", "gps", "signal of the satellite receiver"),
       number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
                             "where the antenna sits in B (x, y, z); taken off the fix", 3),
-      choice_parameter("odometry_source", "command", {"command", "wheels"},
-                       "speed from the controller's command or from the wheels"),
+      choice_parameter("odometry_source", "command", {"command", "wheels", "gps_velocity"},
+                       "what is summed up: the controller's command, the wheels, or the satellite "
+                       "velocity, which alone sees a skid-steered vehicle slide"),
       text_parameter("wheels", "wheels", "signal of the wheel speeds (odometry_source: wheels)"),
       positive_parameter("odometry_scale", "", 1.0,
                          "factor on the odometry's speed: calibration, or an error to study"),

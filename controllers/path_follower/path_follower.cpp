@@ -106,9 +106,9 @@ PartSpec path_follower_spec() {
       "slips.";
   spec.parameters = {
       positive_parameter("speed_mps", "m/s", 7.0 / 3.6, "speed on straights (7 km/h)"),
-      positive_parameter("lookahead_s", "s", 1.0, "length over which errors die out, per speed"),
-      positive_parameter("lookahead_min_m", "m", 0.8, "least such length"),
-      positive_parameter("lookahead_max_m", "m", 2.0, "largest such length"),
+      positive_parameter("lookahead_s", "s", 0.7, "length over which errors die out, per speed"),
+      positive_parameter("lookahead_min_m", "m", 0.6, "least such length"),
+      positive_parameter("lookahead_max_m", "m", 3.0, "largest such length"),
       positive_parameter("damping", "", 1.0, "damping ratio of the way back to the path"),
       number_parameter("integral", "", 0.0, 0.0, 1.0,
                        "weight of the summed lateral error, against steady drift on slopes"),
@@ -120,7 +120,7 @@ PartSpec path_follower_spec() {
                          "yaw rate of the planned turns: slows down so that v kappa stays below"),
       positive_parameter("yaw_rate_max_radps", "rad/s", 1.2, "limit of the commanded yaw rate"),
       positive_parameter("min_turning_radius_m", "m", 0.5, "tightest curve commanded"),
-      number_parameter("speed_gain", "", 0.5, 0.0, 5.0,
+      number_parameter("speed_gain", "", 1.0, 0.0, 5.0,
                        "share of a speed too high or low that the wheels are told to make up"),
       optional(number_parameter("turn_effectiveness", "", 1.0, 0.2, 1.25,
                                 "yaw rate driven per yaw rate of the wheels, at the start; default "

@@ -29,9 +29,9 @@ struct Sideslip {
 };
 
 struct PathFollowerParams {
-  double lookahead_s = 1.0;  ///< L = lookahead_s * v, within the two limits
-  double lookahead_min_m = 0.8;
-  double lookahead_max_m = 2.0;
+  double lookahead_s = 0.7;  ///< L = lookahead_s * v, within the two limits
+  double lookahead_min_m = 0.6;
+  double lookahead_max_m = 3.0;
   double damping = 1.0;          ///< zeta
   double integral = 0.0;         ///< of e over distance, as a share of 1/L^3
   double integral_max_m = 0.15;  ///< lateral offset the integral may stand for

@@ -56,6 +56,7 @@ class PathFollower final : public Controller {
         slip_(read_slip(parameters, *context.vehicle_description)),
         period_s_(context.period.s()),
         speed_gain_(parameters.number("speed_gain")),
+        wheel_yaw_max_radps_(parameters.number("wheel_yaw_max_radps")),
         overspeed_share_(1.0 - std::exp(-period_s_ / kOverspeedFilter_s)) {}
 
   void connect(Ports& ports) override { ports_.connect(ports); }
@@ -75,7 +76,8 @@ class PathFollower final : public Controller {
     wheels_ = command;
     if (command.v_mps > 0.0)
       wheels_.v_mps = std::max(command.v_mps - speed_gain_ * overspeed_mps_, 0.0);
-    wheels_.yaw_rate_radps /= slip_.effectiveness();
+    wheels_.yaw_rate_radps = std::clamp(command.yaw_rate_radps / slip_.effectiveness(),
+                                        -wheel_yaw_max_radps_, wheel_yaw_max_radps_);
     wheels_ = ports_.drive().limit(wheels_);
     ports_.write(now, command, wheels_, law_.state());
   }
@@ -88,6 +90,7 @@ class PathFollower final : public Controller {
   SlipEstimate slip_;
   double period_s_;
   double speed_gain_;
+  double wheel_yaw_max_radps_;
   double overspeed_share_;
   double overspeed_mps_ = 0.0;  ///< low-passed
   double commanded_mps_ = 0.0;
@@ -122,6 +125,9 @@ PartSpec path_follower_spec() {
       positive_parameter("min_turning_radius_m", "m", 0.5, "tightest curve commanded"),
       number_parameter("speed_gain", "", 1.0, 0.0, 5.0,
                        "share of a speed too high or low that the wheels are told to make up"),
+      positive_parameter("wheel_yaw_max_radps", "rad/s", 6.0,
+                         "limit of the yaw rate that the wheels stand for: tyres that spin hold "
+                         "no slope"),
       optional(number_parameter("turn_effectiveness", "", 1.0, 0.2, 1.25,
                                 "yaw rate driven per yaw rate of the wheels, at the start; default "
                                 "what the vehicle tells (track_m / effective_track_m), else 1")),

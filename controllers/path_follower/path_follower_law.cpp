@@ -33,14 +33,19 @@ double PathFollowerLaw::calc_lookahead_m(double speed_mps) const {
 
 double PathFollowerLaw::calc_speed(const Path::Nearest& at, double heading_error_rad) {
   double wanted = profile_.speed_at(path_, at.segment, at.distance_m);
+  const double ahead_m = at.distance_m + params_.settle_m;
+  if (ahead_m < path_.length_m()) {
+    const int segment = path_.segment_at(ahead_m, at.segment);
+    wanted = std::min(wanted, profile_.speed_at(path_, segment, ahead_m));
+  }
   // Turn before driving off in a wrong direction.
   wanted *= std::max(std::cos(heading_error_rad), 0.1);
   const double step = params_.speed.acceleration_mps2 * params_.cycle_s;
   return std::clamp(wanted, std::max(speed_mps_ - 2.0 * step, 0.0), speed_mps_ + step);
 }
 
-double PathFollowerLaw::calc_curvature(const Path::Nearest& at, double heading_error_rad,
-                                       const Sideslip& slide, double speed_mps) {
+double PathFollowerLaw::calc_yaw_rate(const Path::Nearest& at, double heading_error_rad,
+                                      const Sideslip& slide, double speed_mps) {
   const double way_m = std::max(speed_mps * params_.cycle_s, 1e-3);
   const double from_m = at.distance_m + speed_mps * params_.response_s;
   double feed_forward = path_.turn_between_rad(from_m, from_m + way_m, at.segment) / way_m;
@@ -72,8 +77,12 @@ double PathFollowerLaw::calc_curvature(const Path::Nearest& at, double heading_e
   // Beyond a quarter turn the sine falls again; the vehicle is to turn all the harder.
   const double sine = std::abs(course_error) > 0.5 * kPi ? std::copysign(1.0, course_error)
                                                          : std::sin(course_error);
-  return std::clamp(feed_forward - damping * (sine + approach), -params_.max_curvature_per_m,
-                    params_.max_curvature_per_m);
+  // Near standstill the feedback turns the vehicle in place: it need not roll to be set right.
+  constexpr double kPivot_mps = 0.3;
+  const double feedback = std::clamp(-damping * (sine + approach), -params_.max_curvature_per_m,
+                                     params_.max_curvature_per_m);
+  return std::clamp(speed_mps * feed_forward + std::max(speed_mps, kPivot_mps) * feedback,
+                    -params_.yaw_rate_max_radps, params_.yaw_rate_max_radps);
 }
 
 VelocityCommand PathFollowerLaw::step(const Pose2& pose, const Sideslip& slide,
@@ -103,9 +112,7 @@ VelocityCommand PathFollowerLaw::step(const Pose2& pose, const Sideslip& slide,
   speed_mps_ = calc_speed(at, heading_error);
   // A curvature is driven with the speed there is, not the one wanted.
   const double speed = std::max(speed_mps_ + overspeed_mps, 0.0);
-  const double yaw_rate = speed * calc_curvature(at, heading_error, slide, speed);
-  return {speed_mps_,
-          std::clamp(yaw_rate, -params_.yaw_rate_max_radps, params_.yaw_rate_max_radps)};
+  return {speed_mps_, calc_yaw_rate(at, heading_error, slide, speed)};
 }
 
 }  // namespace vinerow

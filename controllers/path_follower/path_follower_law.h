@@ -37,6 +37,7 @@ struct PathFollowerParams {
   double integral_max_m = 0.15;  ///< lateral offset the integral may stand for
   double response_s = 0.0;
   double smoothing_m = 0.5;  ///< half the length over which the lead of the heading builds up
+  double settle_m = 0.5;     ///< braking for a turn is over this far before it
   double max_curvature_per_m = 2.0;
   double yaw_rate_max_radps = 1.2;
   double goal_tolerance_m = 0.05;
@@ -64,8 +65,8 @@ class PathFollowerLaw {
  private:
   double calc_lookahead_m(double speed_mps) const;
   double calc_speed(const Path::Nearest& at, double heading_error_rad);
-  double calc_curvature(const Path::Nearest& at, double heading_error_rad, const Sideslip& slide,
-                        double speed_mps);
+  double calc_yaw_rate(const Path::Nearest& at, double heading_error_rad, const Sideslip& slide,
+                       double speed_mps);
 
   PathFollowerParams params_;
   Path path_;

@@ -162,6 +162,8 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   }
   if (options.pictures && !scenario.pictures.cameras.empty()) {
     if (with_log) {
+      // Frames of an earlier run in the same folder would be taken for this one's.
+      std::filesystem::remove_all(options.out / "frames", failed);
       const PictureReport pictures = render_log(log_file, options.out / "frames", registry, {});
       result.pictures = pictures.files;
       result.picture_note = pictures.note;

@@ -161,6 +161,19 @@ TEST(OdometryFilter, ReadsTheWheelsByName) {
   EXPECT_NEAR(bench.estimate.value().X_WB.p.x(), 1.0, 1e-9);  // 5 rad/s * 0.2 m for 1 s
 }
 
+TEST(OdometryFilter, SatelliteVelocitySeesTheSlide) {
+  // Nose east, drifting north at 0.3 m/s: the wheels know nothing of it.
+  Bench bench(
+      {"odometry_filter", {{"odometry_source", Text("gps_velocity")}, {"gain", Text("fixed")}}});
+  bench.write_truth({0, 0, 0});
+  bench.write_fix({0, 0, 0}, bench.now, {1.0, 0.3, 0});
+  bench.tick();
+  for (int i = 0; i < 40; ++i) bench.tick();
+  EXPECT_NEAR(bench.estimate.value().X_WB.p.x(), 1.0, 1e-9);
+  EXPECT_NEAR(bench.estimate.value().X_WB.p.y(), 0.3, 1e-9);
+  EXPECT_NEAR(bench.estimate.value().v_WB_B.y(), 0.3, 1e-12);
+}
+
 TEST(OdometryFilter, ComparesALateFixWithThePastItSaw) {
   // 1 m/s east; fixes are exact but 0.2 s old. Taken for new they would hold the estimate 0.2 m
   // back.

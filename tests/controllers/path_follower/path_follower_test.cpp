@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "controllers/parts/path_pieces.h"
 #include "controllers/path_follower/path_follower_law.h"
 #include "controllers/path_follower/slip_estimate.h"
@@ -91,27 +94,68 @@ TEST(SpeedProfile, TakesTheSlowestOfPathAndLimits) {
   EXPECT_DOUBLE_EQ(SpeedProfile(path, {}).speed_at(path, 3, 1.0), 0.8);
 }
 
-TEST(SlipEstimate, LearnsTheShareThatIsDriven) {
+TEST(PathFollowerLaw, LeadsTheHeadingOfAVehicleThatSlides) {
+  // The vehicle turns about a point 0.25 m ahead of its centre and crabs by 0.03 rad: its centre
+  // moves along yaw + beta. Told so, the law keeps the centre on the arc; told nothing, it runs
+  // beside it.
+  double error_m[2] = {};
+  for (const bool told : {false, true}) {
+    PathFollowerParams params = make_params();
+    params.speed.speed_mps = 0.8;
+    PathFollowerLaw law(params);
+    law.set_path(make_planned_path({make_straight({0, 0}, {5, 0}, PathKind::kLeg, 0, 0.0),
+                                    {{{5, 0}, 0.0}, 12.0, 0.4, PathKind::kTurn, -1, 0.0}},
+                                   0.33));
+    const Sideslip slide = {0.25, 0.03};
+    Pose2 pose;
+    for (int i = 0; i < 720; ++i) {
+      const VelocityCommand c = law.step(pose, told ? slide : Sideslip{});
+      const Eigen::Vector2d v_B(c.v_mps,
+                                -slide.arm_m * c.yaw_rate_radps + slide.drift_rad * c.v_mps);
+      pose.p += Eigen::Rotation2Dd(pose.yaw_rad) * v_B * params.cycle_s;
+      pose.yaw_rad += c.yaw_rate_radps * params.cycle_s;
+    }
+    error_m[told] = std::abs(law.state().lateral_error_m);
+  }
+  EXPECT_GT(error_m[0], 0.05);
+  EXPECT_LT(error_m[1], 0.01);
+}
+
+/// A vehicle that drives `share` of the yaw rate asked, one cycle late, and slides.
+SlipEstimate learn(double share, const Sideslip& slide) {
   SlipEstimateParams params;
   params.learn_time_s = 1.0;
   SlipEstimate slip(params);
   double driven = 0.0;
-  for (int i = 0; i < 2000; ++i) {
-    const double asked = 0.6 * std::sin(0.01 * i);
-    slip.update(asked, driven, 0.025);
-    driven = 0.55 * asked;  // one cycle late, as in a simulation
+  for (int i = 0; i < 4000; ++i) {
+    const double asked = 0.8 * std::sin(0.005 * i);
+    slip.update(asked, driven, {1.0, -slide.arm_m * driven + slide.drift_rad}, 0.025);
+    driven = share * asked;
   }
-  EXPECT_NEAR(slip.effectiveness(), 0.55, 0.02);
+  return slip;
 }
 
-TEST(SlipEstimate, StaysWhereNothingSlipsOrTurns) {
+TEST(SlipEstimate, LearnsShareArmAndDrift) {
+  const SlipEstimate slip = learn(0.55, {0.2, 0.02});
+  EXPECT_NEAR(slip.effectiveness(), 0.55, 0.03);
+  EXPECT_NEAR(slip.slide().arm_m, 0.2, 0.02);
+  EXPECT_NEAR(slip.slide().drift_rad, 0.02, 0.005);
+}
+
+TEST(SlipEstimate, StaysWhereNothingSlips) {
+  const SlipEstimate slip = learn(1.0, {0.0, 0.0});
+  EXPECT_NEAR(slip.effectiveness(), 1.0, 0.02);
+  EXPECT_EQ(slip.slide().arm_m, 0.0);
+  EXPECT_EQ(slip.slide().drift_rad, 0.0);
+}
+
+TEST(SlipEstimate, StaysWhenSwitchedOff) {
   SlipEstimateParams params;
-  params.learn_time_s = 1.0;
+  params.effectiveness = 0.4;
   SlipEstimate slip(params);
-  for (int i = 0; i < 1000; ++i) slip.update(0.0, 0.02, 0.025);
-  EXPECT_EQ(slip.effectiveness(), 1.0);
-  for (int i = 0; i < 1000; ++i) slip.update(0.8, 0.8, 0.025);
-  EXPECT_NEAR(slip.effectiveness(), 1.0, 1e-12);  // rounding of the filters
+  for (int i = 0; i < 100; ++i) slip.update(0.8, 0.1, {1.0, 0.3}, 0.025);
+  EXPECT_EQ(slip.effectiveness(), 0.4);
+  EXPECT_EQ(slip.slide().arm_m, 0.0);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ class Coverage final : public Planner {
     if (const auto fault = find_path_into_row(path, map_, params_.clearance_m)) {
       return Failure{*fault};
     }
-    lift_to_ground(scene_, start.p.z(), path);
+    if (const auto fault = lift_to_ground(scene_, start.p.z(), path)) return Failure{*fault};
     return path;
   }
 

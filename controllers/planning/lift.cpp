@@ -1,16 +1,28 @@
 #include "controllers/planning/lift.h"
 
+#include <fmt/format.h>
+
 namespace vinerow {
 
-void lift_to_ground(const SceneQuery* scene, double height_m, PlannedPath& path) {
+std::optional<std::string> lift_to_ground(const SceneQuery* scene, double height_m,
+                                          PlannedPath& path) {
   constexpr double kAboveEverything_m = 1e4;  // higher than any ground within a scenario
+  const PathPoint* bare = nullptr;
+  bool has_ground = false;
   for (PathPoint& point : path.points) {
-    if (scene != nullptr) {
-      const auto ground = scene->ground_height_m(point.p_W.x(), point.p_W.y(), kAboveEverything_m);
-      if (ground) height_m = *ground;
-    }
     point.p_W.z() = height_m;
+    if (scene == nullptr) continue;
+    const auto ground = scene->ground_height_m(point.p_W.x(), point.p_W.y(), kAboveEverything_m);
+    if (ground) {
+      point.p_W.z() = *ground;
+      has_ground = true;
+    } else if (bare == nullptr) {
+      bare = &point;
+    }
   }
+  if (!has_ground || bare == nullptr) return std::nullopt;
+  return fmt::format("path leaves the ground: there is none at ({:.2f}, {:.2f})", bare->p_W.x(),
+                     bare->p_W.y());
 }
 
 }  // namespace vinerow

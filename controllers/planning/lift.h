@@ -1,13 +1,18 @@
 #pragma once
 /// Puts planned points onto the ground.
 
+#include <optional>
+#include <string>
+
 #include "engine/api/messages.h"
 #include "engine/api/scene_query.h"
 
 namespace vinerow {
 
-/// Sets each point's height to the ground below it; where there is none, the nearest earlier height
-/// is kept. Without a scene all points get `height_m`.
-void lift_to_ground(const SceneQuery* scene, double height_m, PlannedPath& path);
+/// Sets each point's height to the ground below it. Without a scene, or where the scene has no
+/// ground under any point, all points get `height_m`.
+/// @returns nothing, or "path leaves the ground: ..." if only part of the path has ground below
+std::optional<std::string> lift_to_ground(const SceneQuery* scene, double height_m,
+                                          PlannedPath& path);
 
 }  // namespace vinerow

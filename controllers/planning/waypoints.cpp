@@ -83,7 +83,7 @@ class Waypoints final : public Planner {
     if (map_ != nullptr) {
       if (const auto fault = find_path_into_row(path, *map_, clearance_m_)) return Failure{*fault};
     }
-    lift_to_ground(scene_, start.p.z(), path);
+    if (const auto fault = lift_to_ground(scene_, start.p.z(), path)) return Failure{*fault};
     return path;
   }
 

@@ -168,32 +168,48 @@ TEST(Coverage, StraightensSurveyedLines) {
   EXPECT_GT(plan(map, {})->length_m, 17.01);
 }
 
-TEST(Coverage, LiftsPointsOntoTheGround) {
-  class Slope final : public SceneQuery {
-   public:
-    std::optional<RayHit> cast_ray(const Eigen::Vector3d&, const Eigen::Vector3d&, double,
-                                   SurfaceMask) const override {
-      return std::nullopt;
-    }
-    std::optional<double> ground_height_m(double x, double y, double) const override {
-      return 0.1 * x + 0.2 * y;
-    }
-    double distance_to_box_m(const Pose&, const Eigen::Vector3d&, double max_distance_m,
-                             SurfaceMask) const override {
-      return max_distance_m;
-    }
-  };
-  const Slope slope;
+/// A slope that ends at some y.
+class Slope final : public SceneQuery {
+ public:
+  explicit Slope(double end_y) : end_y_(end_y) {}
+  std::optional<RayHit> cast_ray(const Eigen::Vector3d&, const Eigen::Vector3d&, double,
+                                 SurfaceMask) const override {
+    return std::nullopt;
+  }
+  std::optional<double> ground_height_m(double x, double y, double) const override {
+    if (y > end_y_) return std::nullopt;
+    return 0.1 * x + 0.2 * y;
+  }
+  double distance_to_box_m(const Pose&, const Eigen::Vector3d&, double max_distance_m,
+                           SurfaceMask) const override {
+    return max_distance_m;
+  }
+
+ private:
+  double end_y_;
+};
+
+Result<PlannedPath> plan_on(const Slope& slope) {
   const RowMap map = make_narrow_map(2);
   PlannerContext context;
   context.map = &map;
   context.scene = &slope;
-  const auto planner = vinerow::make_coverage(make_parameters(coverage_spec(), {}), context);
-  const auto path = planner->plan({quaternion_from_rpy({0, 0, 0.5 * kPi}), {1.25, 0, 0}});
+  return vinerow::make_coverage(make_parameters(coverage_spec(), {}), context)
+      ->plan({quaternion_from_rpy({0, 0, 0.5 * kPi}), {1.25, 0, 0}});
+}
+
+TEST(Coverage, LiftsPointsOntoTheGround) {
+  const auto path = plan_on(Slope(100.0));
   ASSERT_TRUE(path.ok());
   for (const PathPoint& point : path->points) {
     EXPECT_NEAR(point.p_W.z(), 0.1 * point.p_W.x() + 0.2 * point.p_W.y(), 1e-12);
   }
+}
+
+TEST(Coverage, RefusesToLeaveTheGround) {
+  const auto path = plan_on(Slope(17.5));
+  ASSERT_FALSE(path.ok());
+  EXPECT_EQ(path.reason().find("path leaves the ground: there is none at ("), 0u) << path.reason();
 }
 
 TEST(Coverage, RefusesAPathIntoARow) {

@@ -1,22 +1,28 @@
 #include "controllers/path_follower/path_follower.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "controllers/parts/drive_ports.h"
 #include "controllers/path_follower/path_follower_law.h"
 #include "controllers/path_follower/slip_estimate.h"
+#include "engine/core/error.h"
 
 namespace vinerow {
 namespace {
 
-PathFollowerParams read_params(const ParameterSet& parameters, Duration period) {
+PathFollowerParams read_params(const ParameterSet& parameters, Duration period,
+                               const std::string& part) {
   PathFollowerParams params;
   params.lookahead_s = parameters.number("lookahead_s");
   params.lookahead_min_m = parameters.number("lookahead_min_m");
   params.lookahead_max_m = parameters.number("lookahead_max_m");
   if (params.lookahead_max_m < params.lookahead_min_m) {
-    params.lookahead_max_m = params.lookahead_min_m;
+    throw ConfigError(
+        fmt::format("{} (path_follower): lookahead_max_m = {} m, must be >= lookahead_min_m = {} m",
+                    part, params.lookahead_max_m, params.lookahead_min_m));
   }
   params.damping = parameters.number("damping");
   params.integral = parameters.number("integral");
@@ -52,7 +58,7 @@ class PathFollower final : public Controller {
  public:
   PathFollower(const ParameterSet& parameters, const ControllerContext& context)
       : ports_(context, "path_follower"),
-        law_(read_params(parameters, context.period)),
+        law_(read_params(parameters, context.period, context.part)),
         slip_(read_slip(parameters, *context.vehicle_description)),
         period_s_(context.period.s()),
         speed_gain_(parameters.number("speed_gain")),

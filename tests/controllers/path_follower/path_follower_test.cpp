@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "controllers/parts/path_pieces.h"
+#include "controllers/path_follower/path_follower.h"
 #include "controllers/path_follower/path_follower_law.h"
 #include "controllers/path_follower/slip_estimate.h"
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "tests/controllers/support/mission.h"
 
 namespace vinerow {
 namespace {
@@ -65,6 +68,23 @@ TEST(PathFollowerLaw, ComesBackFromFarOffAndFromBackwards) {
     EXPECT_TRUE(law.finished()) << start.p.transpose() << " " << start.yaw_rad;
     EXPECT_NEAR(pose.p.y(), 0.0, 1e-3);
     EXPECT_NEAR(pose.p.x(), 60.0, 0.1);
+  }
+}
+
+TEST(PathFollower, RefusesLookaheadLimitsThatCross) {
+  const VehicleDescription description = test::make_rover_description();
+  ControllerContext context;
+  context.part = "rover.controller";
+  context.period = Duration{25'000'000};
+  context.vehicle_description = &description;
+  try {
+    make_path_follower(test::make_parameters(path_follower_spec(), {{"lookahead_max_m", 0.5}}),
+                       context);
+    FAIL() << "must be refused";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "rover.controller (path_follower): lookahead_max_m = 0.5 m, must be >= "
+                 "lookahead_min_m = 0.6 m");
   }
 }
 

@@ -15,6 +15,8 @@ namespace {
 
 using Text = std::string;
 
+const RowMap kNoRows;  // outlives the planners that refer to it
+
 /// Rows 2.5 m apart, 17 m long, and the alleys between them.
 RowMap make_narrow_map(int alleys = 9, double pitch_m = 2.5) {
   RowMap map;
@@ -260,7 +262,7 @@ void expect_config_error(const RowMap& map, const PartChoice& choice, const std:
 }
 
 TEST(Coverage, RefusesAMapWithoutAlleysAndWrongAlleys) {
-  expect_config_error(RowMap{}, {"coverage", {}},
+  expect_config_error(kNoRows, {"coverage", {}},
                       "rover.planner (coverage): the map has no alleys to drive");
   expect_config_error(
       make_narrow_map(), {"coverage", {{"alleys", std::vector<double>{0, 9}}}},
@@ -277,7 +279,7 @@ TEST(Waypoints, SplitsStraightsBetweenThePoints) {
                                      {{"x_m", std::vector<double>{0, 3, 3}},
                                       {"y_m", std::vector<double>{0, 0, 4}},
                                       {"waypoint_pitch_m", 0.5}}},
-                                    RowMap{});
+                                    kNoRows);
   const auto path = planner->plan(Pose{});
   ASSERT_TRUE(path.ok());
   EXPECT_EQ(path->points.size(), 6u + 8u + 1u);
@@ -287,23 +289,22 @@ TEST(Waypoints, SplitsStraightsBetweenThePoints) {
 TEST(Waypoints, ReadsACsvFileAndNamesItsFaults) {
   const std::string file = testing::TempDir() + "waypoints.csv";
   std::ofstream(file) << "x,y\n0,0\n# a comment\n3,0\r\n3;4\n";
-  const auto path = make_planner({"waypoints", {{"file", file}}}, RowMap{})->plan(Pose{});
+  const auto path = make_planner({"waypoints", {{"file", file}}}, kNoRows)->plan(Pose{});
   ASSERT_TRUE(path.ok());
   EXPECT_DOUBLE_EQ(path->length_m, 7.0);
   std::ofstream(file) << "0,0\n1,north\n";
-  expect_config_error(RowMap{}, {"waypoints", {{"file", file}}},
+  expect_config_error(kNoRows, {"waypoints", {{"file", file}}},
                       file + ":2: '1,north' must be two numbers, x and y in metres");
-  expect_config_error(RowMap{}, {"waypoints", {{"file", Text("/no/such.csv")}}},
+  expect_config_error(kNoRows, {"waypoints", {{"file", Text("/no/such.csv")}}},
                       "/no/such.csv: cannot be read");
 }
 
 TEST(Waypoints, RefusesUnequalListsAndTooFewPoints) {
   expect_config_error(
-      RowMap{},
-      {"waypoints", {{"x_m", std::vector<double>{0, 1}}, {"y_m", std::vector<double>{0}}}},
+      kNoRows, {"waypoints", {{"x_m", std::vector<double>{0, 1}}, {"y_m", std::vector<double>{0}}}},
       "rover.planner (waypoints): x_m has 2 numbers and y_m 1, must be as many");
   expect_config_error(
-      RowMap{}, {"waypoints", {}},
+      kNoRows, {"waypoints", {}},
       "rover.planner (waypoints): needs at least two different points, from x_m and y_m or "
       "from a file");
 }

@@ -65,6 +65,8 @@ class LogObserver final : public RunObserver {
     const std::string& name = signal.name();
     const bool is_truth = name.ends_with("/truth") || name.ends_with("/estimate");
     if (is_truth) return period_of_rate(config.truth_rate_Hz);
+    // The widest message of all; half as often is enough to see slip come and go.
+    if (name.ends_with("/wheels")) return period_of_rate(config.truth_rate_Hz) * 2;
     // A charge changes slowly, and its message is a large one.
     if (name.ends_with("/battery")) return period_of_rate(std::min(1.0, config.truth_rate_Hz));
     if (name == "run/events" || name.ends_with("/plan") || name.ends_with("/contacts")) return {};

@@ -287,6 +287,14 @@ void VehicleRuntime::after_physics(Time now, Duration step) {
                           fmt::format("its speed of {:g} m/s is beyond {:g} m/s",
                                       state.v_WB_B.norm(), kMaxSpeed_mps));
   }
+  // Outside its grid the ground ends; falling for ever would help nobody.
+  const Eigen::Vector3d& p = state.X_WB.p;
+  const bool off_grid = run_.world.terrain && !run_.world.terrain->contains(p.x(), p.y());
+  if (off_grid && !run_.physics.scene().ground_height_m(p.x(), p.y(), p.z())) {
+    throw SimulationError(
+        culprit, now,
+        fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m", p.x(), p.y()));
+  }
   watch_contacts(now);
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 void frame_of_riseholme(benchmark::State& state) {
   static const auto world = bench::make_world(
-      "surveyed", {{"survey_file", std::string(VINEROW_SOURCE_DIR) + "/assets/worlds/riseholme/riseholme.geojson"}});
+      "surveyed", {{"survey_file", std::string(VINEROW_SOURCE_DIR) +
+                                       "/assets/worlds/riseholme/riseholme.geojson"}});
   static auto renderer = render::make_renderer(*world);
   if (!renderer) {
     state.SkipWithError(renderer.reason().c_str());

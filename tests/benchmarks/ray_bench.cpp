@@ -55,7 +55,8 @@ void distance_of_rover_box(benchmark::State& state) {
   std::size_t i = 0;
   for (auto _ : state) {
     Pose box;
-    box.p = line.front() + (0.1 + 0.8 * static_cast<double>(i++ % 997) / 997.0) * (line.back() - line.front());
+    box.p = line.front() +
+            (0.1 + 0.8 * static_cast<double>(i++ % 997) / 997.0) * (line.back() - line.front());
     box.p.z() = v.model->terrain->height_m(box.p.x(), box.p.y()) + 0.6;
     benchmark::DoNotOptimize(v.world.scene().distance_to_box_m(box, {0.8, 0.55, 0.4}, 3.0));
   }

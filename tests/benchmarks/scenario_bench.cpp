@@ -1,4 +1,5 @@
-/// Whole runs: real-time factor of the demo, log included, without pictures; and the size of its log per hour.
+/// Whole runs: real-time factor of the demo, log included, without pictures; and the size of its
+/// log per hour.
 
 #include <benchmark/benchmark.h>
 
@@ -13,8 +14,8 @@ namespace {
 void whole_scenario(benchmark::State& state, const char* name) {
   Registry registry;
   register_all(registry);
-  const io::Scenario scenario =
-      io::load_scenario(std::string(VINEROW_SOURCE_DIR) + "/assets/scenarios/" + name + ".yaml", registry);
+  const io::Scenario scenario = io::load_scenario(
+      std::string(VINEROW_SOURCE_DIR) + "/assets/scenarios/" + name + ".yaml", registry);
   RunOptions options;
   options.out = std::filesystem::temp_directory_path() / "vinerow_bench_run";
   options.pictures = false;
@@ -23,11 +24,16 @@ void whole_scenario(benchmark::State& state, const char* name) {
   state.counters["real_time_factor"] = result.real_time_factor();
   state.counters["simulated_s"] = result.simulated_s;
   state.counters["log_MB_per_hour"] =
-      static_cast<double>(std::filesystem::file_size(options.out / "log.mcap")) * 1e-6 * 3600.0 / result.simulated_s;
+      static_cast<double>(std::filesystem::file_size(options.out / "log.mcap")) * 1e-6 * 3600.0 /
+      result.simulated_s;
   std::filesystem::remove_all(options.out);
 }
-BENCHMARK_CAPTURE(whole_scenario, riseholme_rover, "riseholme_rover")->Unit(benchmark::kSecond)->Iterations(3);
-BENCHMARK_CAPTURE(whole_scenario, orchard_rover, "orchard_rover")->Unit(benchmark::kSecond)->Iterations(3);
+BENCHMARK_CAPTURE(whole_scenario, riseholme_rover, "riseholme_rover")
+    ->Unit(benchmark::kSecond)
+    ->Iterations(3);
+BENCHMARK_CAPTURE(whole_scenario, orchard_rover, "orchard_rover")
+    ->Unit(benchmark::kSecond)
+    ->Iterations(3);
 
 }  // namespace
 }  // namespace vinerow

@@ -18,7 +18,8 @@ struct CommandResult {
 
 inline CommandResult run_vinerow(const std::string& arguments) {
   CommandResult result;
-  const std::string command = std::string(VINEROW_BINARY_DIR) + "/bin/vinerow " + arguments + " 2>&1";
+  const std::string command =
+      std::string(VINEROW_BINARY_DIR) + "/bin/vinerow " + arguments + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 4096> buffer;
   while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {

@@ -22,7 +22,9 @@ std::string digest_after(double span_s, const std::vector<std::string>& sets = {
   return TestRun::from_file(scenario_file("riseholme_rover"), sets).run_for_s(span_s).digest();
 }
 
-TEST(Determinism, TwoRunsInOneProcessGiveTheSameDigest) { EXPECT_EQ(digest_after(kSpan_s), digest_after(kSpan_s)); }
+TEST(Determinism, TwoRunsInOneProcessGiveTheSameDigest) {
+  EXPECT_EQ(digest_after(kSpan_s), digest_after(kSpan_s));
+}
 
 TEST(Determinism, PauseAndResumeChangesNothing) {
   TestRun sliced = TestRun::from_file(scenario_file("riseholme_rover"));
@@ -34,13 +36,16 @@ TEST(Determinism, WorkersSideBySideDoNotDisturbEachOther) {
   constexpr double kShort_s = 2.0;
   std::string digests[3];
   std::vector<std::thread> workers;
-  for (std::string& digest : digests) workers.emplace_back([&digest] { digest = digest_after(kShort_s); });
+  for (std::string& digest : digests)
+    workers.emplace_back([&digest] { digest = digest_after(kShort_s); });
   for (std::thread& worker : workers) worker.join();
   const std::string alone = digest_after(kShort_s);
   for (const std::string& digest : digests) EXPECT_EQ(digest, alone);
 }
 
-TEST(Determinism, AnotherSeedGivesAnotherDigest) { EXPECT_NE(digest_after(1.0), digest_after(1.0, {"seed=2"})); }
+TEST(Determinism, AnotherSeedGivesAnotherDigest) {
+  EXPECT_NE(digest_after(1.0), digest_after(1.0, {"seed=2"}));
+}
 
 TEST(Determinism, LogAndItsRateChangeNothing) {
   const test::ScratchFolder folder("determinism_log");
@@ -55,7 +60,8 @@ TEST(Determinism, LogAndItsRateChangeNothing) {
     options.out = folder.path();
     options.log = log;
     options.pictures = false;
-    return run_scenario(io::load_scenario(scenario_file("riseholme_rover"), registry, overrides), registry, options)
+    return run_scenario(io::load_scenario(scenario_file("riseholme_rover"), registry, overrides),
+                        registry, options)
         .digest;
   };
   const std::string base = digest_with(true, {});
@@ -64,19 +70,22 @@ TEST(Determinism, LogAndItsRateChangeNothing) {
 }
 
 TEST(Determinism, ASensorMoreDoesNotChangeTheNoiseOfTheOthers) {
-  TestRun with = TestRun::from_file(scenario_file("riseholme_rover"),
-                                    {"rover.sensors.second={type: gps, rate_Hz: 40, error: gaussian}"});
+  TestRun with =
+      TestRun::from_file(scenario_file("riseholme_rover"),
+                         {"rover.sensors.second={type: gps, rate_Hz: 40, error: gaussian}"});
   TestRun without = TestRun::from_file(scenario_file("riseholme_rover"));
   with.run_for_s(1.0), without.run_for_s(1.0);
   EXPECT_EQ(with.signal<GnssFix>("rover/gps").p_W, without.signal<GnssFix>("rover/gps").p_W);
-  EXPECT_EQ(with.signal<ImuSample>("rover/imu").f_WS_S, without.signal<ImuSample>("rover/imu").f_WS_S);
+  EXPECT_EQ(with.signal<ImuSample>("rover/imu").f_WS_S,
+            without.signal<ImuSample>("rover/imu").f_WS_S);
   EXPECT_NE(with.signal<GnssFix>("rover/second").p_W, with.signal<GnssFix>("rover/gps").p_W);
 }
 
 TEST(Determinism, TwoProcessesWithAndWithoutPicturesGiveTheSameDigest) {
   const test::ScratchFolder folder("determinism_process");
-  const std::string run = "run " + scenario_file("riseholme_rover") + " --quiet --set duration_s=2 --set criteria=[] " +
-                          "--set pictures.width=320 --set pictures.height=180 --out " + folder.path().string();
+  const std::string run =
+      "run " + scenario_file("riseholme_rover") + " --quiet --set duration_s=2 --set criteria=[] " +
+      "--set pictures.width=320 --set pictures.height=180 --out " + folder.path().string();
   const auto with = test::run_vinerow(run), without = test::run_vinerow(run + " --no-pictures");
   ASSERT_EQ(with.status, 0) << with.output;
   ASSERT_EQ(without.status, 0) << without.output;

@@ -1,4 +1,5 @@
-/// Bad input: exit status 2 and one clear sentence. Broken runs: exit status 3, a culprit, and a readable log.
+/// Bad input: exit status 2 and one clear sentence. Broken runs: exit status 3, a culprit, and a
+/// readable log.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -26,22 +27,27 @@ void expect_refused(const std::string& arguments, const std::vector<std::string>
   const auto result = run_vinerow(arguments);
   EXPECT_EQ(result.status, 2) << arguments << "\n" << result.output;
   for (const std::string& text : texts) {
-    EXPECT_NE(result.output.find(text), std::string::npos) << arguments << "\nwanted: " << text << "\n" << result.output;
+    EXPECT_NE(result.output.find(text), std::string::npos)
+        << arguments << "\nwanted: " << text << "\n"
+        << result.output;
   }
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
 }
 
 std::string run_demo(const std::string& set) {
-  return "run " + scenario_file("riseholme_rover") + " --quiet --no-log --out " + VINEROW_BINARY_DIR +
-         "/scratch/refused --set '" + set + "'";
+  return "run " + scenario_file("riseholme_rover") + " --quiet --no-log --out " +
+         VINEROW_BINARY_DIR + "/scratch/refused --set '" + set + "'";
 }
 
 TEST(BadInput, EachIsAnsweredByOneSentence) {
-  expect_refused(run_demo("rover.controller.speed_mps=fast"), {"speed_mps", "must be a number", "fast"});
-  expect_refused(run_demo("rover.controller.sped_mps=1"), {"sped_mps", "did you mean 'speed_mps'?"});
+  expect_refused(run_demo("rover.controller.speed_mps=fast"),
+                 {"speed_mps", "must be a number", "fast"});
+  expect_refused(run_demo("rover.controller.sped_mps=1"),
+                 {"sped_mps", "did you mean 'speed_mps'?"});
   expect_refused(run_demo("rover.controller.speed_mps=.nan"), {"speed_mps", "nan", "finite"});
   expect_refused(run_demo("rover.mass_kg=-5"), {"mass_kg", "-5", "> 0"});
-  expect_refused(run_demo("rover.controller.type=path_folower"), {"path_folower", "did you mean 'path_follower'?"});
+  expect_refused(run_demo("rover.controller.type=path_folower"),
+                 {"path_folower", "did you mean 'path_follower'?"});
   expect_refused(run_demo("rover.sensors.gps.rate_Hz=30"), {"0.0333333", "0.001"});
   expect_refused(run_demo("world.survey_file=nowhere.geojson"), {"nowhere.geojson"});
   expect_refused(run_demo("rover.spawn={alley: 12}"), {"alley", "12", "9 alleys (0 to 8)"});
@@ -58,8 +64,11 @@ TEST(BadInput, CyclicIncludesAreNamed) {
 TEST(BadInput, MeshesAndSurveysThatCannotServe) {
   const ScratchFolder folder("meshes");
   const auto with_world = [&](const std::string& world) {
-    return "validate " + folder.file("s.yaml", "vinerow: 1\nname: s\nduration_s: 1\nworld: " + world +
-                                                   "\nvehicles:\n  rover: {type: diff_drive_rover, spawn: {x_m: 0, y_m: 0}}\n");
+    return "validate " +
+           folder.file(
+               "s.yaml",
+               "vinerow: 1\nname: s\nduration_s: 1\nworld: " + world +
+                   "\nvehicles:\n  rover: {type: diff_drive_rover, spawn: {x_m: 0, y_m: 0}}\n");
   };
   folder.file("empty.obj", "");
   folder.file("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
@@ -68,16 +77,19 @@ TEST(BadInput, MeshesAndSurveysThatCannotServe) {
               R"("geometry":{"type":"Point","coordinates":[7.9,44.6]}}]})");
   expect_refused(with_world("{type: mesh, items: [{file: empty.obj}]}"), {"empty.obj"});
   expect_refused(with_world("{type: mesh, items: [{file: points.obj}]}"), {"points.obj"});
-  expect_refused(with_world("{type: surveyed, survey_file: points.geojson}"), {"points.geojson", "LineString"});
+  expect_refused(with_world("{type: surveyed, survey_file: points.geojson}"),
+                 {"points.geojson", "LineString"});
 }
 
 TEST(BadInput, AWayIntoARowIsRefused) {
-  expect_refused(run_demo("rover.planner={type: waypoints, x_m: [0, 12, -12], y_m: [-20, 0, 0]}"), {"path into a row"});
+  expect_refused(run_demo("rover.planner={type: waypoints, x_m: [0, 12, -12], y_m: [-20, 0, 0]}"),
+                 {"path into a row"});
 }
 
 TEST(Plugins, WrongOnesAreRefusedByName) {
   expect_refused("list --plugin /nowhere/libx.so", {"/nowhere/libx.so", "does not exist"});
-  expect_refused("list --plugin " + plugin("vinerow_test_no_plugin"), {"vinerow_test_no_plugin", "VINEROW_PLUGIN"});
+  expect_refused("list --plugin " + plugin("vinerow_test_no_plugin"),
+                 {"vinerow_test_no_plugin", "VINEROW_PLUGIN"});
   expect_refused("list --plugin " + plugin("vinerow_test_old_abi"),
                  {"vinerow_test_old_abi", "vinerow-abi-0-cxxabi-1000", "build it again"});
 }
@@ -85,29 +97,35 @@ TEST(Plugins, WrongOnesAreRefusedByName) {
 /// Runs the demo with a misbehaving controller.
 void expect_broken_off(const std::string& controller, const std::string& text) {
   const ScratchFolder folder("broken_" + controller);
-  const auto result = run_vinerow("run " + scenario_file("riseholme_rover") + " --quiet --no-pictures --plugin " +
-                                  plugin("vinerow_test_faulty_parts") + " --set 'rover.controller={type: " + controller +
-                                  "}' --set criteria=[] --out " + folder.path().string());
+  const auto result = run_vinerow(
+      "run " + scenario_file("riseholme_rover") + " --quiet --no-pictures --plugin " +
+      plugin("vinerow_test_faulty_parts") + " --set 'rover.controller={type: " + controller +
+      "}' --set criteria=[] --out " + folder.path().string());
   EXPECT_EQ(result.status, 3) << result.output;
-  EXPECT_NE(result.output.find("t = 0.500000 s: rover.controller (" + controller + "): " + text), std::string::npos)
+  EXPECT_NE(result.output.find("t = 0.500000 s: rover.controller (" + controller + "): " + text),
+            std::string::npos)
       << result.output;
   const record::LogReader log(folder.path() / "log.mcap");
   EXPECT_TRUE(log.info().complete);
   EXPECT_NEAR(log.info().last.s(), 0.5, 1e-9);
-  EXPECT_NE(test::read_text(folder.path() / "summary.json").find("\"exit_status\": 3"), std::string::npos);
+  EXPECT_NE(test::read_text(folder.path() / "summary.json").find("\"exit_status\": 3"),
+            std::string::npos);
   EXPECT_NE(test::read_text(folder.path() / "events.jsonl").find("\"error\""), std::string::npos);
 }
 
 TEST(Plugins, AnExceptionEndsTheRunWithItsCulprit) {
   expect_broken_off("throws", "threw an exception: the gearbox is on fire");
 }
-TEST(Plugins, NanEndsTheRunWithItsCulprit) { expect_broken_off("writes_nan", "wrote NaN into signal 'rover/actuators'"); }
+TEST(Plugins, NanEndsTheRunWithItsCulprit) {
+  expect_broken_off("writes_nan", "wrote NaN into signal 'rover/actuators'");
+}
 
 TEST(ExitStatus, AFailedCriterionGivesOne) {
   const ScratchFolder folder("criterion");
-  const auto result =
-      run_vinerow("run " + scenario_file("riseholme_rover") + " --quiet --no-pictures --set duration_s=1 --set " +
-                  "'criteria=[{metric: rover.distance_m, min: 1000}]' --out " + folder.path().string());
+  const auto result = run_vinerow("run " + scenario_file("riseholme_rover") +
+                                  " --quiet --no-pictures --set duration_s=1 --set " +
+                                  "'criteria=[{metric: rover.distance_m, min: 1000}]' --out " +
+                                  folder.path().string());
   EXPECT_EQ(result.status, 1) << result.output;
   EXPECT_NE(result.output.find("FAILED  rover.distance_m"), std::string::npos) << result.output;
 }
@@ -120,9 +138,9 @@ TEST(KilledRun, LeavesAReadableLogAndCanBeRendered) {
   ASSERT_GE(child, 0);
   if (child == 0) {
     // Long enough that it is still under way when the signal comes.
-    execl(binary.c_str(), "vinerow", "run", scenario_file("riseholme_rover").c_str(), "--quiet", "--no-pictures",
-          "--set", "duration_s=100000", "--set", "stop_when_finished=false", "--out", out.c_str(),
-          static_cast<char*>(nullptr));
+    execl(binary.c_str(), "vinerow", "run", scenario_file("riseholme_rover").c_str(), "--quiet",
+          "--no-pictures", "--set", "duration_s=100000", "--set", "stop_when_finished=false",
+          "--out", out.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
   // Two flushes of a second each after the log has begun.
@@ -145,7 +163,8 @@ TEST(KilledRun, LeavesAReadableLogAndCanBeRendered) {
   const auto info = run_vinerow("info " + log_file.string());
   EXPECT_EQ(info.status, 0) << info.output;
   EXPECT_NE(info.output.find("cut off"), std::string::npos) << info.output;
-  const auto render = run_vinerow("render " + log_file.string() + " --camera chase --time 1 --width 160 --height 90");
+  const auto render = run_vinerow("render " + log_file.string() +
+                                  " --camera chase --time 1 --width 160 --height 90");
   EXPECT_EQ(render.status, 0) << render.output;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "frames" / "chase_000001000.png"));
 }

@@ -1,4 +1,5 @@
-/// Every scenario in assets/scenarios loads, runs for a short while and stays sane; the demo is driven whole.
+/// Every scenario in assets/scenarios loads, runs for a short while and stays sane; the demo is
+/// driven whole.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,8 @@ using testing::TestRun;
 
 std::vector<std::string> shipped_scenarios() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(VINEROW_SOURCE_DIR) + "/assets/scenarios")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(VINEROW_SOURCE_DIR) + "/assets/scenarios")) {
     if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
   }
   std::sort(names.begin(), names.end());
@@ -43,8 +45,18 @@ TEST(RiseholmeRover, DrivesAllNineAlleysWithinItsLimits) {
   RecordProperty("cross_track_rms_m", std::to_string(run.metric("rover", "cross_track_rms_m")));
 }
 
+TEST(VineyardRover, DrivesTheHillsideOnRtkFixes) {
+  TestRun run = TestRun::from_file(test::scenario_file("vineyard_rover"));
+  run.run_to_end();
+  EXPECT_TRUE(run.finished());
+  EXPECT_EQ(run.metric("rover", "alleys_driven"), 15.0);
+  EXPECT_EQ(run.metric("rover", "contact_count"), 0.0);
+  EXPECT_LE(run.metric("rover", "cross_track_rms_m"), 0.08);
+}
+
 TEST(RiseholmeRover, DrivesOnRawRtkFixesWithoutAFilter) {
-  TestRun run = TestRun::from_file(test::scenario_file("riseholme_rover"), {"rover.estimator={type: gps_pose}"});
+  TestRun run = TestRun::from_file(test::scenario_file("riseholme_rover"),
+                                   {"rover.estimator={type: gps_pose}"});
   run.run_to_end();
   EXPECT_TRUE(run.finished());
   EXPECT_EQ(run.metric("rover", "contact_count"), 0.0);

@@ -25,18 +25,21 @@ TestRun::~TestRun() = default;
 TestRun::TestRun(TestRun&&) noexcept = default;
 TestRun& TestRun::operator=(TestRun&&) noexcept = default;
 
-TestRun TestRun::from_file(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+TestRun TestRun::from_file(const std::filesystem::path& file,
+                           const std::vector<std::string>& sets) {
   auto registry = built_in_registry();
   io::Overrides overrides;
   overrides.sets = sets;
   for (const auto& plugin : io::load_plugin_list(file, overrides)) load_plugin(plugin, *registry);
-  auto simulation = std::make_unique<Simulation>(io::load_scenario(file, *registry, overrides), *registry);
+  auto simulation =
+      std::make_unique<Simulation>(io::load_scenario(file, *registry, overrides), *registry);
   return TestRun(std::move(registry), std::move(simulation));
 }
 
 TestRun TestRun::from_yaml(const std::string& yaml, const std::filesystem::path& folder) {
   auto registry = built_in_registry();
-  auto simulation = std::make_unique<Simulation>(io::parse_scenario(yaml, folder, *registry), *registry);
+  auto simulation =
+      std::make_unique<Simulation>(io::parse_scenario(yaml, folder, *registry), *registry);
   return TestRun(std::move(registry), std::move(simulation));
 }
 
@@ -52,11 +55,21 @@ TestRun& TestRun::run_to_end() {
   return *this;
 }
 
-double TestRun::time_s() const { return simulation_->now().s(); }
-bool TestRun::finished() const { return simulation_->finished(); }
-const Odometry& TestRun::truth(const std::string& vehicle) const { return simulation_->truth(vehicle); }
-std::string TestRun::digest() const { return simulation_->digest(); }
-Simulation& TestRun::simulation() { return *simulation_; }
+double TestRun::time_s() const {
+  return simulation_->now().s();
+}
+bool TestRun::finished() const {
+  return simulation_->finished();
+}
+const Odometry& TestRun::truth(const std::string& vehicle) const {
+  return simulation_->truth(vehicle);
+}
+std::string TestRun::digest() const {
+  return simulation_->digest();
+}
+Simulation& TestRun::simulation() {
+  return *simulation_;
+}
 
 std::map<std::string, double> TestRun::metrics(const std::string& vehicle) const {
   static_cast<void>(truth(vehicle));  // says which vehicles there are
@@ -79,11 +92,14 @@ const T& TestRun::signal(const std::string& name) const {
   for (const auto& signal : simulation_->bus().signals()) known.push_back(signal->name());
   const SignalBase* signal = simulation_->bus().find(name);
   if (!signal) {
-    throw ConfigError(fmt::format("no signal '{}'{} (known: {})", name, did_you_mean(name, known), join(known)));
+    throw ConfigError(
+        fmt::format("no signal '{}'{} (known: {})", name, did_you_mean(name, known), join(known)));
   }
   const auto* typed = dynamic_cast<const Signal<T>*>(signal);
-  if (!typed) throw ConfigError(fmt::format("signal '{}' is {}, not {}", name, signal->type(), T::kType));
-  if (typed->sequence() == 0) throw ConfigError(fmt::format("signal '{}' has not been written yet", name));
+  if (!typed)
+    throw ConfigError(fmt::format("signal '{}' is {}, not {}", name, signal->type(), T::kType));
+  if (typed->sequence() == 0)
+    throw ConfigError(fmt::format("signal '{}' has not been written yet", name));
   return typed->value();
 }
 
@@ -126,13 +142,15 @@ struct SmallWorld::Impl {
       if (vehicle.name == name) return vehicle;
       known.push_back(vehicle.name);
     }
-    throw ConfigError(fmt::format("no vehicle '{}'; add it with vehicle(...) first (known: {})", name,
-                                  known.empty() ? "none" : join(known)));
+    throw ConfigError(fmt::format("no vehicle '{}'; add it with vehicle(...) first (known: {})",
+                                  name, known.empty() ? "none" : join(known)));
   }
 };
 
 SmallWorld::SmallWorld() : impl_(std::make_unique<Impl>()) {
-  world("vineyard", "row_count: 2, row_length_m: 20, relief_m: 0, waves_m: 0, leaf_cards_per_m: 10, plant_variants: 1");
+  world("vineyard",
+        "row_count: 2, row_length_m: 20, relief_m: 0, waves_m: 0, leaf_cards_per_m: 10, "
+        "plant_variants: 1");
 }
 SmallWorld::~SmallWorld() = default;
 SmallWorld::SmallWorld(SmallWorld&&) noexcept = default;
@@ -143,15 +161,17 @@ SmallWorld& SmallWorld::world(const std::string& type, const std::string& parame
   return *this;
 }
 
-SmallWorld& SmallWorld::vehicle(const std::string& name, const std::string& type, const std::string& parameters) {
+SmallWorld& SmallWorld::vehicle(const std::string& name, const std::string& type,
+                                const std::string& parameters) {
   impl_->vehicles.push_back({name, type, parameters, "", "", "", ""});
   return *this;
 }
 
-SmallWorld& SmallWorld::sensor(const std::string& vehicle, const std::string& name, const std::string& type,
-                               const std::string& parameters) {
+SmallWorld& SmallWorld::sensor(const std::string& vehicle, const std::string& name,
+                               const std::string& type, const std::string& parameters) {
   std::string& sensors = impl_->find(vehicle).sensors;
-  sensors += fmt::format("{}{}: {}", sensors.empty() ? "" : ", ", name, part_text(type, parameters));
+  sensors +=
+      fmt::format("{}{}: {}", sensors.empty() ? "" : ", ", name, part_text(type, parameters));
   return *this;
 }
 
@@ -161,7 +181,8 @@ SmallWorld& SmallWorld::estimator(const std::string& vehicle, const std::string&
   return *this;
 }
 
-SmallWorld& SmallWorld::planner(const std::string& vehicle, const std::string& type, const std::string& parameters) {
+SmallWorld& SmallWorld::planner(const std::string& vehicle, const std::string& type,
+                                const std::string& parameters) {
   impl_->find(vehicle).planner = part_text(type, parameters);
   return *this;
 }
@@ -173,7 +194,8 @@ SmallWorld& SmallWorld::controller(const std::string& vehicle, const std::string
 }
 
 SmallWorld& SmallWorld::controller(const std::string& vehicle, PartSpec spec,
-                                   PartFactory<Controller, ControllerContext> make, const std::string& parameters) {
+                                   PartFactory<Controller, ControllerContext> make,
+                                   const std::string& parameters) {
   impl_->find(vehicle).controller = part_text(spec.name, parameters);
   impl_->controllers.emplace_back(std::move(spec), std::move(make));
   return *this;
@@ -200,8 +222,9 @@ SmallWorld& SmallWorld::duration_s(double value) {
 }
 
 std::string SmallWorld::yaml() const {
-  std::string text = fmt::format("vinerow: 1\nname: small_world\nseed: {}\nduration_s: {}\nphysics: {{step_s: {}}}\n",
-                                 impl_->seed, impl_->duration_s, impl_->physics_step_s);
+  std::string text = fmt::format(
+      "vinerow: 1\nname: small_world\nseed: {}\nduration_s: {}\nphysics: {{step_s: {}}}\n",
+      impl_->seed, impl_->duration_s, impl_->physics_step_s);
   text += fmt::format("world: {}\nvehicles:\n", impl_->world);
   for (const VehicleText& vehicle : impl_->vehicles) {
     std::string inside = fmt::format("type: {}", vehicle.type);
@@ -223,8 +246,8 @@ TestRun SmallWorld::build() const {
   auto registry = built_in_registry();
   for (const auto& plugin : impl_->plugins) load_plugin(plugin, *registry);
   for (const auto& [spec, make] : impl_->controllers) registry->add_controller(spec, make);
-  auto simulation =
-      std::make_unique<Simulation>(io::parse_scenario(yaml(), std::filesystem::current_path(), *registry), *registry);
+  auto simulation = std::make_unique<Simulation>(
+      io::parse_scenario(yaml(), std::filesystem::current_path(), *registry), *registry);
   return TestRun(std::move(registry), std::move(simulation));
 }
 

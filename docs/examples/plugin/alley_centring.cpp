@@ -15,7 +15,8 @@ class AlleyCentring final : public vinerow::Controller {
     const vinerow::VehicleDescription& vehicle = *context.vehicle_description;
     wheel_radius_m_ = vehicle.number("wheel_radius_m", context.part);
     track_m_ = vehicle.number("track_m", context.part);
-    for (const vinerow::ActuatorSpec& actuator : vehicle.actuators) command_.names.push_back(actuator.name);
+    for (const vinerow::ActuatorSpec& actuator : vehicle.actuators)
+      command_.names.push_back(actuator.name);
     command_.values.assign(command_.names.size(), 0.0);
   }
 
@@ -37,7 +38,8 @@ class AlleyCentring final : public vinerow::Controller {
       yaw_rate_radps = std::clamp(-gain_ * offset_m_ - damping_ * rate_mps, -0.5, 0.5);
     }
     for (std::size_t i = 0; i < command_.names.size(); ++i) {
-      const bool left_wheel = command_.names[i].find("wheel_fl") == 0 || command_.names[i].find("wheel_rl") == 0;
+      const bool left_wheel =
+          command_.names[i].find("wheel_fl") == 0 || command_.names[i].find("wheel_rl") == 0;
       const double side = left_wheel ? -0.5 : 0.5;
       command_.values[i] = (speed_mps_ + side * track_m_ * yaw_rate_radps) / wheel_radius_m_;
     }
@@ -61,15 +63,17 @@ vinerow::PartSpec alley_centring_spec() {
   spec.name = "alley_centring";
   spec.description = "Keeps the middle of an alley by two ultrasonic rangers";
   spec.default_rate_Hz = 20.0;
-  spec.parameters = {vinerow::positive_parameter("speed_mps", "m/s", 0.8, "forward speed"),
-                     vinerow::positive_parameter("gain_radps_per_m", "rad/s/m", 0.8, "turn per offset"),
-                     vinerow::positive_parameter("damping_rad_per_m", "rad/m", 1.5, "turn per speed of the offset")};
+  spec.parameters = {
+      vinerow::positive_parameter("speed_mps", "m/s", 0.8, "forward speed"),
+      vinerow::positive_parameter("gain_radps_per_m", "rad/s/m", 0.8, "turn per offset"),
+      vinerow::positive_parameter("damping_rad_per_m", "rad/m", 1.5,
+                                  "turn per speed of the offset")};
   spec.reads = {"sonar_left", "sonar_right"};
   spec.writes = {"actuators"};
   return spec;
 }
 
-std::unique_ptr<vinerow::Controller> make_alley_centring(const vinerow::ParameterSet& parameters,
-                                                         const vinerow::ControllerContext& context) {
+std::unique_ptr<vinerow::Controller> make_alley_centring(
+    const vinerow::ParameterSet& parameters, const vinerow::ControllerContext& context) {
   return std::make_unique<AlleyCentring>(parameters, context);
 }

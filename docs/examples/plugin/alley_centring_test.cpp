@@ -10,7 +10,8 @@ namespace {
 vinerow::testing::SmallWorld alley() {
   return std::move(vinerow::testing::SmallWorld()
                        .vehicle("rover", "diff_drive_rover", "spawn: {alley: 0, offset_m: -2.0}")
-                       .sensor("rover", "sonar_left", "ultrasound", "position_m: [0, 0.4, 0.5], rotation_deg: [0, 0, 90]")
+                       .sensor("rover", "sonar_left", "ultrasound",
+                               "position_m: [0, 0.4, 0.5], rotation_deg: [0, 0, 90]")
                        .sensor("rover", "sonar_right", "ultrasound",
                                "position_m: [0, -0.4, 0.5], rotation_deg: [0, 0, -90]"));
 }
@@ -27,13 +28,19 @@ TEST(AlleyCentring, KeepsTheMiddleWithoutTouchingAVine) {
 
 TEST(AlleyCentring, SameRunSameBits) {
   const auto digest = [] {
-    return alley().controller("rover", alley_centring_spec(), make_alley_centring).build().run_for_s(3.0).digest();
+    return alley()
+        .controller("rover", alley_centring_spec(), make_alley_centring)
+        .build()
+        .run_for_s(3.0)
+        .digest();
   };
   EXPECT_EQ(digest(), digest());
 }
 
 TEST(AlleyCentring, WrongParametersAreRefused) {
-  EXPECT_THROW(alley().controller("rover", alley_centring_spec(), make_alley_centring, "speed_mps: -1").build(),
+  EXPECT_THROW(alley()
+                   .controller("rover", alley_centring_spec(), make_alley_centring, "speed_mps: -1")
+                   .build(),
                std::runtime_error);
 }
 

@@ -4,7 +4,9 @@
 
 namespace {
 
-void register_parts(vinerow::Registry& registry) { registry.add_controller(alley_centring_spec(), make_alley_centring); }
+void register_parts(vinerow::Registry& registry) {
+  registry.add_controller(alley_centring_spec(), make_alley_centring);
+}
 
 }  // namespace
 

@@ -8,7 +8,8 @@
 namespace vinerow {
 namespace {
 
-io::Criterion criterion(const std::string& metric, std::optional<double> min, std::optional<double> max) {
+io::Criterion criterion(const std::string& metric, std::optional<double> min,
+                        std::optional<double> max) {
   io::Criterion result;
   result.name = result.metric = metric;
   result.min = min;
@@ -17,9 +18,11 @@ io::Criterion criterion(const std::string& metric, std::optional<double> min, st
 }
 
 TEST(Judge, LimitsAreInclusiveAndWhatWasNotMeasuredFails) {
-  const std::map<std::string, std::map<std::string, double>> metrics{{"rover", {{"a_m", 1.0}, {"b", std::nan("")}}}};
-  const auto verdicts =
-      judge({criterion("rover.a_m", {}, 1.0), criterion("rover.a_m", 1.5, {}), criterion("rover.b", {}, 1e9)}, metrics);
+  const std::map<std::string, std::map<std::string, double>> metrics{
+      {"rover", {{"a_m", 1.0}, {"b", std::nan("")}}}};
+  const auto verdicts = judge({criterion("rover.a_m", {}, 1.0), criterion("rover.a_m", 1.5, {}),
+                               criterion("rover.b", {}, 1e9)},
+                              metrics);
   ASSERT_EQ(verdicts.size(), 3u);
   EXPECT_TRUE(verdicts[0].met);
   EXPECT_FALSE(verdicts[1].met);

@@ -12,7 +12,8 @@ TEST(Scheduler, AnHourHoldsExactlyTheSamplesOfEachRate) {
   std::int64_t counts[3] = {0, 0, 0};
   const double rates_Hz[3] = {5.0, 20.0, 100.0};
   for (int i = 0; i < 3; ++i) {
-    scheduler.add(Stage::kSense, "s", period_of_rate(rates_Hz[i]), {}, [&counts, i](Time) { ++counts[i]; });
+    scheduler.add(Stage::kSense, "s", period_of_rate(rates_Hz[i]), {},
+                  [&counts, i](Time) { ++counts[i]; });
   }
   // [0, 3600) s in steps of 1 ms.
   for (std::int64_t k = 0; k < 3'600'000; ++k) scheduler.run_due(Time{k * 1'000'000});
@@ -25,10 +26,13 @@ TEST(Scheduler, InsideAnInstantStagesKeepTheirOrderWhateverTheOrderOfAdding) {
   Scheduler scheduler(Duration{10});
   std::string order;
   const auto add = [&](Stage stage, char letter) {
-    scheduler.add(stage, std::string(1, letter), Duration{10}, {}, [&order, letter](Time) { order += letter; });
+    scheduler.add(stage, std::string(1, letter), Duration{10}, {},
+                  [&order, letter](Time) { order += letter; });
   };
-  add(Stage::kJudge, 'j'), add(Stage::kControl, 'c'), add(Stage::kSense, 's'), add(Stage::kActuate, 'a');
-  add(Stage::kEstimate, 'e'), add(Stage::kSense, 't'), add(Stage::kGuide, 'g'), add(Stage::kPlan, 'p');
+  add(Stage::kJudge, 'j'), add(Stage::kControl, 'c'), add(Stage::kSense, 's'),
+      add(Stage::kActuate, 'a');
+  add(Stage::kEstimate, 'e'), add(Stage::kSense, 't'), add(Stage::kGuide, 'g'),
+      add(Stage::kPlan, 'p');
   scheduler.run_due(Time{0});
   EXPECT_EQ(order, "stepgcaj");
 }
@@ -36,7 +40,8 @@ TEST(Scheduler, InsideAnInstantStagesKeepTheirOrderWhateverTheOrderOfAdding) {
 TEST(Scheduler, AnOffsetDelaysTheFirstTick) {
   Scheduler scheduler(Duration{10});
   std::vector<std::int64_t> ticks;
-  scheduler.add(Stage::kSense, "s", Duration{30}, Duration{20}, [&](Time t) { ticks.push_back(t.ns); });
+  scheduler.add(Stage::kSense, "s", Duration{30}, Duration{20},
+                [&](Time t) { ticks.push_back(t.ns); });
   for (int k = 0; k < 10; ++k) scheduler.run_due(Time{k * 10});
   EXPECT_EQ(ticks, (std::vector<std::int64_t>{20, 50, 80}));
 }
@@ -48,9 +53,11 @@ TEST(Scheduler, PeriodsThatTheStepDoesNotDivideAreRefusedWithBothNumbers) {
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
-                 "rover.sensors.camera: its period of 0.033333333 s is not a multiple of the physics step of 0.001 s");
+                 "rover.sensors.camera: its period of 0.033333333 s is not a multiple of the "
+                 "physics step of 0.001 s");
   }
-  EXPECT_THROW(scheduler.add(Stage::kSense, "s", Duration{2'000'000}, Duration{1}, [](Time) {}), ConfigError);
+  EXPECT_THROW(scheduler.add(Stage::kSense, "s", Duration{2'000'000}, Duration{1}, [](Time) {}),
+               ConfigError);
 }
 
 }  // namespace

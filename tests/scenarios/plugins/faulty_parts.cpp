@@ -1,5 +1,5 @@
-/// Controllers that misbehave, for tests of what the kernel then does: one throws, one writes NaN, one writes for
-/// an actuator that the vehicle does not have. Each is well until t = 0.5 s.
+/// Controllers that misbehave, for tests of what the kernel then does: one throws, one writes NaN,
+/// one writes for an actuator that the vehicle does not have. Each is well until t = 0.5 s.
 
 #include <cmath>
 #include <stdexcept>
@@ -13,7 +13,8 @@ using namespace vinerow;
 class Faulty final : public Controller {
  public:
   Faulty(std::string fault, const ControllerContext& context) : fault_(std::move(fault)) {
-    for (const ActuatorSpec& actuator : context.vehicle_description->actuators) command_.names.push_back(actuator.name);
+    for (const ActuatorSpec& actuator : context.vehicle_description->actuators)
+      command_.names.push_back(actuator.name);
     command_.values.assign(command_.names.size(), 1.0);
   }
   void connect(Ports& ports) override { actuators_ = ports.write<NamedValues>("actuators"); }

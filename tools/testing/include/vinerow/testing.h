@@ -1,5 +1,6 @@
 #pragma once
-/// Test a controller against physics: build a tiny world, put a vehicle and a controller in it, step, assert.
+/// Test a controller against physics: build a tiny world, put a vehicle and a controller in it,
+/// step, assert.
 ///
 ///   TEST(MyController, FollowsARow) {
 ///     vinerow::testing::TestRun run = vinerow::testing::SmallWorld()
@@ -12,8 +13,8 @@
 ///   }
 ///
 /// Part parameters are given as the inside of a YAML mapping, with the keys of scenario files:
-/// "lookahead_m: 0.5, rate_Hz: 20". Everything is checked as in a file: a ConfigError says what is wrong.
-/// No files are written. Needs no GoogleTest.
+/// "lookahead_m: 0.5, rate_Hz: 20". Everything is checked as in a file: a ConfigError says what is
+/// wrong. No files are written. Needs no GoogleTest.
 
 #include <filesystem>
 #include <map>
@@ -32,8 +33,10 @@ namespace vinerow::testing {
 /// A run in memory that a test steps and asks.
 class TestRun {
  public:
-  /// A scenario file. @param sets  overrides as on the command line, "rover.controller.lookahead_m=0.5"
-  static TestRun from_file(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
+  /// A scenario file. @param sets  overrides as on the command line,
+  /// "rover.controller.lookahead_m=0.5"
+  static TestRun from_file(const std::filesystem::path& file,
+                           const std::vector<std::string>& sets = {});
   /// A scenario text. @param folder  where its relative paths start
   static TestRun from_yaml(const std::string& yaml, const std::filesystem::path& folder = ".");
   ~TestRun();
@@ -67,8 +70,8 @@ class TestRun {
   std::unique_ptr<Simulation> simulation_;
 };
 
-/// Builds a TestRun: by default a flat block of two 20 m rows, 2.5 m apart, with one alley between them, and a
-/// physics step of 1 ms. Every call returns the builder.
+/// Builds a TestRun: by default a flat block of two 20 m rows, 2.5 m apart, with one alley between
+/// them, and a physics step of 1 ms. Every call returns the builder.
 class SmallWorld {
  public:
   SmallWorld();
@@ -78,16 +81,22 @@ class SmallWorld {
 
   /// Another world. @param parameters  inside of a YAML mapping
   SmallWorld& world(const std::string& type, const std::string& parameters = "");
-  /// @param parameters  of the vehicle; spawn is `alley: 0` unless given as "spawn: {...}" among them
-  SmallWorld& vehicle(const std::string& name, const std::string& type, const std::string& parameters = "");
+  /// @param parameters  of the vehicle; spawn is `alley: 0` unless given as "spawn: {...}" among
+  /// them
+  SmallWorld& vehicle(const std::string& name, const std::string& type,
+                      const std::string& parameters = "");
   SmallWorld& sensor(const std::string& vehicle, const std::string& name, const std::string& type,
                      const std::string& parameters = "");
-  SmallWorld& estimator(const std::string& vehicle, const std::string& type, const std::string& parameters = "");
-  SmallWorld& planner(const std::string& vehicle, const std::string& type, const std::string& parameters = "");
-  SmallWorld& controller(const std::string& vehicle, const std::string& type, const std::string& parameters = "");
+  SmallWorld& estimator(const std::string& vehicle, const std::string& type,
+                        const std::string& parameters = "");
+  SmallWorld& planner(const std::string& vehicle, const std::string& type,
+                      const std::string& parameters = "");
+  SmallWorld& controller(const std::string& vehicle, const std::string& type,
+                         const std::string& parameters = "");
   /// A controller class of your own, without a plug-in.
   SmallWorld& controller(const std::string& vehicle, PartSpec spec,
-                         PartFactory<Controller, ControllerContext> make, const std::string& parameters = "");
+                         PartFactory<Controller, ControllerContext> make,
+                         const std::string& parameters = "");
   /// Parts of a plug-in, by its file.
   SmallWorld& plugin(const std::filesystem::path& file);
   SmallWorld& seed(std::uint64_t seed);

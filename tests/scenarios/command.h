@@ -16,10 +16,11 @@ struct CommandResult {
   std::string output;  ///< stdout and stderr
 };
 
-inline CommandResult run_vinerow(const std::string& arguments) {
+/// @param environment  variables before the command, "NAME=value"
+inline CommandResult run_vinerow(const std::string& arguments, const std::string& environment = "") {
   CommandResult result;
   const std::string command =
-      std::string(VINEROW_BINARY_DIR) + "/bin/vinerow " + arguments + " 2>&1";
+      environment + " " + std::string(VINEROW_BINARY_DIR) + "/bin/vinerow " + arguments + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 4096> buffer;
   while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {

@@ -130,6 +130,18 @@ TEST(ExitStatus, AFailedCriterionGivesOne) {
   EXPECT_NE(result.output.find("FAILED  rover.distance_m"), std::string::npos) << result.output;
 }
 
+TEST(NoRenderer, AMachineWithoutTheLibraryStillSimulates) {
+  const ScratchFolder folder("no_renderer");
+  const auto result =
+      run_vinerow("run " + scenario_file("riseholme_rover") +
+                      " --quiet --set duration_s=1 --set criteria=[] --out " + folder.path().string(),
+                  "VINEROW_OSMESA=/nowhere/libOSMesa.so");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find("pictures none: /nowhere/libOSMesa.so cannot be loaded"),
+            std::string::npos)
+      << result.output;
+}
+
 TEST(KilledRun, LeavesAReadableLogAndCanBeRendered) {
   const ScratchFolder folder("killed");
   const std::string binary = std::string(VINEROW_BINARY_DIR) + "/bin/vinerow";

@@ -108,15 +108,19 @@ void SignalBus::set_reader(SignalBase& signal, const std::string& reader) {
 }
 
 void SignalBus::check_connected() const {
-  std::vector<std::string> written;
-  for (const auto& signal : signals_) {
-    if (!signal->writer().empty()) written.push_back(signal->name());
-  }
   for (const auto& signal : signals_) {
     if (!signal->writer().empty() || signal->first_reader().empty()) continue;
-    throw ConfigError(fmt::format("{} reads signal '{}', which nobody writes{} (written: {})",
-                                  signal->first_reader(), signal->name(),
-                                  did_you_mean(signal->name(), written), join(written)));
+    // Only names of the same vehicle can be meant, and only their last part can be mistyped.
+    const std::size_t slash = signal->name().find('/') + 1;
+    const std::string scope = signal->name().substr(0, slash);
+    std::vector<std::string> written;
+    for (const auto& other : signals_) {
+      const bool is_meant = !other->writer().empty() && other->name().starts_with(scope);
+      if (is_meant) written.push_back(other->name().substr(slash));
+    }
+    throw ConfigError(fmt::format(
+        "{} reads signal '{}', which nobody writes{} (written in '{}': {})", signal->first_reader(),
+        signal->name(), did_you_mean(signal->name().substr(slash), written), scope, join(written)));
   }
 }
 

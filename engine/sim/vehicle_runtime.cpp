@@ -209,6 +209,12 @@ void VehicleRuntime::add_controller() {
       run_.registry.make_controller(config_.controller->type, config_.controller->parameters,
                                     controller_context_of(part, control_rate_Hz()));
   add_stepped(Stage::kControl, part, config_.controller->type, control_rate_Hz(), *controller_);
+  const SignalBase* plan = run_.bus.find(config_.name + "/plan");
+  if (!planner_ && plan && plan->first_reader() == part) {
+    throw ConfigError(fmt::format("{}: {}: '{}' follows a plan, but the vehicle has no planner",
+                                  config_.controller->where.text(), part,
+                                  config_.controller->type));
+  }
   Ports ports(run_.bus, config_.name, config_.name);
   actuators_ = ports.read<NamedValues>("actuators");
   actuator_values_.assign(vehicle_->description().actuators.size(), 0.0);

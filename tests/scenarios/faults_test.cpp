@@ -54,6 +54,17 @@ TEST(BadInput, EachIsAnsweredByOneSentence) {
   expect_refused("run " + scenario_file("no_such_file"), {"no_such_file.yaml"});
 }
 
+TEST(BadInput, AFollowerWithoutAPlannerIsTold) {
+  const ScratchFolder folder("no_planner");
+  expect_refused(
+      "run " +
+          folder.file("s.yaml",
+                      "vinerow: 1\nname: s\nduration_s: 1\nworld: {type: vineyard, row_count: 2, "
+                      "row_length_m: 10}\nvehicles:\n  rover: {type: diff_drive_rover, spawn: "
+                      "{alley: 0}, controller: {type: path_follower}}\n"),
+      {"s.yaml:6", "'path_follower' follows a plan, but the vehicle has no planner"});
+}
+
 TEST(BadInput, CyclicIncludesAreNamed) {
   const ScratchFolder folder("cyclic");
   folder.file("a.yaml", "vinerow: 1\ninclude: b.yaml\n");
@@ -132,10 +143,10 @@ TEST(ExitStatus, AFailedCriterionGivesOne) {
 
 TEST(NoRenderer, AMachineWithoutTheLibraryStillSimulates) {
   const ScratchFolder folder("no_renderer");
-  const auto result =
-      run_vinerow("run " + scenario_file("riseholme_rover") +
-                      " --quiet --set duration_s=1 --set criteria=[] --out " + folder.path().string(),
-                  "VINEROW_OSMESA=/nowhere/libOSMesa.so");
+  const auto result = run_vinerow("run " + scenario_file("riseholme_rover") +
+                                      " --quiet --set duration_s=1 --set criteria=[] --out " +
+                                      folder.path().string(),
+                                  "VINEROW_OSMESA=/nowhere/libOSMesa.so");
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_NE(result.output.find("pictures none: /nowhere/libOSMesa.so cannot be loaded"),
             std::string::npos)

@@ -47,8 +47,7 @@ TEST(Signal, WrongWiresAreRefused) {
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
                  "rover.controller reads signal 'rover/trut', which nobody writes; did you mean "
-                 "'rover/truth'? "
-                 "(written: rover/truth)");
+                 "'truth'? (written in 'rover/': truth)");
   }
 }
 

@@ -103,6 +103,9 @@ void step_to_end(Simulation& simulation, const RunOptions& options, Clock::time_
   double told_s = -1.0;
   while (!simulation.over()) {
     simulation.run_until(simulation.now() + kSlice);
+    if (options.interrupted && options.interrupted()) {
+      throw SimulationError("run", simulation.now(), "interrupted by the user");
+    }
     const double wall_s = seconds_since(start);
     if (options.progress && (wall_s - told_s > 0.2 || simulation.over())) {
       told_s = wall_s;

@@ -36,6 +36,7 @@ struct RunOptions {
   bool pictures = true;
   bool measure_cost = true;                       ///< computing time of each stage in summary.json
   std::function<void(const Progress&)> progress;  ///< called about five times a second of wall time
+  std::function<bool()> interrupted;  ///< asked every simulated quarter second; true ends the run
 };
 
 struct RunResult {

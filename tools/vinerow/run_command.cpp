@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 
 #include "engine/sim/run.h"
@@ -8,6 +9,15 @@
 
 namespace vinerow::tools {
 namespace {
+
+/// Set by Ctrl-C, so that log and summary are closed properly; a second Ctrl-C ends the program at
+/// once.
+volatile std::sig_atomic_t interrupt_seen = 0;
+
+void note_interrupt(int) {
+  interrupt_seen = 1;
+  std::signal(SIGINT, SIG_DFL);
+}
 
 /// A bar that redraws itself on a terminal; a line per 10 % elsewhere.
 class ProgressLine {
@@ -91,6 +101,8 @@ void add_run_command(CLI::App& app, int& exit_status) {
     options.pictures = !arguments->no_pictures;
     ProgressLine line(arguments->quiet);
     options.progress = [&line](const Progress& progress) { line.show(progress); };
+    std::signal(SIGINT, note_interrupt);
+    options.interrupted = [] { return interrupt_seen != 0; };
     const RunResult result = run_scenario(scenario, registry, options);
     line.end();
     print_result(result, options.out, options.log && scenario.record.enabled);

@@ -131,6 +131,12 @@ TEST(Plugins, NanEndsTheRunWithItsCulprit) {
   expect_broken_off("writes_nan", "wrote NaN into signal 'rover/actuators'");
 }
 
+TEST(CommandLine, OptionsThatRepeatTakeOneValueEach) {
+  const auto result = run_vinerow("validate --files-only --set seed=3 --set duration_s=2 " +
+                                  scenario_file("riseholme_rover"));
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
 TEST(ExitStatus, AFailedCriterionGivesOne) {
   const ScratchFolder folder("criterion");
   const auto result = run_vinerow("run " + scenario_file("riseholme_rover") +

@@ -62,7 +62,8 @@ void add_list_command(CLI::App& app, int& exit_status) {
       app.add_subcommand("list", "list the parts a scenario can name, with their parameters");
   command->add_option("part", arguments->part,
                       "only this kind (world, sensor, ...) or this part (pure_pursuit)");
-  command->add_option("--plugin", arguments->plugins, "include the parts of a plug-in");
+  command->add_option("--plugin", arguments->plugins, "include the parts of a plug-in")
+      ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {
     const Registry registry = make_registry(arguments->plugins);
     std::vector<std::string> known;

@@ -21,16 +21,20 @@ void add_render_command(CLI::App& app, int& exit_status) {
   command->add_option("log", arguments->log, "log.mcap of a run, complete or cut off")->required();
   command->add_option("--out", arguments->out,
                       "folder for the frames (default: frames beside the log)");
-  command->add_option("--camera", arguments->options.cameras,
-                      "only this camera (may be given several times)");
-  command->add_option("--time", arguments->times_s,
-                      "a frame at this simulated time, s (several times)");
+  command
+      ->add_option("--camera", arguments->options.cameras,
+                   "only this camera (may be given several times)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--time", arguments->times_s,
+                   "a frame at this simulated time, s (several times)")
+      ->allow_extra_args(false);
   command->add_option("--every", arguments->every_s, "a frame every so many simulated seconds")
       ->check(CLI::PositiveNumber);
   command->add_option("--width", arguments->width, "pixels")->check(CLI::Range(16, 8192));
   command->add_option("--height", arguments->height, "pixels")->check(CLI::Range(16, 8192));
-  command->add_option("--plugin", arguments->plugins,
-                      "load a plug-in that brought the run's parts");
+  command->add_option("--plugin", arguments->plugins, "load a plug-in that brought the run's parts")
+      ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {
     const Registry registry = make_registry(arguments->plugins);
     if (!arguments->times_s.empty()) arguments->options.times_s = arguments->times_s;

@@ -10,8 +10,9 @@ void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments) {
       "--set", arguments.overrides.sets,
       "override a value, e.g. --set rover.controller.lookahead_m=0.5 (may be given several times)");
   command.add_option("--seed", arguments.overrides.seed, "seed of all random streams");
-  command.add_option("--plugin", arguments.plugins,
-                     "load a plug-in beside those the scenario names");
+  command
+      .add_option("--plugin", arguments.plugins, "load a plug-in beside those the scenario names")
+      ->allow_extra_args(false);
 }
 
 Registry make_registry(const std::vector<std::filesystem::path>& plugins) {
@@ -23,7 +24,8 @@ Registry make_registry(const std::vector<std::filesystem::path>& plugins) {
 
 io::Scenario load(const ScenarioArguments& arguments, Registry& registry) {
   registry = make_registry(arguments.plugins);
-  for (const auto& plugin : io::load_plugin_list(arguments.file, arguments.overrides)) load_plugin(plugin, registry);
+  for (const auto& plugin : io::load_plugin_list(arguments.file, arguments.overrides))
+    load_plugin(plugin, registry);
   return io::load_scenario(arguments.file, registry, arguments.overrides);
 }
 

@@ -45,6 +45,17 @@ TEST(RiseholmeRover, DrivesAllNineAlleysWithinItsLimits) {
   RecordProperty("cross_track_rms_m", std::to_string(run.metric("rover", "cross_track_rms_m")));
 }
 
+TEST(Readme, ItsScenarioDrivesToTheEndWithinItsLimit) {
+  const std::string page = test::read_text(std::string(VINEROW_SOURCE_DIR) + "/README.md");
+  const std::string fence = "```yaml\n";
+  const std::size_t begin = page.find(fence) + fence.size();
+  TestRun run = TestRun::from_yaml(page.substr(begin, page.find("```", begin) - begin));
+  run.run_to_end();
+  EXPECT_TRUE(run.finished());
+  EXPECT_EQ(run.metric("rover", "contact_count"), 0.0);
+  EXPECT_LE(run.metric("rover", "cross_track_rms_m"), 0.05);
+}
+
 TEST(VineyardRover, DrivesTheHillsideOnRtkFixes) {
   TestRun run = TestRun::from_file(test::scenario_file("vineyard_rover"));
   run.run_to_end();

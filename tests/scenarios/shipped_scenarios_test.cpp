@@ -56,6 +56,18 @@ TEST(Readme, ItsScenarioDrivesToTheEndWithinItsLimit) {
   EXPECT_LE(run.metric("rover", "cross_track_rms_m"), 0.05);
 }
 
+/// The listing of docs/plugins.md.
+TEST(TestKit, ItsListingPasses) {
+  auto run = testing::SmallWorld()
+                 .vehicle("rover", "diff_drive_rover")
+                 .planner("rover", "coverage")
+                 .controller("rover", "pure_pursuit", "lookahead_m: 0.5")
+                 .build();
+  run.run_for_s(20.0);
+  EXPECT_GT(run.metric("rover", "distance_m"), 5.0);
+  EXPECT_LT(run.metric("rover", "cross_track_max_m"), 0.2);
+}
+
 TEST(VineyardRover, DrivesTheHillsideOnRtkFixes) {
   TestRun run = TestRun::from_file(test::scenario_file("vineyard_rover"));
   run.run_to_end();

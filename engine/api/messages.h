@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/map.h"
 #include "engine/math/pose.h"
 
 namespace vinerow {
@@ -85,6 +86,39 @@ struct VelocityCommand {
   template <class F>
   void fields(F&& f) {
     f(v_mps), f(yaw_rate_radps);
+  }
+};
+
+/// What a local planner wants of a vehicle with two steered axles. ROS 2:
+/// vinerow_msgs/msg/LocalCommand.
+struct LocalCommand {
+  static constexpr const char* kType = "LocalCommand";
+  enum class Mode : std::uint8_t {
+    kFollow = 0,  ///< follow the plan, not faster than v_mps
+    kDrive = 1,   ///< drive with these axle angles at v_mps (negative: backwards)
+    kStop = 2     ///< stand still until told otherwise
+  };
+  Mode mode = Mode::kStop;
+  double v_mps = 0.0;
+  double front_axle_rad = 0.0;  ///< positive to the left
+  double rear_axle_rad = 0.0;
+  double clearance_m = 0.0;  ///< least distance to anything known on the way chosen, m
+
+  template <class F>
+  void fields(F&& f) {
+    f(mode), f(v_mps), f(front_axle_rad), f(rear_axle_rad), f(clearance_m);
+  }
+};
+
+/// Straight pieces in W, two points each: a planner's tree. ROS 2: visualization_msgs/msg/Marker
+/// (LINE_LIST).
+struct LineList {
+  static constexpr const char* kType = "LineList";
+  std::vector<Eigen::Vector3d> points_W;  ///< an even number
+
+  template <class F>
+  void fields(F&& f) {
+    for (Eigen::Vector3d& p : points_W) f(p);
   }
 };
 
@@ -197,6 +231,9 @@ void for_each_message_type(F&& f) {
   f(static_cast<GnssFix*>(nullptr));
   f(static_cast<RangeSample*>(nullptr));
   f(static_cast<VelocityCommand*>(nullptr));
+  f(static_cast<LocalCommand*>(nullptr));
+  f(static_cast<LineList*>(nullptr));
+  f(static_cast<OccupancyGrid*>(nullptr));
   f(static_cast<NamedValues*>(nullptr));
   f(static_cast<LinkPoses*>(nullptr));
   f(static_cast<PlannedPath*>(nullptr));

@@ -27,6 +27,10 @@ struct HashField {
     hasher.add(static_cast<std::uint64_t>(values.size()));
     hasher.add_bytes(values.data(), values.size() * sizeof(double));
   }
+  void operator()(const std::vector<std::uint8_t>& bytes) {
+    hasher.add(static_cast<std::uint64_t>(bytes.size()));
+    hasher.add_bytes(bytes.data(), bytes.size());
+  }
   void operator()(const std::vector<std::string>& texts) {
     hasher.add(static_cast<std::uint64_t>(texts.size()));
     for (const std::string& text : texts) hasher.add(std::string_view(text));
@@ -50,6 +54,7 @@ struct NanField {
   void operator()(const std::vector<double>& values) {
     for (const double value : values) found = found || std::isnan(value);
   }
+  void operator()(const std::vector<std::uint8_t>&) {}
   void operator()(const std::vector<std::string>&) {}
 };
 
@@ -74,6 +79,9 @@ template class Signal<ImuSample>;
 template class Signal<GnssFix>;
 template class Signal<RangeSample>;
 template class Signal<VelocityCommand>;
+template class Signal<LocalCommand>;
+template class Signal<LineList>;
+template class Signal<OccupancyGrid>;
 template class Signal<NamedValues>;
 template class Signal<LinkPoses>;
 template class Signal<PlannedPath>;

@@ -4,12 +4,16 @@
 ///
 /// Order inside an instant: sensors, estimators, planners and guidance, controllers, actuators,
 /// physics, metrics. Local signal names (see Ports): "truth" (kernel), "<sensor name>" (sensors),
-/// "estimate" (estimator), "plan" (planner), "command" VelocityCommand or "actuators" NamedValues
-/// (controller), "follower" (controller).
+/// "estimate" (estimator), "plan" and "plan_tree" (planner), "local_command" (guidance), "command"
+/// VelocityCommand or "actuators" NamedValues (controller), "follower" (controller). A part tells
+/// people what happened by writing an Event of its own, "<part>_event"; the kernel passes it on to
+/// "run/events".
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/api/map.h"
 #include "engine/api/part.h"
@@ -22,14 +26,24 @@ namespace vinerow {
 
 /// Measures. Reads "truth" and the scene, writes its own name.
 ///
-/// A sensor with a delay measures in step() and hands the reading over in deliver(), which the kernel calls
-/// `delay()` later, once per step() and in the same order. The signal's stamp is the time of the measurement.
+/// A sensor with a delay measures in step() and hands the reading over in deliver(), which the
+/// kernel calls `delay()` later, once per step() and in the same order. The signal's stamp is the
+/// time of the measurement.
 class Sensor : public SteppedPart {
  public:
   /// Time between measurement and delivery, a multiple of the physics step; constant.
   virtual Duration delay() const { return {}; }
   /// Only called where delay() > 0.
   virtual void deliver(Time /*now*/) {}
+  /// Where it sits and looks (x of S), if that means anything.
+  virtual std::optional<Pose> mounting_X_BS() const { return std::nullopt; }
+};
+
+/// A sensor as guidance and controllers are told of it: a data sheet, not a truth.
+struct SensorMounting {
+  std::string name;  ///< of the sensor and its signal
+  std::string type;
+  Pose X_BS;
 };
 
 /// What a sensor needs beside PartContext.
@@ -48,6 +62,14 @@ struct EstimatorContext : PartContext {
   const RowMap* map = nullptr;
 };
 
+/// What a planner tells about its work beside the path.
+struct PlanReport {
+  /// "nodes", "iterations", "length_m", "clearance_m" and what else it counts; goes into
+  /// summary.json.
+  std::map<std::string, double> numbers;
+  LineList tree;  ///< what was searched, on the ground; may be empty
+};
+
 /// Makes a path from a map when its mission phase starts. Stops on iterations, never on seconds.
 class Planner {
  public:
@@ -55,6 +77,8 @@ class Planner {
   /// @param start  pose of the vehicle (from its estimate)
   /// @returns the path, or the reason why there is none
   virtual Result<PlannedPath> plan(const Pose& start) = 0;
+  /// About the last plan(), also a failed one. @returns nullptr if it keeps no report
+  virtual const PlanReport* report() const { return nullptr; }
 };
 
 struct PlannerContext : PartContext {
@@ -78,6 +102,7 @@ class Controller : public SteppedPart {
 struct ControllerContext : PartContext {
   const VehicleDescription* vehicle_description = nullptr;
   const RowMap* map = nullptr;
+  std::vector<SensorMounting> sensors;  ///< those with a mounting, in the file's order
 };
 
 /// Judges a run. Reads signals (truth and plan), never writes any.

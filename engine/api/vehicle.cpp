@@ -28,4 +28,13 @@ int VehicleDescription::actuator_index(const std::string& name, const std::strin
                   who, name, type, did_you_mean(name, known), join(known)));
 }
 
+std::vector<Eigen::Vector2d> VehicleDescription::outline_B() const {
+  if (!footprint_B.empty()) return footprint_B;
+  const Eigen::Vector2d c = collision_centre_B.head<2>(), h = collision_half_extents_m.head<2>();
+  return {{c.x() - h.x(), c.y() - h.y()},
+          {c.x() + h.x(), c.y() - h.y()},
+          {c.x() + h.x(), c.y() + h.y()},
+          {c.x() - h.x(), c.y() + h.y()}};
+}
+
 }  // namespace vinerow

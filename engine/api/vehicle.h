@@ -34,6 +34,9 @@ struct VehicleDescription {
   double mass_kg = 0.0;
   Eigen::Vector3d collision_centre_B = Eigen::Vector3d::Zero();  ///< of the box around the hull, m
   Eigen::Vector3d collision_half_extents_m = {0.5, 0.5, 0.5};
+  /// Outline seen from above, wheels included: convex, counter-clockwise, in B's plane, m. Empty:
+  /// the collision box.
+  std::vector<Eigen::Vector2d> footprint_B;
   double height_above_ground_m = 0.0;  ///< of B's origin when standing on level ground
   /// Further numbers by name with unit suffix: "track_m", "wheel_radius_m", "max_speed_mps",
   /// "min_turning_radius_m".
@@ -41,6 +44,8 @@ struct VehicleDescription {
 
   /// @throws ConfigError "vehicle type 'x' does not tell 'track_m', which rover.controller needs"
   double number(const std::string& name, const std::string& who) const;
+  /// The footprint; the collision box's where none is given.
+  std::vector<Eigen::Vector2d> outline_B() const;
   /// Index of an actuator. @throws ConfigError naming the actuators the vehicle has and the
   /// nearest.
   int actuator_index(const std::string& name, const std::string& who) const;
@@ -81,6 +86,9 @@ class Vehicle {
   virtual void read_truth(Odometry& truth) const = 0;
   /// Specific force at B's origin in B (acceleration minus gravity), mean over the last step, m/s2.
   virtual Eigen::Vector3d specific_force_B() const = 0;
+  /// What encoders on the actuators would tell: the true value of each, same order and units as
+  /// description().actuators. Empty where the vehicle does not know.
+  virtual std::span<const double> actuator_states() const { return {}; }
   /// Fills poses, same order as links(); the vectors have their size already.
   virtual void read_links(std::vector<Pose>& X_WL) const = 0;
   /// Writes own signals; called at the rate of the sense stage's truth.

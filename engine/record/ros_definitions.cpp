@@ -90,6 +90,44 @@ constexpr std::array kDefinitions = {
                "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\n"
                "builtin_interfaces/Time stamp\nuint8 level\nstring name\nstring msg\n"
                "string file\nstring function\nuint32 line\n"},
+    Definition{"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"},
+    Definition{"std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n"},
+    Definition{"sensor_msgs/CompressedImage",
+               "std_msgs/Header header\nstring format\nuint8[] data\n"},
+    Definition{"visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n"},
+    Definition{"visualization_msgs/MeshFile", "string filename\nuint8[] data\n"},
+    Definition{"visualization_msgs/Marker",
+               "int32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\n"
+               "int32 LINE_STRIP=4\nint32 LINE_LIST=5\nint32 CUBE_LIST=6\n"
+               "int32 SPHERE_LIST=7\nint32 POINTS=8\nint32 TEXT_VIEW_FACING=9\n"
+               "int32 MESH_RESOURCE=10\nint32 TRIANGLE_LIST=11\n"
+               "int32 ADD=0\nint32 MODIFY=0\nint32 DELETE=2\nint32 DELETEALL=3\n"
+               "std_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\n"
+               "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\n"
+               "std_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\n"
+               "bool frame_locked\ngeometry_msgs/Point[] points\n"
+               "std_msgs/ColorRGBA[] colors\nstring texture_resource\n"
+               "sensor_msgs/CompressedImage texture\n"
+               "visualization_msgs/UVCoordinate[] uv_coordinates\nstring text\n"
+               "string mesh_resource\nvisualization_msgs/MeshFile mesh_file\n"
+               "bool mesh_use_embedded_materials\n"},
+    Definition{"nav_msgs/MapMetaData",
+               "builtin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\n"
+               "uint32 height\ngeometry_msgs/Pose origin\n"},
+    Definition{"nav_msgs/OccupancyGrid",
+               "std_msgs/Header header\nnav_msgs/MapMetaData info\n"
+               "# 100 taken, 0 free; x fastest\nint8[] data\n"},
+    Definition{"vinerow_msgs/OccupancyGrid",
+               "std_msgs/Header header\n# m\nfloat64 cell\n"
+               "# lower left corner of the first cell, m\nfloat64 corner_x\nfloat64 corner_y\n"
+               "uint32 columns\nuint32 rows\n# 1 taken, 0 free; x fastest\nuint8[] cells\n"},
+    Definition{"vinerow_msgs/LocalCommand",
+               "# what a local planner wants of a vehicle with two steered axles\n"
+               "uint8 FOLLOW=0\nuint8 DRIVE=1\nuint8 STOP=2\n"
+               "std_msgs/Header header\nuint8 mode\n"
+               "# m/s: limit when following, signed speed when driving\nfloat64 speed\n"
+               "# rad, positive to the left\nfloat64 front_axle\nfloat64 rear_axle\n"
+               "# m, least distance to anything known on the way chosen\nfloat64 clearance\n"},
     Definition{"vinerow_msgs/NamedValues",
                "std_msgs/Header header\n# the unit is the end of the name: _m, _rad, _radps, _N\n"
                "string[] name\nfloat64[] value\n"},

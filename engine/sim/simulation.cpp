@@ -29,6 +29,7 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry)
   physics_ = std::make_unique<physics::PhysicsWorld>(settings, *world_);
 
   events_ = bus_.advertise<Event>("run/events", "run");
+  if (!world_->rows.occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
   const RunContext run{scenario_,
                        registry,
                        *world_,
@@ -44,7 +45,13 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry)
 
   hashed_sequence_.assign(bus_.signals().size(), 0);
   hashed_.assign(bus_.signals().size(), true);
-  hashed_[0] = false;  // events tell people what the signals hold already
+  // Events tell people what the signals hold already.
+  for (std::size_t i = 0; i < bus_.signals().size(); ++i) {
+    const auto* event = dynamic_cast<const Signal<Event>*>(bus_.signals()[i].get());
+    if (event == nullptr) continue;
+    hashed_[i] = false;
+    if (event->name() != "run/events") part_events_.push_back({event, 0});
+  }
   for (const auto& vehicle : vehicles_) {
     for (const std::string& diagnostic : vehicle->diagnostic_signals()) {
       for (std::size_t i = 0; i < bus_.signals().size(); ++i) {
@@ -73,10 +80,21 @@ bool Simulation::finished() const {
 }
 
 void Simulation::work_instant() {
+  if (now_.ns == 0 && map_.connected()) map_.write(now_, world_->rows.occupancy);
   for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
   scheduler_.run_due(now_);
+  pass_on_events();
   hash_new_signals();
   for (RunObserver* observer : observers_) observer->on_instant(now_);
+}
+
+void Simulation::pass_on_events() {
+  for (auto& [signal, seen] : part_events_) {
+    if (signal->sequence() == seen) continue;
+    seen = signal->sequence();
+    const Event& event = signal->value();
+    emit(event.level, event.source.empty() ? signal->writer() : event.source, event.text);
+  }
 }
 
 void Simulation::hash_new_signals() {
@@ -114,6 +132,14 @@ void Simulation::run() {
 std::map<std::string, std::map<std::string, double>> Simulation::metrics() const {
   std::map<std::string, std::map<std::string, double>> all;
   for (const auto& vehicle : vehicles_) all[vehicle->name()] = vehicle->metric_results();
+  return all;
+}
+
+std::map<std::string, std::map<std::string, double>> Simulation::planning() const {
+  std::map<std::string, std::map<std::string, double>> all;
+  for (const auto& vehicle : vehicles_) {
+    if (!vehicle->plan_numbers().empty()) all[vehicle->name()] = vehicle->plan_numbers();
+  }
   return all;
 }
 

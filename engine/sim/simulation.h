@@ -64,6 +64,8 @@ class Simulation {
 
   /// metrics[vehicle][metric]. Call when over().
   std::map<std::string, std::map<std::string, double>> metrics() const;
+  /// What planners told of their work: [vehicle][number].
+  std::map<std::string, std::map<std::string, double>> planning() const;
   /// True pose and twist of a vehicle now. @throws ConfigError for an unknown name
   const Odometry& truth(const std::string& vehicle) const;
   const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles() const { return vehicles_; }
@@ -73,6 +75,8 @@ class Simulation {
 
  private:
   void work_instant();
+  /// Hands what parts wrote as events of their own to "run/events".
+  void pass_on_events();
   void hash_new_signals();
   void step_physics();
 
@@ -83,6 +87,9 @@ class Simulation {
   Scheduler scheduler_;
   std::vector<std::unique_ptr<VehicleRuntime>> vehicles_;
   SignalWriter<Event> events_;
+  SignalWriter<OccupancyGrid> map_;
+  std::vector<std::pair<const Signal<Event>*, std::uint64_t>>
+      part_events_;  // and the sequence seen
   std::vector<RunObserver*> observers_;
   std::vector<std::uint64_t> hashed_sequence_;  // per signal of the bus
   std::vector<bool> hashed_;                    // per signal: part of the digest

@@ -75,6 +75,9 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   for (const auto& [vehicle, metrics] : result.metrics) {
     for (const auto& [name, value] : metrics) summary["metrics"][vehicle][name] = value;
   }
+  for (const auto& [vehicle, numbers] : simulation.planning()) {
+    for (const auto& [name, value] : numbers) summary["planning"][vehicle][name] = value;
+  }
   summary["pictures"] = Json::array();
   for (const auto& picture : result.pictures) summary["pictures"].push_back(picture.string());
   if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;

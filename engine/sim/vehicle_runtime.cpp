@@ -133,6 +133,9 @@ void VehicleRuntime::add_sensors() {
         run_.registry.make_sensor(sensor.part.type, sensor.part.parameters, sensor_context));
     Sensor& built = *sensors_.back();
     add_stepped(Stage::kSense, part, sensor.part.type, sensor.part.rate_Hz, built);
+    if (const auto X_BS = built.mounting_X_BS()) {
+      mountings_.push_back({sensor.name, sensor.part.type, *X_BS});
+    }
     if (built.delay().ns > 0) {
       run_.scheduler.add(
           Stage::kSense, part + ".delivery", sensor_context.period, built.delay(),
@@ -168,6 +171,8 @@ void VehicleRuntime::add_planner() {
   Ports ports(run_.bus, config_.name, part);
   estimate_ = ports.read<Odometry>("estimate");
   plan_writer_ = ports.write<PlannedPath>("plan");
+  tree_writer_ = ports.write<LineList>("plan_tree");
+  diagnostic_signals_.push_back(config_.name + "/plan_tree");
   run_.scheduler.add(Stage::kPlan, part, planner_context.period, {},
                      [this](Time now) { try_to_plan(now); });
 }
@@ -184,8 +189,15 @@ void VehicleRuntime::try_to_plan(Time now) {
   }
   planned_ = true;
   plan_writer_.write(now, *plan);
-  run_.emit(Event::Level::kInfo, config_.name + ".planner",
-            fmt::format("planned {:.2f} m with {} points", plan->length_m, plan->points.size()));
+  std::string told =
+      fmt::format("planned {:.2f} m with {} points", plan->length_m, plan->points.size());
+  if (const PlanReport* report = planner_->report()) {
+    plan_numbers_ = report->numbers;
+    if (!report->tree.points_W.empty()) tree_writer_.write(now, report->tree);
+    for (const auto& [name, value] : report->numbers)
+      told += fmt::format(", {} {:.4g}", name, value);
+  }
+  run_.emit(Event::Level::kInfo, config_.name + ".planner", told);
 }
 
 void VehicleRuntime::add_controller() {
@@ -194,6 +206,7 @@ void VehicleRuntime::add_controller() {
     auto result = context<ControllerContext>(part, rate_Hz);
     result.vehicle_description = &vehicle_->description();
     result.map = &run_.world.rows;
+    result.sensors = mountings_;
     return result;
   };
   if (config_.guidance) {

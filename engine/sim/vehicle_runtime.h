@@ -45,6 +45,8 @@ class VehicleRuntime {
   void after_physics(Time now, Duration step);
 
   std::map<std::string, double> metric_results() const;
+  /// What the planner told of its work; empty without planner or report.
+  const std::map<std::string, double>& plan_numbers() const { return plan_numbers_; }
   /// Names of the signals that are diagnostics: recorded, but not part of the digest.
   const std::vector<std::string>& diagnostic_signals() const { return diagnostic_signals_; }
 
@@ -82,11 +84,14 @@ class VehicleRuntime {
   std::unique_ptr<Guidance> guidance_;
   std::unique_ptr<Controller> controller_;
   std::vector<NamedMetric> metrics_;
+  std::vector<SensorMounting> mountings_;
+  std::map<std::string, double> plan_numbers_;
 
   SignalWriter<Odometry> truth_writer_;
   SignalWriter<LinkPoses> links_writer_;
   SignalWriter<NamedValues> contacts_writer_;
   SignalWriter<PlannedPath> plan_writer_;
+  SignalWriter<LineList> tree_writer_;
   SignalReader<Odometry> estimate_;
   SignalReader<NamedValues> actuators_;
   std::uint64_t actuators_seen_ = 0;

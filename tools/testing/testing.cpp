@@ -111,6 +111,9 @@ template const VelocityCommand& TestRun::signal<VelocityCommand>(const std::stri
 template const NamedValues& TestRun::signal<NamedValues>(const std::string&) const;
 template const LinkPoses& TestRun::signal<LinkPoses>(const std::string&) const;
 template const PlannedPath& TestRun::signal<PlannedPath>(const std::string&) const;
+template const LocalCommand& TestRun::signal<LocalCommand>(const std::string&) const;
+template const LineList& TestRun::signal<LineList>(const std::string&) const;
+template const OccupancyGrid& TestRun::signal<OccupancyGrid>(const std::string&) const;
 template const FollowerState& TestRun::signal<FollowerState>(const std::string&) const;
 template const BatteryState& TestRun::signal<BatteryState>(const std::string&) const;
 template const Event& TestRun::signal<Event>(const std::string&) const;

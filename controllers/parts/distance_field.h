@@ -1,0 +1,39 @@
+#pragma once
+/// How far every point of an occupancy grid is from the nearest occupied cell.
+///
+/// Exact Euclidean distance transform in two passes of lower envelopes of parabolas (Felzenszwalb,
+/// Huttenlocher, "Distance Transforms of Sampled Functions", Theory of Computing 8, 2012): linear
+/// in the number of cells. Values are distances to the edge of what is taken: half a cell less than
+/// between cell centres.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/api/map.h"
+
+namespace vinerow {
+
+class DistanceField {
+ public:
+  /// An empty field: everything is infinitely far.
+  DistanceField() = default;
+  /// @param grid  copied from; an empty grid gives an empty field
+  explicit DistanceField(const OccupancyGrid& grid);
+
+  bool empty() const { return columns_ == 0; }
+  double cell_m() const { return cell_m_; }
+  /// Distance at a point, m, bilinear between cell centres, >= 0. Outside the grid 0: what nobody
+  /// mapped counts as taken. An empty field gives infinity. No heap; about 10 ns.
+  double at(const Eigen::Vector2d& p_W) const;
+  /// True where the point lies on the grid.
+  bool covers(const Eigen::Vector2d& p_W) const;
+
+ private:
+  int columns_ = 0;
+  int rows_ = 0;
+  double cell_m_ = 1.0;
+  Eigen::Vector2d corner_W_ = {0, 0};
+  std::vector<float> distance_m_;  // of cell centres, x fastest
+};
+
+}  // namespace vinerow

@@ -1,0 +1,128 @@
+#include "controllers/parts/footprint.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/check.h"
+
+namespace vinerow {
+namespace {
+
+constexpr int kCoverCircles = 3;
+constexpr double kInsideSpacing_m = 0.25;
+
+bool is_inside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& a = polygon[i];
+    if (cross(polygon[(i + 1) % polygon.size()] - a, p - a) < 0.0) return false;
+  }
+  return !polygon.empty();
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> inset_polygon(const std::vector<Eigen::Vector2d>& outline,
+                                           double inset_m) {
+  // Clip the polygon by each of its own edges, moved inwards (Sutherland and Hodgman).
+  std::vector<Eigen::Vector2d> rest = outline;
+  for (std::size_t i = 0; i < outline.size() && !rest.empty(); ++i) {
+    const Eigen::Vector2d along = outline[(i + 1) % outline.size()] - outline[i];
+    const Eigen::Vector2d inwards = left_of(along).normalized();
+    const Eigen::Vector2d on_line = outline[i] + inset_m * inwards;
+    std::vector<Eigen::Vector2d> clipped;
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+      const Eigen::Vector2d &a = rest[k], &b = rest[(k + 1) % rest.size()];
+      const double da = inwards.dot(a - on_line), db = inwards.dot(b - on_line);
+      if (da >= 0.0) clipped.push_back(a);
+      if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) {
+        clipped.push_back(a + da / (da - db) * (b - a));
+      }
+    }
+    rest = std::move(clipped);
+  }
+  return rest.size() >= 3 ? rest : std::vector<Eigen::Vector2d>{};
+}
+
+Footprint::Footprint(const DistanceField& field, std::vector<Eigen::Vector2d> outline_B,
+                     double margin_m)
+    : field_(&field), outline_B_(std::move(outline_B)), margin_m_(margin_m) {
+  VINEROW_DEMAND(outline_B_.size() >= 3 && margin_m >= 0.0);
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : outline_B_) box.extend(p);
+  const double slice_m = box.sizes().x() / kCoverCircles;
+  for (int i = 0; i < kCoverCircles; ++i) {
+    cover_.push_back({{box.min().x() + (i + 0.5) * slice_m, box.center().y()},
+                      std::hypot(0.5 * slice_m, 0.5 * box.sizes().y())});
+  }
+  const double spacing_m = field.empty() ? kInsideSpacing_m : field.cell_m();
+  for (std::size_t i = 0; i < outline_B_.size(); ++i) {
+    const Eigen::Vector2d &a = outline_B_[i], &b = outline_B_[(i + 1) % outline_B_.size()];
+    const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing_m)));
+    for (int k = 0; k < parts; ++k) edge_B_.push_back(a + (b - a) * k / parts);
+  }
+  edge_reach_m_ = 0.5 * spacing_m;
+  // What lies wholly inside the outline touches none of its edges; points inside see it.
+  const std::vector<Eigen::Vector2d> core = inset_polygon(outline_B_, kInsideSpacing_m);
+  const int nx = static_cast<int>(std::ceil(box.sizes().x() / kInsideSpacing_m));
+  const int ny = static_cast<int>(std::ceil(box.sizes().y() / kInsideSpacing_m));
+  for (int i = 0; i <= nx; ++i) {
+    for (int j = 0; j <= ny; ++j) {
+      const Eigen::Vector2d p =
+          box.min() + box.sizes().cwiseProduct(Eigen::Vector2d(double(i) / nx, double(j) / ny));
+      if (is_inside(core, p)) inside_B_.push_back(p);
+    }
+  }
+  inside_reach_m_ = kInsideSpacing_m / std::sqrt(2.0);
+}
+
+double Footprint::clearance_m(const Pose2& pose) const {
+  const Eigen::Vector2d ahead = direction(pose.yaw_rad), left = left_of(ahead);
+  const auto at = [&](const Eigen::Vector2d& p_B) {
+    return field_->at(pose.p + p_B.x() * ahead + p_B.y() * left);
+  };
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& p_B : edge_B_) least_m = std::min(least_m, at(p_B));
+  if (least_m < edge_reach_m_) return 0.0;
+  for (const Eigen::Vector2d& p_B : inside_B_) {
+    if (at(p_B) < inside_reach_m_) return 0.0;
+  }
+  return least_m;
+}
+
+bool Footprint::is_free(const Pose2& pose) const {
+  const Eigen::Vector2d ahead = direction(pose.yaw_rad), left = left_of(ahead);
+  bool is_far = true;
+  for (const Circle& circle : cover_) {
+    const double distance_m =
+        field_->at(pose.p + circle.centre_B.x() * ahead + circle.centre_B.y() * left);
+    if (distance_m <= 0.0) return false;
+    is_far = is_far && distance_m >= circle.radius_m + margin_m_;
+  }
+  if (is_far) return true;
+  return clearance_m(pose) >= std::max(margin_m_, edge_reach_m_);
+}
+
+bool Footprint::is_free_along(const Pose2& start, double length_m, double curvature_per_m,
+                              double step_m) const {
+  const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(length_m) / step_m)));
+  for (int i = 0; i <= parts; ++i) {
+    const double s = length_m * i / parts;
+    if (!is_free(advance(start, s, s * curvature_per_m))) return false;
+  }
+  return true;
+}
+
+double Footprint::clearance_along_m(const Pose2& start, double length_m, double curvature_per_m,
+                                    double step_m) const {
+  const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(length_m) / step_m)));
+  double least_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= parts; ++i) {
+    const double s = length_m * i / parts;
+    least_m = std::min(least_m, clearance_m(advance(start, s, s * curvature_per_m)));
+  }
+  return least_m;
+}
+
+}  // namespace vinerow

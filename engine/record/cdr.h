@@ -59,6 +59,14 @@ class CdrWriter {
     out_.add_zeros(count * sizeof(double));
   }
   void add(const Eigen::Vector3d& v) { add_doubles(v.data(), 3); }
+  /// Points one after the other: elements of a sequence, after its count.
+  void add(std::span<const Eigen::Vector3d> points) {
+    static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
+    if (!points.empty()) add_doubles(points.front().data(), 3 * points.size());
+  }
+  /// Room for the single bytes of a sequence, after its count. @returns the first of them, to be
+  /// filled before anything else is added
+  std::uint8_t* extend_octets(std::size_t count) { return out_.extend(count); }
 
  private:
   void align(std::size_t size) {
@@ -118,6 +126,12 @@ class CdrReader {
     take(values, count * sizeof(double));
   }
   void read(Eigen::Vector3d& v) { read_doubles(v.data(), 3); }
+  void read(std::span<Eigen::Vector3d> points) {
+    if (!points.empty()) read_doubles(points.front().data(), 3 * points.size());
+  }
+  void read_octets(std::uint8_t* values, std::size_t count) {
+    if (count > 0) take(values, count);
+  }
   void skip_doubles(std::size_t count) {
     align(8);
     if (fits(count * sizeof(double))) at_ += count * sizeof(double);

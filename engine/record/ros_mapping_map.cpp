@@ -1,4 +1,7 @@
-/// Mappings of what planners know and search: grid, tree, local command.
+/// Mappings of what planners know, search and want: grid, tree, local command.
+
+#include <algorithm>
+#include <limits>
 
 #include "engine/record/ros_fields.h"
 #include "engine/record/ros_mapping.h"
@@ -6,10 +9,16 @@
 namespace vinerow::record {
 namespace {
 
-constexpr std::int32_t kLineListMarker = 5;
-constexpr float kTreeLineWidth_m = 0.03f;
-constexpr std::int8_t kTaken = 100;
-const Pose kNoPose;
+// Constants of the ROS 2 definitions.
+constexpr std::int32_t kMarkerLineList = 5;
+constexpr std::int32_t kMarkerAdd = 0;
+constexpr std::uint8_t kTaken = 100;  ///< per cent
+
+// How a tree looks in a viewer.
+constexpr double kLineWidth_m = 0.03;
+constexpr float kLineColour[4] = {0.2f, 0.6f, 1.0f, 0.6f};  // red, green, blue, alpha
+
+constexpr std::uint32_t kMostCellsOfASide = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
 
@@ -37,58 +46,57 @@ bool RosMapping<LocalCommand>::read(CdrReader& in, const FrameNames&, LocalComma
 
 void RosMapping<LineList>::write(CdrWriter& out, const WriteContext& to, const LineList& value) {
   write_header(out, to.stamp, to.frames.world);
-  out.add(std::string_view(to.frames.own));
-  out.add(std::int32_t{0});
-  out.add(kLineListMarker);
-  out.add(std::int32_t{0});
-  write_pose(out, kNoPose);
-  out.add(Eigen::Vector3d(kTreeLineWidth_m, 0, 0));
-  for (const float channel : {0.2f, 0.6f, 1.0f, 0.6f}) out.add(channel);
-  out.add(std::int32_t{0});
+  out.add(std::string_view(to.frames.own));  // ns
+  out.add(std::int32_t{0});                  // id
+  out.add(kMarkerLineList);
+  out.add(kMarkerAdd);
+  write_pose(out, Pose{});
+  out.add(Eigen::Vector3d(kLineWidth_m, 0, 0));  // scale
+  for (const float channel : kLineColour) out.add(channel);
+  out.add(std::int32_t{0});  // lifetime: until it is replaced
   out.add(std::uint32_t{0});
-  out.add(false);
+  out.add(false);  // frame_locked
   out.add_count(value.points_W.size());
-  for (const Eigen::Vector3d& p : value.points_W) out.add(p);
-  out.add_count(0);
-  out.add(std::string_view());
-  write_header(out, Time{}, std::string_view());
-  out.add(std::string_view());
-  out.add_count(0);
-  out.add_count(0);
-  out.add(std::string_view());
-  out.add(std::string_view());
+  out.add(std::span(value.points_W));
+  out.add_count(0);                               // colors
+  out.add(std::string_view());                    // texture_resource
+  write_header(out, Time{}, std::string_view());  // texture
   out.add(std::string_view());
   out.add_count(0);
-  out.add(false);
+  out.add_count(0);             // uv_coordinates
+  out.add(std::string_view());  // text
+  out.add(std::string_view());  // mesh_resource
+  out.add(std::string_view());  // mesh_file
+  out.add_count(0);
+  out.add(false);  // mesh_use_embedded_materials
 }
 
 bool RosMapping<LineList>::read(CdrReader& in, const FrameNames&, LineList& value) {
   skip_header(in);
   in.read_text();
   for (int i = 0; i < 3; ++i) in.read<std::int32_t>();
-  Pose pose;
-  read_pose(in, pose);
-  in.skip_doubles(3);
+  in.skip_doubles(3 + 4 + 3);  // pose, scale
   for (int i = 0; i < 4; ++i) in.read<float>();
-  in.read<std::int32_t>();
-  in.read<std::uint32_t>();
+  skip_time(in);  // lifetime
   in.read_bool();
   value.points_W.resize(in.read_count(3 * sizeof(double)));
-  for (Eigen::Vector3d& p : value.points_W) in.read(p);
+  in.read(std::span(value.points_W));
   return in.ok();
 }
 
 void RosMapping<OccupancyGrid>::write(CdrWriter& out, const WriteContext& to,
                                       const OccupancyGrid& value) {
   write_header(out, to.stamp, to.frames.world);
-  write_time(out, to.stamp);
+  write_time(out, to.stamp);  // map_load_time
   out.add(static_cast<float>(value.cell_m));
   out.add(static_cast<std::uint32_t>(value.columns));
   out.add(static_cast<std::uint32_t>(value.rows));
-  write_pose(out, {Eigen::Quaterniond::Identity(),
-                   Eigen::Vector3d(value.corner_W.x(), value.corner_W.y(), 0)});
+  Pose origin;
+  origin.p.head<2>() = value.corner_W;
+  write_pose(out, origin);
   out.add_count(value.cells.size());
-  for (const std::uint8_t cell : value.cells) out.add(cell != 0 ? kTaken : std::int8_t{0});
+  std::transform(value.cells.begin(), value.cells.end(), out.extend_octets(value.cells.size()),
+                 [](std::uint8_t cell) { return cell != 0 ? kTaken : std::uint8_t{0}; });
 }
 
 void RosMapping<OccupancyGrid>::write_exact(CdrWriter& out, const WriteContext& to,
@@ -100,7 +108,7 @@ void RosMapping<OccupancyGrid>::write_exact(CdrWriter& out, const WriteContext& 
   out.add(static_cast<std::uint32_t>(value.columns));
   out.add(static_cast<std::uint32_t>(value.rows));
   out.add_count(value.cells.size());
-  for (const std::uint8_t cell : value.cells) out.add(cell);
+  std::copy(value.cells.begin(), value.cells.end(), out.extend_octets(value.cells.size()));
 }
 
 bool RosMapping<OccupancyGrid>::read(CdrReader& in, const FrameNames&, OccupancyGrid& value) {
@@ -110,7 +118,9 @@ bool RosMapping<OccupancyGrid>::read(CdrReader& in, const FrameNames&, Occupancy
   value.corner_W.y() = in.read<double>();
   const auto columns = in.read<std::uint32_t>(), rows = in.read<std::uint32_t>();
   value.cells.resize(in.read_count(1));
-  for (std::uint8_t& cell : value.cells) cell = in.read<std::uint8_t>();
+  in.read_octets(value.cells.data(), value.cells.size());
+  // A damaged size must not send who looks up a cell beyond the cells.
+  if (columns > kMostCellsOfASide || rows > kMostCellsOfASide) return false;
   if (std::uint64_t{columns} * rows != value.cells.size()) return false;
   value.columns = static_cast<int>(columns);
   value.rows = static_cast<int>(rows);

@@ -28,6 +28,7 @@ const wantedCounts = {
   "/rover/ultrasound_right": 200, "/rover/ultrasound_right/exact": 200,
   "/rover/command": 400, "/rover/actuators": 400, "/rover/follower": 400,
   "/rover/plan": 1, "/rover/plan/exact": 1, "/run/events": 1,
+  "/rover/plan_tree": 1, "/rover/local_command": 50, "/run/map": 1, "/run/map/exact": 1,
 };
 const wantedTypes = {
   "/rover/truth": "nav_msgs/msg/Odometry", "/rover/links": "tf2_msgs/msg/TFMessage",
@@ -40,6 +41,9 @@ const wantedTypes = {
   "/rover/follower": "vinerow_msgs/msg/FollowerState",
   "/rover/plan": "nav_msgs/msg/Path", "/rover/plan/exact": "vinerow_msgs/msg/PlannedPath",
   "/run/events": "rcl_interfaces/msg/Log",
+  "/rover/plan_tree": "visualization_msgs/msg/Marker",
+  "/rover/local_command": "vinerow_msgs/msg/LocalCommand",
+  "/run/map": "nav_msgs/msg/OccupancyGrid", "/run/map/exact": "vinerow_msgs/msg/OccupancyGrid",
 };
 
 function checkValues({ first, last }) {
@@ -49,9 +53,9 @@ function checkValues({ first, last }) {
   const q = truth.pose.pose.orientation;
   assert.ok(Math.abs(Math.hypot(q.x, q.y, q.z, q.w) - 1) < 1e-12);
   // The tree that a 3D panel draws: map -> rover/base_link -> links.
-  const tree = last["/rover/links"].transforms.map((t) => [t.header.frame_id, t.child_frame_id]);
-  assert.deepEqual(tree[0], ["map", "rover/base_link"]);
-  assert.deepEqual(tree[4], ["rover/base_link", "rover/wheel_rl"]);
+  const frames = last["/rover/links"].transforms.map((t) => [t.header.frame_id, t.child_frame_id]);
+  assert.deepEqual(frames[0], ["map", "rover/base_link"]);
+  assert.deepEqual(frames[4], ["rover/base_link", "rover/wheel_rl"]);
   const imu = last["/rover/imu"];
   assert.equal(imu.orientation_covariance[0], -1);
   assert.ok(Math.abs(imu.linear_acceleration.z - 9.81) < 5);
@@ -75,6 +79,21 @@ function checkValues({ first, last }) {
   assert.equal(plan.poses[10].pose.position.x, 5);
   assert.equal(first["/rover/plan/exact"].points[95].kind, 0);
   assert.equal(first["/rover/plan/exact"].length, 50);
+  const tree = first["/rover/plan_tree"];
+  assert.deepEqual([tree.ns, tree.type, tree.action, tree.points.length], ["rover/plan_tree", 5, 0, 200]);
+  assert.deepEqual([tree.points[20].x, tree.points[21].x], [5, 5.4]);
+  const map = first["/run/map"];
+  assert.equal(map.header.frame_id, "map");
+  assert.deepEqual([map.info.width, map.info.height, map.data.length], [1100, 200, 220000]);
+  assert.equal(map.info.resolution, Math.fround(0.1));
+  assert.deepEqual([map.info.origin.position.x, map.info.origin.position.y], [-5, -10]);
+  // Cell (50, 0) is the first of a row, (49, 0) lies before it, (50, 6) beside it.
+  assert.deepEqual([map.data[50], map.data[49], map.data[6 * 1100 + 50]], [100, 0, 0]);
+  assert.equal(first["/run/map/exact"].cell, 0.1);
+  assert.equal(first["/run/map/exact"].cells[50], 1);
+  const local = last["/rover/local_command"];
+  assert.deepEqual([local.mode, local.speed, local.front_axle, local.rear_axle, local.clearance],
+    [1, 0.8, 0.1, -0.1, 0.35]);
   const event = first["/run/events"];
   assert.deepEqual([event.level, event.name, event.msg], [20, "rover.mission", "leg begins"]);
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <sstream>
 #include <vector>
 
@@ -146,6 +147,90 @@ TEST(RosMapping, RangeBytes) {
   EXPECT_EQ(message_bytes("r/us", Time{0}, sample),
             bytes("00 01 00 00 00 00 00 00 00 00 00 00 05 00 00 00 'r/us' 00 00 00 00 "
                   "00 00 00 3f 00 00 80 3e 00 00 80 40 00 00 80 7f"));
+}
+
+// "map" ends at 16, the map's load time at 24; 0.5f; 3 x 2 cells; then 4 bytes of padding before
+// the origin's doubles. The cells are single bytes behind their count.
+TEST(RosMapping, OccupancyGridBytes) {
+  OccupancyGrid grid;
+  grid.columns = 3;
+  grid.rows = 2;
+  grid.cell_m = 0.5;
+  grid.corner_W = {1.0, -2.0};
+  grid.cells = {0, 1, 1, 1, 0, 0};
+  EXPECT_EQ(message_bytes("run/map", Time{1'000'000'002}, grid),
+            bytes("00 01 00 00 01 00 00 00 02 00 00 00 04 00 00 00 'map' 00 "
+                  "01 00 00 00 02 00 00 00 00 00 00 3f 03 00 00 00 02 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 00 f0 3f 00 00 00 00 00 00 00 c0 00 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 00 f0 3f 06 00 00 00 00 64 64 64 00 00"));
+}
+
+// ns "r/plan_tree" and its zero are 12 bytes from 20 to 32; id, type 5, action 0 end at 44, 4 bytes
+// of padding; pose (identity) 48 to 104, scale to 128, colour to 144, lifetime to 152, frame_locked
+// and 3 bytes to 156, the count of the points to 160; two points to 208; then colors, the empty
+// texts (a length of 1 and the zero, then 3 bytes of padding), the texture's stamp and sequences.
+TEST(RosMapping, LineListMarkerBytes) {
+  LineList tree;
+  tree.points_W = {{1.0, 2.0, 0.0}, {-2.0, 0.0, 0.0}};
+  const auto message = message_bytes("r/plan_tree", Time{0}, tree);
+  const auto part = [&](std::size_t from, std::size_t to) {  // offsets behind the encapsulation
+    return std::vector<std::uint8_t>(message.begin() + 4 + static_cast<std::ptrdiff_t>(from),
+                                     message.begin() + 4 + static_cast<std::ptrdiff_t>(to));
+  };
+  EXPECT_EQ(part(0, 48),
+            bytes("00 00 00 00 00 00 00 00 04 00 00 00 'map' 00 0c 00 00 00 'r/plan_tree' 00 "
+                  "00 00 00 00 05 00 00 00 00 00 00 00 00 00 00 00"));
+  EXPECT_EQ(part(48, 104), bytes("00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 "
+                                 "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 "
+                                 "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 "
+                                 "00 00 00 00 00 00 f0 3f"));
+  EXPECT_EQ(part(144, 160), bytes("00 00 00 00 00 00 00 00 00 00 00 00 02 00 00 00"));
+  EXPECT_EQ(part(160, 208), bytes("00 00 00 00 00 00 f0 3f 00 00 00 00 00 00 00 40 "
+                                  "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 c0 "
+                                  "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00"));
+  EXPECT_EQ(part(208, message.size() - 4),
+            bytes("00 00 00 00 01 00 00 00 00 00 00 00 "              // colors, texture_resource
+                  "00 00 00 00 00 00 00 00 01 00 00 00 00 00 00 00 "  // texture.header
+                  "01 00 00 00 00 00 00 00 00 00 00 00 "              // texture.format, data
+                  "00 00 00 00 "                                      // uv_coordinates
+                  "01 00 00 00 00 00 00 00 01 00 00 00 00 00 00 00 "  // text, mesh_resource
+                  "01 00 00 00 00 00 00 00 00 00 00 00 00"));         // mesh_file, its use
+}
+
+TEST(RosMapping, LocalCommandBytes) {
+  const LocalCommand command{LocalCommand::Mode::kDrive, -2.0, 1.0, -1.0, 2.0};
+  EXPECT_EQ(message_bytes("r/local_command", Time{0}, command),
+            bytes("00 01 00 00 00 00 00 00 00 00 00 00 0c 00 00 00 'r/base_link' 00 "
+                  "01 00 00 00 00 00 00 00 00 00 00 00 00 00 00 c0 00 00 00 00 00 00 f0 3f "
+                  "00 00 00 00 00 00 f0 bf 00 00 00 00 00 00 00 40"));
+}
+
+// A grid whose sides do not agree with its cells is no grid.
+TEST(RosMapping, RefusesGridsWhoseSidesDoNotFit) {
+  OccupancyGrid grid;
+  grid.columns = grid.rows = 2;
+  grid.cells = {1, 0, 0, 1};
+  const auto read_after = [&](const std::function<void(std::vector<std::uint8_t>&)>& damage) {
+    ByteBuffer buffer;
+    CdrWriter out(buffer);
+    const FrameNames frames = FrameNames::of_signal("run/map");
+    RosMapping<OccupancyGrid>::write_exact(out, {frames, Time{0}}, grid);
+    std::vector<std::uint8_t> message = bytes(buffer);
+    damage(message);
+    CdrReader in(message);
+    OccupancyGrid read;
+    return RosMapping<OccupancyGrid>::read(in, frames, read);
+  };
+  constexpr std::size_t kColumns = 4 + 16 + 3 * 8, kRows = kColumns + 4;
+  EXPECT_TRUE(read_after([](auto&) {}));
+  EXPECT_FALSE(read_after([](auto& message) { message[kColumns] = 3; }));
+  EXPECT_FALSE(read_after([](auto& message) { message.pop_back(); }));
+  // No cells, and a side that no int holds.
+  grid.columns = 0;
+  grid.rows = 0;
+  grid.cells.clear();
+  EXPECT_FALSE(read_after([](auto& message) { message[kRows + 3] = 0xff; }));
 }
 
 // Stamps before zero: builtin_interfaces/Time counts nanoseconds forward.

@@ -47,6 +47,9 @@ struct FillField {
   void operator()(std::vector<std::string>& texts) {
     for (std::string& text : texts) (*this)(text);
   }
+  void operator()(std::vector<std::uint8_t>& bytes) {
+    for (std::uint8_t& x : bytes) x = static_cast<std::uint8_t>(random.next_u64());
+  }
 };
 
 template <class T>
@@ -61,9 +64,19 @@ void fill(RandomStream& random, T& value) {
     value.X_WL.resize(size);
   }
   if constexpr (std::is_same_v<T, PlannedPath>) value.points.resize(size);
+  if constexpr (std::is_same_v<T, LineList>) value.points_W.resize(2 * size);
   value.fields(FillField{random});
   if constexpr (std::is_same_v<T, PlannedPath>) {
     for (PathPoint& point : value.points) point.kind = static_cast<PathKind>(random.next_u64() % 3);
+  }
+  if constexpr (std::is_same_v<T, LocalCommand>) {
+    value.mode = static_cast<LocalCommand::Mode>(random.next_u64() % 3);
+  }
+  if constexpr (std::is_same_v<T, OccupancyGrid>) {
+    value.columns = static_cast<int>(size);
+    value.rows = static_cast<int>(random.next_u64() % 5);
+    value.cells.resize(size * static_cast<std::size_t>(value.rows));
+    for (std::uint8_t& cell : value.cells) cell = random.next_u64() % 2;
   }
   if constexpr (std::is_same_v<T, Event>) {
     value.level = static_cast<Event::Level>(20 + 10 * (random.next_u64() % 3));
@@ -95,6 +108,10 @@ struct CollectField {
   void operator()(const std::vector<double>& values) {
     (*this)(values.size());
     add(values.data(), values.size() * sizeof(double));
+  }
+  void operator()(const std::vector<std::uint8_t>& values) {
+    (*this)(values.size());
+    add(values.data(), values.size());
   }
   void operator()(const std::vector<std::string>& texts) {
     (*this)(texts.size());

@@ -34,6 +34,9 @@ MissionSignals::MissionSignals(int path_points) : path_points_(path_points) {
   actuators_out_ = rover.write<NamedValues>("actuators");
   follower_out_ = rover.write<FollowerState>("follower");
   plan_out_ = rover.write<PlannedPath>("plan");
+  tree_out_ = rover.write<LineList>("plan_tree");
+  local_command_out_ = rover.write<LocalCommand>("local_command");
+  map_out_ = Ports(bus_, "run", "test").write<OccupancyGrid>("map");
   event_out_ = Ports(bus_, "run", "test").write<Event>("events");
 
   links_.names = {"body"};
@@ -119,20 +122,39 @@ void MissionSignals::write_control(Time now) {
   follower_out_.write(now, follower_);
 }
 
-void MissionSignals::write(Time now) {
-  if (now.ns == 0) {
-    PlannedPath path;
-    for (int i = 0; i < path_points_; ++i) {
-      path.points.push_back({.p_W = {0.5 * i, std::sin(0.01 * i), 0},
-                             .yaw_rad = 0.02 * std::cos(0.01 * i),
-                             .curvature_per_m = 0.001,
-                             .speed_mps = 1.0,
-                             .kind = i % 200 < 180 ? PathKind::kLeg : PathKind::kTurn,
-                             .alley = i / 200});
+void MissionSignals::write_planning(Time now) {
+  // Rows of 100 m, 2.5 m apart, in a parcel of 110 m x 20 m.
+  OccupancyGrid grid;
+  grid.columns = 1100;
+  grid.rows = 200;
+  grid.cell_m = 0.1;
+  grid.corner_W = {-5, -10};
+  for (int j = 0; j < grid.rows; ++j) {
+    for (int i = 0; i < grid.columns; ++i) {
+      grid.cells.push_back(i >= 50 && i < 1050 && j % 25 < 6 ? 1 : 0);
     }
-    path.length_m = 0.5 * path_points_;
-    plan_out_.write(now, path);
   }
+  map_out_.write(now, grid);
+
+  PlannedPath path;
+  LineList tree;
+  for (int i = 0; i < path_points_; ++i) {
+    path.points.push_back({.p_W = {0.5 * i, std::sin(0.01 * i), 0},
+                           .yaw_rad = 0.02 * std::cos(0.01 * i),
+                           .curvature_per_m = 0.001,
+                           .speed_mps = 1.0,
+                           .kind = i % 200 < 180 ? PathKind::kLeg : PathKind::kTurn,
+                           .alley = i / 200});
+    tree.points_W.push_back(path.points.back().p_W);
+    tree.points_W.push_back(path.points.back().p_W + Eigen::Vector3d(0.4, 0.1, 0));
+  }
+  path.length_m = 0.5 * path_points_;
+  plan_out_.write(now, path);
+  tree_out_.write(now, tree);
+}
+
+void MissionSignals::write(Time now) {
+  if (now.ns == 0) write_planning(now);
   if (is_due(now, 10'000)) {
     event_out_.write(now, {Event::Level::kInfo, "rover.mission", "leg begins"});
   }
@@ -144,6 +166,11 @@ void MissionSignals::write(Time now) {
                    {.w_WS_S = noise(0.05), .f_WS_S = Eigen::Vector3d(0, 0, 9.81) + noise(0.5)});
   }
   if (is_due(now, 200)) {
+    local_command_out_.write(now, {.mode = LocalCommand::Mode::kDrive,
+                                   .v_mps = 0.8,
+                                   .front_axle_rad = 0.1,
+                                   .rear_axle_rad = -0.1,
+                                   .clearance_m = 0.35});
     GnssFix fix;
     fix.valid = true;
     fix.p_W = truth_.X_WB.p + noise(0.02);

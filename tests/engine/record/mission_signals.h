@@ -11,7 +11,8 @@
 namespace vinerow::test {
 
 /// Truth, links, wheels, contacts and battery 20 Hz, GPS 5 Hz, IMU 100 Hz, four ultrasounds 20 Hz,
-/// follower, command and actuators 40 Hz, a path once, an event every ten seconds.
+/// follower, command and actuators 40 Hz, local command 5 Hz, once a map, a path and its planner's
+/// tree, an event every ten seconds.
 class MissionSignals {
  public:
   /// Divides every period.
@@ -28,6 +29,7 @@ class MissionSignals {
   void write_motion(Time now);
   void write_wheels(Time now);
   void write_control(Time now);
+  void write_planning(Time now);
   Eigen::Vector3d noise(double sigma);
 
   int path_points_;
@@ -48,6 +50,9 @@ class MissionSignals {
   SignalWriter<VelocityCommand> command_out_;
   SignalWriter<FollowerState> follower_out_;
   SignalWriter<PlannedPath> plan_out_;
+  SignalWriter<LineList> tree_out_;
+  SignalWriter<LocalCommand> local_command_out_;
+  SignalWriter<OccupancyGrid> map_out_;
   SignalWriter<Event> event_out_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+
 #include "engine/core/error.h"
 #include "engine/record/log_reader.h"
 #include "tests/engine/record/log_files.h"
@@ -155,7 +158,8 @@ TEST(Recorder, AllocatesNothingOnceWarm) {
 
 // An hour of a rover's mission within 100 MB: two minutes of it, with noise in every number that
 // has any, within a thirtieth. Commands, which the actuators repeat, are thinned to 20 Hz; battery
-// and contacts, which change slowly, to 1 Hz. The path, written once, is counted once.
+// and contacts, which change slowly, to 1 Hz. What is written once (path, its planner's tree, map)
+// is counted once.
 TEST(Recorder, AnHourFitsInto100MB) {
   const TemporaryFile file;
   test::MissionSignals mission;
@@ -164,17 +168,59 @@ TEST(Recorder, AnHourFitsInto100MB) {
     const std::string& name = signal->name();
     const bool is_slow = name == "rover/battery" || name == "rover/contacts";
     const std::int64_t period_ms = is_slow ? 1000 : name == "rover/command" ? 50 : 0;
-    if (name != "rover/plan") recorder.add_signal(*signal, Duration{period_ms * 1'000'000});
+    const bool is_once = name == "rover/plan" || name == "rover/plan_tree" || name == "run/map";
+    // A rover without a local planner.
+    if (is_once || name == "rover/local_command") continue;
+    recorder.add_signal(*signal, Duration{period_ms * 1'000'000});
   }
   for (Time now; now.ns < 120'000'000'000; now = now + test::MissionSignals::kTick) {
     mission.write(now);
     recorder.record(now);
   }
   recorder.finish();
-  const double plan_MB = 0.2;  // 2000 points, in both forms
-  const double hour_MB = static_cast<double>(recorder.bytes_written()) * 30 / 1e6 + plan_MB;
+  // A path of 2000 points in both forms; a tree of 8000 branches, 0.2 MB uncompressed; 5 million
+  // cells below 0.1 MB.
+  const double once_MB = 0.2 + 0.2 + 0.1;
+  const double hour_MB = static_cast<double>(recorder.bytes_written()) * 30 / 1e6 + once_MB;
   RecordProperty("hour_MB", std::to_string(hour_MB));
   EXPECT_LT(hour_MB, 100);
+}
+
+// Parcel F at 5 cm: 5 million cells, recorded in both forms and read back.
+TEST(Recorder, AMapOfFiveMillionCellsIsSmallAndQuick) {
+  const TemporaryFile file;
+  OccupancyGrid grid;
+  grid.columns = 2600;
+  grid.rows = 2000;
+  grid.cell_m = 0.05;
+  grid.cells.resize(2600 * 2000);
+  for (std::size_t i = 0; i < grid.cells.size(); ++i) {
+    // Rows that cross the grid at an angle, 0.6 m wide every 2.5 m.
+    const double across_m = 0.05 * (0.8 * static_cast<double>(i / 2600) + 0.6 * (i % 2600));
+    grid.cells[i] = std::fmod(across_m, 2.5) < 0.6 ? 1 : 0;
+  }
+  SignalBus bus;
+  auto map = bus.advertise<OccupancyGrid>("run/map", "run");
+  Recorder recorder(file.path(), {}, {});
+  recorder.add_signal(*bus.find("run/map"), Duration{0});
+  map.write(Time{0}, grid);
+  const auto start = std::chrono::steady_clock::now();
+  recorder.record(Time{0});
+  recorder.finish();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  RecordProperty("write_ms", std::to_string(1e3 * wall.count()));
+  RecordProperty("map_MB", std::to_string(static_cast<double>(recorder.bytes_written()) / 1e6));
+  // 30 ms and 0.05 MB where this was written, both forms and compression included.
+  EXPECT_LT(wall.count(), 1.0);
+  EXPECT_LT(recorder.bytes_written(), 300'000u);
+  int count = 0;
+  LogReader(file.path()).read<OccupancyGrid>("/run/map", [&](Time, const OccupancyGrid& read) {
+    EXPECT_EQ(read.columns, 2600);
+    EXPECT_EQ(read.rows, 2000);
+    EXPECT_TRUE(read.cells == grid.cells);
+    ++count;
+  });
+  EXPECT_EQ(count, 1);
 }
 
 TEST(Recorder, NamesWhatIsWrongWithItsOptions) {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/planning/alley_order.h"
 #include "controllers/planning/headland_turn.h"
 #include "controllers/planning/lift.h"
 #include "controllers/planning/row_check.h"
+#include "controllers/planning/row_route.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
@@ -18,9 +18,7 @@ namespace {
 struct CoverageParams {
   double pitch_m;
   TurnParams turn;
-  AlleyOrder order;
-  std::vector<int> alleys;  ///< chosen ones; empty = all
-  double straighten_m;
+  RowRouteParams route;
   double speed_mps;
   double lead_in_m;
   double lead_out_m;
@@ -38,24 +36,12 @@ CoverageParams read_params(const ParameterSet& parameters, const std::string& wh
   params.turn.headland_m = parameters.number("headland_m");
   if (parameters.has("apex_m")) params.turn.apex_m = parameters.number("apex_m");
   params.turn.speed_mps = parameters.number("turn_speed_mps");
-  params.order = parameters.text("order") == "skip" ? AlleyOrder::kSkip : AlleyOrder::kSerpentine;
-  params.straighten_m = parameters.number("straighten_m");
+  params.route = read_row_route_params(parameters, alley_count, who);
   params.speed_mps = parameters.number("speed_mps");
   params.lead_in_m = parameters.number("lead_in_m");
   params.lead_out_m = parameters.number("lead_out_m");
   params.clearance_m = parameters.number("clearance_m");
   params.approach = parameters.boolean("approach");
-  for (const double value : parameters.numbers("alleys")) {
-    const int alley = static_cast<int>(value);
-    if (alley != value || alley < 0 || alley >= alley_count) {
-      throw ConfigError(fmt::format("{}: alleys holds {}, must be whole numbers from 0 to {}", who,
-                                    value, alley_count - 1));
-    }
-    if (std::count(params.alleys.begin(), params.alleys.end(), alley) > 0) {
-      throw ConfigError(fmt::format("{}: alleys holds {} twice", who, alley));
-    }
-    params.alleys.push_back(alley);
-  }
   return params;
 }
 
@@ -66,27 +52,24 @@ class Coverage final : public Planner {
 
   Result<PlannedPath> plan(const Pose& start) override {
     const Pose2 pose = {start.p.head<2>(), yaw_from_quaternion(start.q)};
-    if (map_.alleys.empty()) return Failure{"the map has no alleys to drive"};
+    const auto legs = make_row_route(map_, params_.route, pose.p);
+    if (!legs) return Failure{legs.reason()};
 
     std::vector<PathPiece> pieces;
     Pose2 at = pose;  // where the vehicle is after the pieces so far
-    const std::vector<int> alleys = driving_order();
-    for (std::size_t i = 0; i < alleys.size(); ++i) {
-      const std::vector<PathPiece> leg = make_leg(alleys[i], at.p);
-      if (leg.empty()) {
-        return Failure{fmt::format("alley {} of the map has no length", alleys[i])};
-      }
+    for (std::size_t i = 0; i < legs->size(); ++i) {
+      const RouteLeg& leg = (*legs)[i];
       if (i == 0) {
-        append_approach(pose, leg.front(), pieces);
+        append_approach(pose, leg.entry(), pieces);
       } else {
-        const auto turn = make_headland_turn(at, leg.front().start, params_.turn);
+        const auto turn = make_headland_turn(at, leg.entry(), params_.turn);
         if (!turn) {
-          return Failure{fmt::format("turn from alley {} to alley {}: {}", alleys[i - 1], alleys[i],
-                                     turn.reason())};
+          return Failure{fmt::format("turn from alley {} to alley {}: {}", (*legs)[i - 1].alley,
+                                     leg.alley, turn.reason())};
         }
         pieces.insert(pieces.end(), turn->begin(), turn->end());
       }
-      pieces.insert(pieces.end(), leg.begin(), leg.end());
+      append_leg(leg, params_.speed_mps, pieces);
       at = pieces.back().end();
     }
     if (params_.lead_out_m > 0.0) {
@@ -102,38 +85,11 @@ class Coverage final : public Planner {
   }
 
  private:
-  std::vector<int> driving_order() const {
-    std::vector<int> chosen = params_.alleys;
-    if (chosen.empty()) {
-      for (std::size_t i = 0; i < map_.alleys.size(); ++i) chosen.push_back(static_cast<int>(i));
-    }
-    std::vector<int> ordered;
-    for (const int place : make_alley_order(static_cast<int>(chosen.size()), params_.order)) {
-      ordered.push_back(chosen[place]);
-    }
-    return ordered;
-  }
-
-  /// Straights of an alley, entered at the end nearer to `from`.
-  std::vector<PathPiece> make_leg(int alley, const Eigen::Vector2d& from) const {
-    std::vector<Eigen::Vector2d> line =
-        simplify_line(map_.alleys[alley].line_W, params_.straighten_m);
-    if (line.size() < 2) return {};
-    if ((line.back() - from).norm() < (line.front() - from).norm()) {
-      std::reverse(line.begin(), line.end());
-    }
-    std::vector<PathPiece> leg;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      leg.push_back(make_straight(line[i], line[i + 1], PathKind::kLeg, alley, params_.speed_mps));
-    }
-    return leg;
-  }
-
   /// From where the vehicle stands to the first alley: straight on if that leads there, else a
   /// Dubins path; then the lead-in.
-  void append_approach(const Pose2& pose, const PathPiece& leg,
+  void append_approach(const Pose2& pose, const Pose2& entry,
                        std::vector<PathPiece>& pieces) const {
-    const Pose2 begin = advance(leg.start, -params_.lead_in_m, 0.0);
+    const Pose2 begin = advance(entry, -params_.lead_in_m, 0.0);
     const Eigen::Vector2d way = begin.p - pose.p;
     const Eigen::Vector2d along = direction(begin.yaw_rad);
     constexpr double kOnTheLine_m = 0.05, kHeadingSlack_rad = 0.1;
@@ -166,9 +122,6 @@ PartSpec coverage_spec() {
   spec.description =
       "Drives the alleys of the row map with straight legs and headland turns (Martelli, Mocera, "
       "Soma 2024, section 2.3): three-point arcs or Dubins paths, split at the waypoint pitch.";
-  ParameterSpec alleys = number_list_parameter(
-      "alleys", "", {}, "indices of the alleys to drive, in order; empty = all of the map");
-  alleys.min = 0.0;
   spec.parameters = {
       positive_parameter("waypoint_pitch_m", "m", 0.33,
                          "waypoint pitch WPP: straights and arcs are split into round(length / "
@@ -183,12 +136,6 @@ PartSpec coverage_spec() {
       optional(positive_parameter("apex_m", "m", 5.0,
                                   "apex of the three-point arc beyond the alley ends; default half "
                                   "the alley spacing, a semicircle")),
-      alleys,
-      choice_parameter("order", "serpentine", {"serpentine", "skip"},
-                       "serpentine: each alley's neighbour next; skip: every second one, the rest "
-                       "on the way back, for wide turns"),
-      number_parameter("straighten_m", "m", 0.02, 0.0, 10.0,
-                       "vertices of an alley's line this near to a straight are left out"),
       number_parameter("speed_mps", "m/s", 0.0, 0.0, 100.0,
                        "wanted speed on legs; 0 = the follower's own"),
       number_parameter("turn_speed_mps", "m/s", 0.0, 0.0, 100.0,
@@ -200,6 +147,7 @@ PartSpec coverage_spec() {
       number_parameter("clearance_m", "m", 0.0, 0.0, 10.0,
                        "distance that the planned line keeps from every canopy's footprint"),
   };
+  for (ParameterSpec& parameter : row_route_parameters()) spec.parameters.push_back(parameter);
   spec.reads = {"estimate"};
   spec.writes = {"plan"};
   return spec;

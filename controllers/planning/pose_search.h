@@ -14,6 +14,8 @@ namespace vinerow {
 struct SearchReport {
   std::int64_t nodes = 0;  ///< in the tree
   std::int64_t iterations = 0;
+  /// Of the first way found, before any improvement; 0 where the search does not improve.
+  double first_length_m = 0.0;
   /// Edges of the tree for pictures, two points each, curved edges as several; W, m.
   std::vector<Eigen::Vector2d> tree_W;
 };

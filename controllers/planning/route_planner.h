@@ -12,31 +12,38 @@ namespace vinerow {
 
 struct RoutePlannerParams {
   RowRouteParams route;
-  double margin_m = 0.05;  ///< room around the footprint
-  double pitch_m = 0.25;   ///< of the waypoints
-  double speed_mps = 0.0;  ///< on legs; 0 = the follower's own
+  double turning_radius_m = 0.0;  ///< least of the vehicle
+  double margin_m = 0.05;         ///< room around the footprint
+  double pitch_m = 0.25;          ///< of the waypoints
+  double speed_mps = 0.0;         ///< on legs; 0 = the follower's own
   double turn_speed_mps = 0.0;
   double check_step_m = 0.1;  ///< between poses of the swept check
 };
 
-/// Parameters that every route planner has: alleys, order, margin_m, waypoint_pitch_m, speed_mps,
-/// turn_speed_mps, beyond_m, straighten_m.
+/// Parameters that every route planner has: those of row_route.h, beyond_m, turning_radius_m,
+/// margin_m, waypoint_pitch_m, speed_mps, turn_speed_mps.
 std::vector<ParameterSpec> route_planner_parameters();
-/// @throws ConfigError for alleys the map does not have
+/// The turning radius is the parameter's, else the vehicle's min_turning_radius_m.
+/// @throws ConfigError for alleys the map does not have, or a vehicle without turning radius
 RoutePlannerParams read_route_planner_params(const ParameterSet& parameters,
                                              const PlannerContext& context, const std::string& who);
 
-/// Refuses, each with one sentence and the numbers: a map without grid, a start in collision, a leg
-/// or goal inside a row, a turn for which there is no room (with the clearance that is missing).
-/// Reports "nodes", "iterations", "length_m", "clearance_m", "turn_clearance_m", "turns".
+/// Refuses, each with one sentence and the numbers: a start in collision, a leg or its end inside
+/// a row, a turn for which there is no room (with the clearance that is missing).
+/// Reports "nodes", "iterations", "turns", "length_m" of the path, "turn_length_m" of its turns,
+/// "first_turn_length_m" of the turns before the search improved them (only where it did),
+/// "clearance_m" and "turn_clearance_m", the least room around the outline anywhere and in turns.
+/// After a failure the numbers are of the work done until then.
+/// @param context  its map and vehicle must outlive the planner
 /// @throws ConfigError if the map has no alleys or no grid
 std::unique_ptr<Planner> make_route_planner(const RoutePlannerParams& params,
                                             std::unique_ptr<PoseSearch> search,
                                             const PlannerContext& context);
 
-/// How much the vehicle's outline would have to shrink on every side, m, for a turn between two
-/// poses to fit at the turning radius: 0 where it fits, nullopt where even a tenth of its width
-/// does not. For refusals.
+/// How much farther away on every side everything would have to be, m, for a turn between two poses
+/// to fit at the turning radius: 0 where it fits. What lies behind a wall counts as taken. Looks at
+/// Dubins paths only, so that a search may still find a way where this is > 0. nullopt if the ends
+/// themselves are taken or no free ground joins them near by. For refusals.
 std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& to, double radius_m,
                                                const DistanceField& field,
                                                const std::vector<Eigen::Vector2d>& outline_B,

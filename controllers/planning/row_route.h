@@ -3,10 +3,13 @@
 /// entrance and exit, and the turns between them (paper A, section 4.1; reference: sub-goals at row
 /// end, turn exit, row start).
 
+#include <string>
 #include <vector>
 
+#include "controllers/parts/path_pieces.h"
 #include "controllers/parts/pose2.h"
 #include "controllers/planning/alley_order.h"
+#include "engine/api/parameters.h"
 #include "engine/core/result.h"
 
 namespace vinerow {
@@ -23,12 +26,24 @@ struct RowRouteParams {
   std::vector<int> alleys;  ///< in this order; empty = all of the map
   AlleyOrder order = AlleyOrder::kSerpentine;
   double straighten_m = 0.02;
-  double beyond_m = 0.0;  ///< legs go this far beyond the row ends before a turn begins
+  double beyond_m = 0.0;  ///< legs go this far beyond the row ends before and after a turn
 };
 
-/// Legs in alternating direction; the first is entered from the end nearer to `start_W`.
-/// @returns a failure that names the alley, if the map has none or an index is unknown
+/// Parameters of every planner that drives alleys: alleys, order, straighten_m.
+std::vector<ParameterSpec> row_route_parameters();
+/// Reads those three. @param who  for errors, "rover.planner (coverage)"
+/// @throws ConfigError if an alley is asked that the map does not have, or asked twice
+RowRouteParams read_row_route_params(const ParameterSet& parameters, int alley_count,
+                                     const std::string& who);
+
+/// Legs, each entered from the end nearer to where the one before ended, which makes directions
+/// alternate; the first from the end nearer to `start_W`. The first entrance and the last exit stay
+/// at the row ends whatever beyond_m is.
+/// @returns a failure that names the alley, if the map has none or one has no length
 Result<std::vector<RouteLeg>> make_row_route(const RowMap& map, const RowRouteParams& params,
                                              const Eigen::Vector2d& start_W);
+
+/// The leg's straights, of kind kLeg.
+void append_leg(const RouteLeg& leg, double speed_mps, std::vector<PathPiece>& pieces);
 
 }  // namespace vinerow

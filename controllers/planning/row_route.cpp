@@ -1,0 +1,106 @@
+#include "controllers/planning/row_route.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/error.h"
+
+namespace vinerow {
+namespace {
+
+Pose2 heading_along(const Eigen::Vector2d& at, const Eigen::Vector2d& from,
+                    const Eigen::Vector2d& to) {
+  return {at, std::atan2(to.y() - from.y(), to.x() - from.x())};
+}
+
+std::vector<int> driving_order(const RowMap& map, const RowRouteParams& params) {
+  std::vector<int> chosen = params.alleys;
+  if (chosen.empty()) {
+    for (std::size_t i = 0; i < map.alleys.size(); ++i) chosen.push_back(static_cast<int>(i));
+  }
+  std::vector<int> ordered;
+  for (const int place : make_alley_order(static_cast<int>(chosen.size()), params.order)) {
+    ordered.push_back(chosen[place]);
+  }
+  return ordered;
+}
+
+}  // namespace
+
+Pose2 RouteLeg::entry() const {
+  return heading_along(line_W.front(), line_W[0], line_W[1]);
+}
+
+Pose2 RouteLeg::exit() const {
+  return heading_along(line_W.back(), line_W[line_W.size() - 2], line_W.back());
+}
+
+std::vector<ParameterSpec> row_route_parameters() {
+  ParameterSpec alleys = number_list_parameter(
+      "alleys", "", {}, "indices of the alleys to drive, in order; empty = all of the map");
+  alleys.min = 0.0;
+  return {alleys,
+          choice_parameter("order", "serpentine", {"serpentine", "skip"},
+                           "serpentine: each alley's neighbour next; skip: every second one, the "
+                           "rest on the way back, for wide turns"),
+          number_parameter("straighten_m", "m", 0.02, 0.0, 10.0,
+                           "vertices of an alley's line this near to a straight are left out")};
+}
+
+RowRouteParams read_row_route_params(const ParameterSet& parameters, int alley_count,
+                                     const std::string& who) {
+  RowRouteParams params;
+  params.order = parameters.text("order") == "skip" ? AlleyOrder::kSkip : AlleyOrder::kSerpentine;
+  params.straighten_m = parameters.number("straighten_m");
+  for (const double value : parameters.numbers("alleys")) {
+    const int alley = static_cast<int>(value);
+    if (alley != value || alley < 0 || alley >= alley_count) {
+      throw ConfigError(fmt::format("{}: alleys holds {}, must be whole numbers from 0 to {}", who,
+                                    value, alley_count - 1));
+    }
+    if (std::count(params.alleys.begin(), params.alleys.end(), alley) > 0) {
+      throw ConfigError(fmt::format("{}: alleys holds {} twice", who, alley));
+    }
+    params.alleys.push_back(alley);
+  }
+  return params;
+}
+
+Result<std::vector<RouteLeg>> make_row_route(const RowMap& map, const RowRouteParams& params,
+                                             const Eigen::Vector2d& start_W) {
+  if (map.alleys.empty()) return Failure{"the map has no alleys to drive"};
+  std::vector<RouteLeg> legs;
+  Eigen::Vector2d at = start_W;  // where the vehicle is after the legs so far
+  for (const int alley : driving_order(map, params)) {
+    if (alley < 0 || alley >= static_cast<int>(map.alleys.size())) {
+      return Failure{
+          fmt::format("the map has no alley {}, only 0 to {}", alley, map.alleys.size() - 1)};
+    }
+    RouteLeg leg{alley, simplify_line(map.alleys[alley].line_W, params.straighten_m)};
+    if (leg.line_W.size() < 2) {
+      return Failure{fmt::format("alley {} of the map has no length", alley)};
+    }
+    if ((leg.line_W.back() - at).norm() < (leg.line_W.front() - at).norm()) {
+      std::reverse(leg.line_W.begin(), leg.line_W.end());
+    }
+    at = leg.line_W.back();
+    legs.push_back(std::move(leg));
+  }
+  for (std::size_t i = 0; i < legs.size() && params.beyond_m > 0.0; ++i) {
+    std::vector<Eigen::Vector2d>& line = legs[i].line_W;
+    const Pose2 entry = legs[i].entry(), exit = legs[i].exit();
+    if (i > 0) line.front() = advance(entry, -params.beyond_m, 0.0).p;
+    if (i + 1 < legs.size()) line.back() = advance(exit, params.beyond_m, 0.0).p;
+  }
+  return legs;
+}
+
+void append_leg(const RouteLeg& leg, double speed_mps, std::vector<PathPiece>& pieces) {
+  for (std::size_t i = 0; i + 1 < leg.line_W.size(); ++i) {
+    pieces.push_back(
+        make_straight(leg.line_W[i], leg.line_W[i + 1], PathKind::kLeg, leg.alley, speed_mps));
+  }
+}
+
+}  // namespace vinerow

@@ -22,6 +22,10 @@ class DistanceField {
 
   bool empty() const { return columns_ == 0; }
   double cell_m() const { return cell_m_; }
+  /// Lower left corner of the grid.
+  const Eigen::Vector2d& corner_W() const { return corner_W_; }
+  /// Extents along x and y; zero where empty.
+  Eigen::Vector2d size_m() const { return cell_m_ * Eigen::Vector2d(columns_, rows_); }
   /// Distance at a point, m, bilinear between cell centres, >= 0. Outside the grid 0: what nobody
   /// mapped counts as taken. An empty field gives infinity. No heap; about 10 ns.
   double at(const Eigen::Vector2d& p_W) const;

@@ -36,6 +36,7 @@ class Footprint {
   double clearance_along_m(const Pose2& start, double length_m, double curvature_per_m,
                            double step_m) const;
 
+  const DistanceField& field() const { return *field_; }
   double margin_m() const { return margin_m_; }
   const std::vector<Eigen::Vector2d>& outline_B() const { return outline_B_; }
 

@@ -1,57 +1,38 @@
 #include "engine/sim/metrics/path_deviation.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
+#include "engine/sim/metrics/plan_stretch.h"
+#include "engine/sim/metrics/spread.h"
 
 namespace vinerow {
 namespace {
-
-constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-
-/// Root mean square and maximum of a signal.
-struct Spread {
-  double sum_squares = 0.0;
-  double max = 0.0;
-  std::int64_t count = 0;
-
-  void add(double value) {
-    sum_squares += value * value;
-    max = std::max(max, std::abs(value));
-    ++count;
-  }
-  double rms() const {
-    return count ? std::sqrt(sum_squares / static_cast<double>(count)) : kNotMeasured;
-  }
-  double max_or_nan() const { return count ? max : kNotMeasured; }
-};
 
 class PathDeviation final : public Metric {
  public:
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
-    plan_ = ports.read_optional<PlannedPath>("plan");
+    plan_.connect(ports);
   }
 
   void step(Time) override {
-    if (!plan_.has_value()) return;
-    if (plan_.is_newer_than(plan_seen_)) take_over_plan();
+    if (plan_.take_over()) take_over_plan();
     if (!meter_) return;
     const Odometry& truth = truth_.value();
-    const PolylineDistance::Nearest nearest = meter_->add(truth.X_WB.p.head<2>());
-    const PathPoint& point = plan_.value().points[nearest.segment];
-    if (point.kind != PathKind::kLeg) {
-      turns_.add(nearest.distance_m);
+    const Eigen::Vector2d p = truth.X_WB.p.head<2>();
+    const PolylineDistance::Nearest nearest = meter_->add(p);
+    if (!plan_.is_leg(nearest.segment)) {
+      turns_.add(plan_.curve_distance_m(nearest, p));
       return;
     }
     legs_.add(nearest.distance_m);
     headings_.add(wrap_angle(yaw_from_quaternion(truth.X_WB.q) - segment_yaw_[nearest.segment]));
-    if (point.alley >= 0 && leg_share_[nearest.segment] > 0.9) alleys_.insert(point.alley);
+    const int alley = plan_.points()[nearest.segment].alley;
+    if (alley >= 0 && leg_share_[nearest.segment] > 0.9) alleys_.insert(alley);
   }
 
   std::map<std::string, double> results() const override {
@@ -64,18 +45,16 @@ class PathDeviation final : public Metric {
         {"cross_track_max_m", legs_.max_or_nan()},
         {"heading_error_rms_rad", headings_.rms()},
         {"leg_samples", static_cast<double>(legs_.count)},
+        {"turn_deviation_rms_m", turns_.rms()},
         {"turn_deviation_max_m", turns_.max_or_nan()},
-        {"planned_length_m", plan_.has_value() ? plan_.value().length_m : kNotMeasured},
+        {"planned_length_m", plan_.has_plan() ? plan_.length_m() : kNotMeasured},
         {"alleys_driven", static_cast<double>(alleys_.size())}};
   }
 
  private:
   void take_over_plan() {
-    const auto& points = plan_.value().points;
-    if (points.size() < 2) return;
-    std::vector<Eigen::Vector2d> line;
-    line.reserve(points.size());
-    for (const PathPoint& point : points) line.push_back(point.p_W.head<2>());
+    const std::vector<PathPoint>& points = plan_.points();
+    const std::vector<Eigen::Vector2d>& line = plan_.line().points();
     segment_yaw_.clear();
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       const Eigen::Vector2d along = line[i + 1] - line[i];
@@ -92,12 +71,11 @@ class PathDeviation final : public Metric {
       }
       begin = end;
     }
-    meter_.emplace(std::move(line));
+    meter_.emplace(line);
   }
 
   SignalReader<Odometry> truth_;
-  SignalReader<PlannedPath> plan_;
-  std::uint64_t plan_seen_ = 0;
+  PlanStretch plan_;
   std::optional<DeviationMeter> meter_;
   std::vector<double> segment_yaw_;
   std::vector<double> leg_share_;
@@ -112,12 +90,12 @@ PartSpec path_deviation_spec() {
   spec.name = "path_deviation";
   spec.description =
       "Deviation from the plan: ATD, OF, RA of paper B (eq. 8), cross-track and heading error on "
-      "the legs";
+      "the legs, deviation from the planned arcs in the turns";
   spec.reads = {"truth", "plan (optional)"};
   spec.writes = {"average_deviation_m",     "deviation_max_m",   "oscillation_count",
                  "relative_accuracy_per_m", "cross_track_rms_m", "cross_track_max_m",
-                 "heading_error_rms_rad",   "leg_samples",       "turn_deviation_max_m",
-                 "planned_length_m",        "alleys_driven"};
+                 "heading_error_rms_rad",   "leg_samples",       "turn_deviation_rms_m",
+                 "turn_deviation_max_m",    "planned_length_m",  "alleys_driven"};
   return spec;
 }
 

@@ -5,11 +5,12 @@
 /// Results over the whole mission, samples at the metric's rate (default: the controller's) plus
 /// the start:
 ///   average_deviation_m (ATD), deviation_max_m, oscillation_count (OF), relative_accuracy_per_m =
-///   1/(ATD OF)
+///   1/(ATD OF), all from the polyline of the plan's points
 /// and on the legs, where the plants are (stretches of kind kLeg):
 ///   cross_track_rms_m, cross_track_max_m, heading_error_rms_rad, leg_samples
-/// and in the turns: turn_deviation_max_m. Also planned_length_m and alleys_driven (legs seen to
-/// their last tenth).
+/// and in the turns, from the plan's arcs (PlanStretch::curve_distance_m):
+///   turn_deviation_rms_m, turn_deviation_max_m.
+/// Also planned_length_m and alleys_driven (legs seen to their last tenth).
 
 #include <memory>
 

@@ -3,6 +3,7 @@
 #include "engine/sim/metrics/clearance.h"
 #include "engine/sim/metrics/path_deviation.h"
 #include "engine/sim/metrics/travel.h"
+#include "engine/sim/metrics/wheel_slip.h"
 #include "engine/sim/truth_estimator.h"
 
 namespace vinerow {
@@ -11,6 +12,7 @@ void register_metrics(Registry& registry) {
   registry.add_metric(path_deviation_spec(), make_path_deviation);
   registry.add_metric(clearance_spec(), make_clearance);
   registry.add_metric(travel_spec(), make_travel);
+  registry.add_metric(wheel_slip_spec(), make_wheel_slip);
 
   PartSpec truth;
   truth.name = "truth";

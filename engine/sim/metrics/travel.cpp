@@ -1,13 +1,20 @@
 #include "engine/sim/metrics/travel.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "engine/sim/metrics/spread.h"
 
 namespace vinerow {
 namespace {
 
 class Travel final : public Metric {
  public:
+  explicit Travel(const MetricContext& context) {
+    const auto& numbers = context.vehicle_description->numbers;
+    const auto capacity = numbers.find("battery_capacity_J");
+    if (capacity != numbers.end()) capacity_J_ = capacity->second;
+  }
+
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
     battery_ = ports.read_optional<BatteryState>("battery");
@@ -16,7 +23,8 @@ class Travel final : public Metric {
 
   void step(Time now) override {
     const Odometry& truth = truth_.value();
-    if (has_last_) distance_m_ += (truth.X_WB.p - last_p_W_).norm();
+    if (!has_last_) start_p_W_ = last_p_W_ = truth.X_WB.p;
+    distance_m_ += (truth.X_WB.p - last_p_W_).norm();
     last_p_W_ = truth.X_WB.p;
     has_last_ = true;
     max_speed_mps_ = std::max(max_speed_mps_, truth.v_WB_B.norm());
@@ -25,12 +33,19 @@ class Travel final : public Metric {
 
   std::map<std::string, double> results() const override {
     const double time_s = now_.s();
+    const double energy_J = battery_.has_value() ? battery_.value().energy_used_J : kNotMeasured;
+    const double mean_power_W = time_s > 0.0 ? energy_J / time_s : kNotMeasured;
+    // Who only takes in, or draws nothing, works for ever.
+    const double battery_hours =
+        mean_power_W > 0.0 ? capacity_J_ / mean_power_W / 3600.0 : kNotMeasured;
     return {{"distance_m", distance_m_},
+            {"displacement_m", (last_p_W_ - start_p_W_).norm()},
             {"time_s", time_s},
             {"mean_speed_mps", time_s > 0.0 ? distance_m_ / time_s : 0.0},
             {"max_speed_mps", max_speed_mps_},
-            {"energy_J", battery_.has_value() ? battery_.value().energy_used_J
-                                              : std::numeric_limits<double>::quiet_NaN()},
+            {"energy_J", energy_J},
+            {"mean_power_W", mean_power_W},
+            {"battery_hours", battery_hours},
             {"finished", follower_.has_value() && follower_.value().finished ? 1.0 : 0.0}};
   }
 
@@ -38,6 +53,8 @@ class Travel final : public Metric {
   SignalReader<Odometry> truth_;
   SignalReader<BatteryState> battery_;
   SignalReader<FollowerState> follower_;
+  double capacity_J_ = kNotMeasured;
+  Eigen::Vector3d start_p_W_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_p_W_ = Eigen::Vector3d::Zero();
   bool has_last_ = false;
   double distance_m_ = 0.0;
@@ -50,14 +67,15 @@ class Travel final : public Metric {
 PartSpec travel_spec() {
   PartSpec spec;
   spec.name = "travel";
-  spec.description = "Distance, time, speed and energy";
+  spec.description = "Distance, time, speed, energy and how long the battery lasts at that";
   spec.reads = {"truth", "battery (optional)", "follower (optional)"};
-  spec.writes = {"distance_m", "time_s", "mean_speed_mps", "max_speed_mps", "energy_J", "finished"};
+  spec.writes = {"distance_m", "displacement_m", "time_s",        "mean_speed_mps", "max_speed_mps",
+                 "energy_J",   "mean_power_W",   "battery_hours", "finished"};
   return spec;
 }
 
-std::unique_ptr<Metric> make_travel(const ParameterSet&, const MetricContext&) {
-  return std::make_unique<Travel>();
+std::unique_ptr<Metric> make_travel(const ParameterSet&, const MetricContext& context) {
+  return std::make_unique<Travel>(context);
 }
 
 }  // namespace vinerow

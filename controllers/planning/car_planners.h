@@ -1,0 +1,38 @@
+#pragma once
+/// OMPL's planners, run once with a fixed number of iterations and a seed of their own.
+
+#include <cstdint>
+#include <vector>
+
+#include "controllers/planning/car_sampler.h"
+
+namespace vinerow {
+
+struct CarProblem {
+  double radius_m = 1.0;
+  Eigen::Vector2d low_W = {0, 0}, high_W = {0, 0};  ///< box to search in
+  const Footprint* footprint = nullptr;
+  const WayCost* cost = nullptr;
+  double check_step_m = 0.1;
+  double range_m = 3.0;  ///< longest edge of the tree
+  std::int64_t iterations = 0;
+};
+
+struct CarTree {
+  std::vector<Pose2>
+      way;  ///< poses to join by Dubins paths, from `from` to `to`; empty: none found
+  double cost = 0.0;
+  std::int64_t nodes = 0;
+  std::vector<std::pair<Pose2, Pose2>> edges;
+};
+
+/// RRT* (Karaman and Frazzoli, "Sampling-based algorithms for optimal motion planning", Int. J.
+/// Robotics Research 30, 2011). The tree begins with sampling.first_way.
+/// @throws ompl::Exception
+CarTree run_rrt_star(const CarProblem& problem, CarSampling sampling, RandomStream random);
+
+/// RRT-Connect (Kuffner and LaValle, ICRA 2000), for a first way where closed forms fail.
+/// @throws ompl::Exception
+CarTree run_rrt_connect(const CarProblem& problem, CarSampling sampling, RandomStream random);
+
+}  // namespace vinerow

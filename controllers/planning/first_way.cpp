@@ -1,0 +1,122 @@
+#include "controllers/planning/first_way.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "controllers/planning/analytic_turn.h"
+
+namespace vinerow {
+namespace {
+
+struct Found {
+  std::vector<PathPiece> pieces;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+Found find_cheapest(const Pose2& from, const Pose2& to, double radius_m, const Footprint& footprint,
+                    const WayCost& cost, double check_step_m) {
+  Found best;
+  AnalyticTurnParams params;
+  params.radius_m = radius_m;
+  for (const AnalyticTurn& turn : make_analytic_turns(from, to, params)) {
+    if (turn.length_m >= best.cost) break;  // no cost is below its length
+    std::vector<PathPiece> pieces = make_pieces(from, to, turn);
+    const double its_cost = cost.of(pieces);
+    if (its_cost >= best.cost || !is_free(pieces, footprint, check_step_m)) continue;
+    best = {std::move(pieces), its_cost};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<FirstWay> find_first_way(const Pose2& from, const Pose2& to, double radius_m,
+                                       double reserve, const Footprint& footprint,
+                                       const WayCost& cost, double check_step_m) {
+  constexpr double kDearer = 1.1;
+  std::vector<double> radii = {radius_m};
+  if (reserve > 0.0) {
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+      radii.push_back(radius_m * (1.0 + share * reserve));
+    }
+  }
+  std::vector<Found> found;
+  double cheapest = std::numeric_limits<double>::infinity();
+  for (const double radius : radii) {
+    found.push_back(find_cheapest(from, to, radius, footprint, cost, check_step_m));
+    cheapest = std::min(cheapest, found.back().cost);
+  }
+  for (std::size_t i = radii.size(); i-- > 0;) {
+    if (!found[i].pieces.empty() && found[i].cost <= kDearer * cheapest) {
+      return FirstWay{found[i].pieces, radii[i]};
+    }
+  }
+  return std::nullopt;
+}
+
+bool is_free(const std::vector<PathPiece>& pieces, const Footprint& footprint, double step_m) {
+  return std::all_of(pieces.begin(), pieces.end(), [&](const PathPiece& piece) {
+    return footprint.is_free_along(piece.start, piece.length_m, piece.curvature_per_m, step_m);
+  });
+}
+
+std::vector<PathPiece> join_poses(const std::vector<Pose2>& poses, double radius_m) {
+  constexpr double kShortest_m = 1e-6;
+  std::vector<PathPiece> pieces;
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+    Pose2 pose = poses[i];
+    for (const DubinsPath::Piece& piece : calc_dubins(poses[i], poses[i + 1], radius_m).pieces) {
+      if (piece.length_m < kShortest_m) continue;
+      if (!pieces.empty() && pieces.back().curvature_per_m == piece.curvature_per_m) {
+        pieces.back().length_m += piece.length_m;
+      } else {
+        pieces.push_back({pose, piece.length_m, piece.curvature_per_m, PathKind::kTurn, -1, 0.0});
+      }
+      pose = advance(pose, piece.length_m, piece.length_m * piece.curvature_per_m);
+    }
+  }
+  return pieces;
+}
+
+std::vector<Pose2> sample_poses(const std::vector<PathPiece>& pieces, double step_m) {
+  std::vector<Pose2> poses;
+  for (const PathPiece& piece : pieces) {
+    const int parts = std::max(1, static_cast<int>(std::ceil(piece.length_m / step_m)));
+    for (int i = 0; i < parts; ++i) poses.push_back(piece.at(piece.length_m * i / parts));
+  }
+  if (!pieces.empty()) poses.push_back(pieces.back().end());
+  return poses;
+}
+
+std::vector<PathPiece> shorten(const std::vector<PathPiece>& pieces, double radius_m,
+                               const Footprint& footprint, const WayCost& cost,
+                               double check_step_m) {
+  constexpr int kMostRounds = 4;
+  constexpr double kStep_m = 0.5, kGain = 1e-3;
+  std::vector<PathPiece> way = pieces;
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<Pose2> poses = sample_poses(way, kStep_m);
+    bool is_shorter = false;
+    for (std::size_t i = 0; i + 2 < poses.size(); ++i) {
+      for (std::size_t j = poses.size() - 1; j > i + 1; --j) {
+        const std::vector<PathPiece> direct = join_poses({poses[i], poses[j]}, radius_m);
+        const std::vector<Pose2> stretch(poses.begin() + i, poses.begin() + j + 1);
+        const double now = cost.of(join_poses(stretch, radius_m));
+        if (calc_length_m(direct) > now - kGain || cost.of(direct) > now - kGain ||
+            !is_free(direct, footprint, check_step_m)) {
+          continue;
+        }
+        poses.erase(poses.begin() + i + 1, poses.begin() + j);
+        is_shorter = true;
+        break;
+      }
+    }
+    if (!is_shorter) break;
+    way = join_poses(poses, radius_m);
+  }
+  return way;
+}
+
+}  // namespace vinerow

@@ -1,0 +1,59 @@
+#include "controllers/planning/rrt_star.h"
+
+#include <fmt/format.h>
+
+#include "controllers/planning/route_planner.h"
+#include "controllers/planning/rrt_star_search.h"
+
+namespace vinerow {
+
+PartSpec rrt_star_spec() {
+  PartSpec spec;
+  spec.name = "rrt_star";
+  spec.description =
+      "Plans legs along the alleys and turns on the occupancy grid: a first turn in closed form, "
+      "improved by RRT* (Karaman, Frazzoli 2011) in OMPL for a car-like vehicle (paper A, 4.1).";
+  spec.parameters = route_planner_parameters();
+  for (ParameterSpec parameter : {
+           integer_parameter("iterations", 1000, 0, 1e7,
+                             "of RRT*, for every turn that a shorter way is possible for; 0: the "
+                             "first way stands"),
+           integer_parameter("connect_iterations", 20'000, 1, 1e7,
+                             "of RRT-Connect, where no turn in closed form fits"),
+           positive_parameter("range_m", "m", 3.0, "longest edge of the tree"),
+           positive_parameter("reach_m", "m", 8.0, "how far around both ends ways are looked for"),
+           number_parameter("curvature_reserve", "", 0.05, 0.0, 1.0,
+                            "turns are wider than the least radius by up to this share where "
+                            "there is room, so that the follower can steer in"),
+           number_parameter("clearance_weight", "", 0.0, 0.0, 100.0,
+                            "a metre driven at no clearance costs 1 + this"),
+           positive_parameter("wanted_clearance_m", "m", 0.3,
+                              "from here on clearance costs nothing more"),
+       }) {
+    spec.parameters.push_back(std::move(parameter));
+  }
+  spec.reads = {"estimate"};
+  spec.writes = {"plan", "plan_tree"};
+  return spec;
+}
+
+std::unique_ptr<Planner> make_rrt_star(const ParameterSet& parameters,
+                                       const PlannerContext& context) {
+  const RoutePlannerParams route =
+      read_route_planner_params(parameters, context, context.part + " (rrt_star)");
+  RrtStarParams params;
+  params.radius_m = route.turning_radius_m;
+  params.check_step_m = route.check_step_m;
+  params.iterations = parameters.integer("iterations");
+  params.connect_iterations = parameters.integer("connect_iterations");
+  params.range_m = parameters.number("range_m");
+  params.reach_m = parameters.number("reach_m");
+  params.curvature_reserve = parameters.number("curvature_reserve");
+  params.cost.clearance_weight = parameters.number("clearance_weight");
+  params.cost.wanted_clearance_m = parameters.number("wanted_clearance_m");
+  const PartContext own = context;
+  const auto random_of = [own](int stream) { return own.random(fmt::format("turn_{}", stream)); };
+  return make_route_planner(route, std::make_unique<RrtStarSearch>(params, random_of), context);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,119 @@
+#include "controllers/planning/rrt_star_search.h"
+
+#include <fmt/format.h>
+#include <ompl/util/Exception.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "controllers/planning/analytic_turn.h"
+#include "controllers/planning/car_planners.h"
+#include "controllers/planning/first_way.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+using Pieces = std::vector<PathPiece>;
+
+std::optional<std::string> find_taken(const Pose2& pose, const char* name,
+                                      const Footprint& footprint) {
+  if (footprint.is_free(pose)) return std::nullopt;
+  return fmt::format(
+      "{} in collision: at ({:.2f}, {:.2f}) heading {:.1f} deg the footprint has {:.3f} m of room, "
+      "the margin is {:.3f} m",
+      name, pose.p.x(), pose.p.y(), deg_from_rad(wrap_angle(pose.yaw_rad)),
+      footprint.clearance_m(pose), footprint.margin_m());
+}
+
+/// Edges as straight strokes.
+void draw(const CarTree& tree, double radius_m, std::vector<Eigen::Vector2d>& strokes_W) {
+  constexpr double kStroke_m = 0.4;
+  for (const auto& [from, to] : tree.edges) {
+    const DubinsPath path = calc_dubins(from, to, radius_m);
+    const int parts = std::max(1, static_cast<int>(std::ceil(path.length_m() / kStroke_m)));
+    Eigen::Vector2d last = from.p;
+    for (int i = 1; i <= parts; ++i) {
+      const Eigen::Vector2d next = pose_on_dubins(from, path, path.length_m() * i / parts).p;
+      strokes_W.push_back(last);
+      strokes_W.push_back(next);
+      last = next;
+    }
+  }
+}
+
+}  // namespace
+
+RrtStarSearch::RrtStarSearch(const RrtStarParams& params,
+                             std::function<RandomStream(int)> random_of)
+    : params_(params), random_of_(std::move(random_of)) {}
+
+Result<Pieces> RrtStarSearch::find(const Pose2& from, const Pose2& to, const Footprint& footprint,
+                                   int problem, SearchReport& report) try {
+  report = {};
+  if (const auto fault = find_taken(from, "start", footprint)) return Failure{*fault};
+  if (const auto fault = find_taken(to, "goal", footprint)) return Failure{*fault};
+
+  const WayCost cost(params_.cost, footprint);
+  CarProblem car;
+  car.radius_m = params_.radius_m;
+  car.low_W = from.p.cwiseMin(to.p).array() - params_.reach_m;
+  car.high_W = from.p.cwiseMax(to.p).array() + params_.reach_m;
+  car.footprint = &footprint;
+  car.cost = &cost;
+  car.check_step_m = params_.check_step_m;
+  car.range_m = params_.range_m;
+  CarSampling sampling;
+  sampling.from = from;
+  sampling.to = to;
+  sampling.footprint = &footprint;
+  sampling.best_cost = [] { return std::numeric_limits<double>::infinity(); };
+
+  Pieces best;
+  if (const auto first = find_first_way(from, to, params_.radius_m, params_.curvature_reserve,
+                                        footprint, cost, params_.check_step_m)) {
+    best = first->pieces;
+    car.radius_m = first->radius_m;
+  } else {
+    car.iterations = params_.connect_iterations;
+    const CarTree tree = run_rrt_connect(car, sampling, random_of_(2 * problem));
+    report.nodes += tree.nodes;
+    report.iterations += car.iterations;
+    best = join_poses(tree.way, car.radius_m);
+    if (best.empty() || !is_free(best, footprint, params_.check_step_m)) {
+      return Failure{fmt::format(
+          "no way in closed form at the turning radius of {:.2f} m, and none found in {} "
+          "iterations within {:.1f} m",
+          params_.radius_m, car.iterations, params_.reach_m)};
+    }
+    best = shorten(best, car.radius_m, footprint, cost, params_.check_step_m);
+  }
+  report.first_length_m = calc_length_m(best);
+
+  const double known = cost.of(best);
+  const double least_m = calc_dubins(from, to, car.radius_m).length_m();
+  // Where the first way is the shortest that any vehicle of this radius has, there is no better.
+  if (params_.iterations == 0 || known <= least_m * (1.0 + 1e-6)) return best;
+
+  constexpr double kSeedPitch_m = 0.75;
+  car.iterations = params_.iterations;
+  sampling.first_way = sample_poses(best, kSeedPitch_m);
+  sampling.first_way.erase(sampling.first_way.begin());  // the root of the tree
+  sampling.best_cost = [known] { return known; };
+  const CarTree tree = run_rrt_star(car, sampling, random_of_(2 * problem + 1));
+  report.nodes += tree.nodes;
+  report.iterations += car.iterations;
+  draw(tree, car.radius_m, report.tree_W);
+  if (tree.way.size() < 2) return best;
+  const Pieces improved = shorten(join_poses(tree.way, car.radius_m), car.radius_m, footprint, cost,
+                                  params_.check_step_m);
+  if (cost.of(improved) < known && is_free(improved, footprint, params_.check_step_m)) {
+    best = improved;
+  }
+  return best;
+} catch (const ompl::Exception& fault) {
+  return Failure{fmt::format("OMPL gave up: {}", fault.what())};
+}
+
+}  // namespace vinerow

@@ -1,0 +1,36 @@
+#pragma once
+/// What a way costs: its length, and more where it runs close to something.
+
+#include <vector>
+
+#include "controllers/parts/footprint.h"
+#include "controllers/parts/path_pieces.h"
+
+namespace vinerow {
+
+struct WayCostParams {
+  double clearance_weight = 0.0;    ///< a metre driven at no clearance costs 1 + this
+  double wanted_clearance_m = 0.3;  ///< from here on a metre costs one
+  double step_m = 0.25;             ///< between poses looked at
+};
+
+/// Integral of 1 + weight * max(0, 1 - clearance / wanted) along the way. Never less than the
+/// length, so that a Dubins length bounds it from below.
+class WayCost {
+ public:
+  WayCost(const WayCostParams& params, const Footprint& footprint);
+
+  double of(const PathPiece& piece) const;
+  double of(const std::vector<PathPiece>& pieces) const;
+  double of(const Pose2& start, const DubinsPath& path) const;
+
+ private:
+  double of_arc(const Pose2& start, double length_m, double curvature_per_m) const;
+  double rough_clearance_m(const Pose2& pose) const;
+
+  WayCostParams params_;
+  const DistanceField& field_;
+  std::vector<Eigen::Vector2d> looked_at_B_;  // corners and edge middles of the outline
+};
+
+}  // namespace vinerow

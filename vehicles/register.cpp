@@ -1,12 +1,15 @@
 #include "vehicles/register.h"
 
 #include "vehicles/diff_drive_rover/diff_drive_rover.h"
+#include "vehicles/four_wheel_steering_rover/four_wheel_steering_rover.h"
 #include "vehicles/urdf_rover/urdf_rover.h"
 
 namespace vinerow {
 
 void register_vehicles(Registry& registry) {
   registry.add_vehicle(vehicles::diff_drive_rover_spec(), vehicles::make_diff_drive_rover);
+  registry.add_vehicle(vehicles::four_wheel_steering_rover_spec(),
+                       vehicles::make_four_wheel_steering_rover);
   registry.add_vehicle(vehicles::urdf_rover_spec(), vehicles::make_urdf_rover);
 }
 

@@ -18,6 +18,12 @@ class DelayLine {
     if (delay.ns > 0) ring_.resize(static_cast<std::size_t>(delay.ns / period.ns) + 2);
   }
 
+  /// For readings that own memory (names, lists): every place of the line gets it now, so that
+  /// push() only copies into it.
+  void prefill(const T& reading) {
+    for (Entry& entry : ring_) entry.reading = reading;
+  }
+
   Duration delay() const { return delay_; }
 
   /// Writes at once without delay, else keeps the reading until deliver().
@@ -27,7 +33,9 @@ class DelayLine {
       return;
     }
     VINEROW_DEMAND(count_ < ring_.size());
-    ring_[(first_ + count_++) % ring_.size()] = {measured, reading};
+    Entry& entry = ring_[(first_ + count_++) % ring_.size()];
+    entry.measured = measured;
+    entry.reading = reading;
   }
 
   /// Hands over the oldest reading; its stamp is the time of the measurement.

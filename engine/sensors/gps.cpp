@@ -39,6 +39,7 @@ class Gps final : public Sensor {
     out_ = ports.write<GnssFix>(name_);
   }
   Duration delay() const override { return line_.delay(); }
+  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
   void deliver(Time) override { line_.deliver(out_); }
 
   void step(Time now) override {

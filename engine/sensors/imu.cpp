@@ -54,6 +54,7 @@ class Imu final : public Sensor {
     out_ = ports.write<ImuSample>(name_);
   }
   Duration delay() const override { return line_.delay(); }
+  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
   void deliver(Time) override { line_.deliver(out_); }
 
   void step(Time now) override {

@@ -1,5 +1,6 @@
 #include "engine/sensors/register.h"
 
+#include "engine/sensors/encoders.h"
 #include "engine/sensors/gps.h"
 #include "engine/sensors/imu.h"
 #include "engine/sensors/ultrasound.h"
@@ -7,6 +8,7 @@
 namespace vinerow {
 
 void register_sensors(Registry& registry) {
+  registry.add_sensor(encoders_spec(), make_encoders);
   registry.add_sensor(gps_spec(), make_gps);
   registry.add_sensor(imu_spec(), make_imu);
   registry.add_sensor(ultrasound_spec(), make_ultrasound);

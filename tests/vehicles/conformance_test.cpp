@@ -37,6 +37,10 @@ std::vector<Setup> setups() {
       continue;
     }
     result.push_back({name, name, [](ParameterSet&) {}});
+    if (name == "four_wheel_steering_rover") {
+      result.push_back({name + "_wheel_limit", name,
+                        [](ParameterSet& set) { set.set("steer_limit", std::string("wheel")); }});
+    }
     if (name == "diff_drive_rover") {
       result.push_back({name + "_kinematic", name,
                         [](ParameterSet& set) { set.set("fidelity", std::string("kinematic")); }});
@@ -72,16 +76,39 @@ class Rig {
   Vehicle& vehicle() { return *vehicle_; }
   SignalBus& bus() { return bus_; }
 
-  /// Rim speeds of both sides, m/s.
+  /// Rim speeds of both sides, m/s. A vehicle that steers is asked for the same twist: the yaw rate
+  /// of two sides that roll on the track, as far as its steering lets it.
   void drive(double left_mps, double right_mps) {
     const double radius = about().number("wheel_radius_m", "the test");
+    const bool steers = about().actuators[0].name == "axle_front_steer_rad";
+    const double v = 0.5 * (left_mps + right_mps), track = about().number("track_m", "the test");
+    const double half_base = 0.5 * about().number("wheel_base_m", "the test");
+    double curvature = 0.0;
+    if (steers) {
+      const double most = std::tan(about().actuators[0].max) / half_base;
+      const double wanted = (right_mps - left_mps) / track / (v == 0.0 ? 1e-9 : v);
+      curvature = std::clamp(wanted, -most, most);
+    }
     for (std::size_t i = 0; i < values_.size(); ++i) {
       const ActuatorSpec& actuator = about().actuators[i];
-      // "wheel_fl_...", "wheel_rl_...", "wheel_l1_...": the side's letter is the last before '_' or
-      // the first with a number behind it.
-      const std::string wheel = actuator.name.substr(6, 2);
-      const bool left = wheel[1] == 'l' || (wheel[0] == 'l' && wheel[1] != 'r');
-      values_[i] = std::clamp((left ? left_mps : right_mps) / radius, actuator.min, actuator.max);
+      const double axle_rad = std::atan(curvature * half_base);
+      if (actuator.name == "axle_front_steer_rad") {
+        values_[i] = axle_rad;
+      } else if (actuator.name == "axle_rear_steer_rad") {
+        values_[i] = -axle_rad;
+      } else {
+        // "wheel_fl_...", "wheel_rl_...", "wheel_l1_...": the side's letter is the last before '_'
+        // or the first with a number behind it.
+        const std::string wheel = actuator.name.substr(6, 2);
+        const bool left = wheel[1] == 'l' || (wheel[0] == 'l' && wheel[1] != 'r');
+        double speed_mps = left ? left_mps : right_mps;
+        if (steers) {
+          const double lever = 1.0 - curvature * (left ? 0.5 : -0.5) * track;
+          speed_mps = v * std::hypot(lever, curvature * half_base);
+        }
+        values_[i] = speed_mps / radius;
+      }
+      values_[i] = std::clamp(values_[i], actuator.min, actuator.max);
     }
     vehicle_->actuate(values_);
   }
@@ -100,6 +127,8 @@ class Rig {
     return truth;
   }
   Time now() const { return now_; }
+  /// What was last commanded.
+  double command(std::size_t actuator) const { return values_[actuator]; }
 
  private:
   WorldModel world_model_;
@@ -222,7 +251,10 @@ TEST_P(VehicleConformance, AStepAllocatesNothing) {
   rig.run(0.1);
   std::vector<Pose> poses(rig.vehicle().links().size());
   rig.vehicle().publish(rig.now());  // the first write sizes the signals
-  const std::vector<double> values(rig.about().actuators.size(), 1.0);
+  std::vector<double> values;
+  for (const ActuatorSpec& actuator : rig.about().actuators) {
+    values.push_back(std::min(1.0, actuator.max));
+  }
   Odometry truth;
   const vinerow::test::AllocationCounter counter;
   for (int i = 0; i < 100; ++i) {
@@ -246,6 +278,21 @@ TEST_P(VehicleConformance, StaysFiniteAtItsActuatorLimitsOnRoughGround) {
     const Odometry truth = rig.truth();
     ASSERT_TRUE(truth.X_WB.p.allFinite() && truth.v_WB_B.allFinite());
     ASSERT_LT(truth.v_WB_B.norm(), 20.0);
+  }
+}
+
+TEST_P(VehicleConformance, TellsTheStatesOfItsActuatorsOrNothing) {
+  Rig rig(GetParam(), make_flat_world());
+  if (rig.vehicle().actuator_states().empty()) GTEST_SKIP() << "tells no actuator states";
+  const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
+  rig.drive(0.9 * v, 1.1 * v);
+  rig.run(3.0);
+  const std::span<const double> states = rig.vehicle().actuator_states();
+  ASSERT_EQ(states.size(), rig.about().actuators.size());
+  // After three seconds each has come to its command: the servos to 0.01 rad, the motors to 2 %.
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double tolerance = rig.about().actuators[i].unit == "rad" ? 0.01 : 0.02 * rig.command(i);
+    EXPECT_NEAR(states[i], rig.command(i), tolerance) << rig.about().actuators[i].name;
   }
 }
 

@@ -1,7 +1,5 @@
 #include "vehicles/diff_drive_rover/diff_drive_rover.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -14,44 +12,15 @@
 namespace vinerow::vehicles {
 namespace {
 
-constexpr std::size_t kWheels = 4;
-/// Front left, front right, rear left, rear right: name, side along x, side along y.
-constexpr const char* kWheelNames[kWheels] = {"fl", "fr", "rl", "rr"};
-constexpr double kAlong[kWheels] = {1.0, 1.0, -1.0, -1.0};
-constexpr double kAcross[kWheels] = {1.0, -1.0, 1.0, -1.0};
 /// The hull as a box above the ground: lower and upper edge. What is lower is met by the wheels.
 constexpr double kHullBottom_m = 0.22;
 constexpr double kHullTop_m = 0.82;
-
-Eigen::Vector3d hub_B(const DiffDriveRoverParams& p, std::size_t i) {
-  return {0.5 * kAlong[i] * p.wheel_base_m, 0.5 * kAcross[i] * p.track_m,
-          p.wheel_radius_m - p.com_height_m};
-}
 
 }  // namespace
 
 WheeledPlatformParams diff_drive_platform_params(const DiffDriveRoverParams& p,
                                                  double gravity_mps2) {
-  WheeledPlatformParams platform;
-  platform.name = p.name;
-  platform.mass_kg = p.mass_kg;
-  platform.inertia_B = p.inertia_kgm2.asDiagonal();
-  platform.battery = p.battery;
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    WheelParams wheel;
-    wheel.name = kWheelNames[i];
-    wheel.hub_B = hub_B(p, i);
-    wheel.radius_m = p.wheel_radius_m;
-    wheel.spin_inertia_kgm2 = p.wheel_inertia_kgm2;
-    wheel.probes = p.wheel_probes;
-    wheel.tyre = p.tyre;
-    wheel.motor = p.motor;
-    wheel.suspension.stiffness_N_per_m = p.suspension_stiffness_N_per_m;
-    wheel.suspension.damping_Ns_per_m = p.suspension_damping_Ns_per_m;
-    wheel.suspension.design_load_N = 0.25 * p.mass_kg * gravity_mps2;
-    platform.wheels.push_back(wheel);
-  }
-  return platform;
+  return chassis_platform_params(p, gravity_mps2);
 }
 
 DiffDriveRover::DiffDriveRover(const DiffDriveRoverParams& params, double gravity_mps2)
@@ -63,7 +32,7 @@ DiffDriveRover::DiffDriveRover(const DiffDriveRoverParams& params, double gravit
   platform.shapes = {{physics::BoxShape{description_.collision_half_extents_m},
                       Pose{Eigen::Quaterniond::Identity(), description_.collision_centre_B}}};
   if (!params_.kinematic) {
-    physics_.emplace(std::move(platform));
+    build_platform(std::move(platform));
     return;
   }
   KinematicPlatformParams kinematic;
@@ -75,19 +44,16 @@ DiffDriveRover::DiffDriveRover(const DiffDriveRoverParams& params, double gravit
   kinematic.wheel_base_m = params_.wheel_base_m;
   kinematic.height_above_ground_m = params_.com_height_m;
   kinematic_.emplace(std::move(kinematic));
-  for (const char* wheel : kWheelNames) {
-    wheels_message_.names.push_back(fmt::format("wheel_{}_speed_radps", wheel));
+  for (const ActuatorSpec& actuator : description_.actuators) {
+    wheels_message_.names.push_back(actuator.name);
   }
-  wheels_message_.values.assign(kWheels, 0.0);
+  actuator_states_.assign(kCorners.size(), 0.0);
 }
 
 void DiffDriveRover::describe() {
   const DiffDriveRoverParams& p = params_;
   description_.type = "diff_drive_rover";
-  for (const char* wheel : kWheelNames) {
-    description_.actuators.push_back({fmt::format("wheel_{}_speed_radps", wheel), "rad/s",
-                                      -p.wheel_speed_limit_radps, p.wheel_speed_limit_radps});
-  }
+  append_wheel_speed_actuators(p, description_.actuators);
   description_.mass_kg = p.mass_kg;
   description_.height_above_ground_m = p.com_height_m;
   description_.collision_half_extents_m = {0.5 * p.wheel_base_m + p.wheel_radius_m,
@@ -123,53 +89,35 @@ void DiffDriveRover::make_links() {
   wheel.width_m = params_.tyre_width_m;
   wheel.rim_radius_m = 0.53 * params_.wheel_radius_m;
   wheel.lug_height_m = 0.08 * params_.wheel_radius_m;
-  const auto left = std::make_shared<TriangleMesh>(make_wheel_mesh(wheel));
-  wheel.left = false;
-  const auto right = std::make_shared<TriangleMesh>(make_wheel_mesh(wheel));
   material.roughness = 0.9f;
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    links_.push_back(
-        {fmt::format("wheel_{}", kWheelNames[i]), kAcross[i] > 0.0 ? left : right, material});
-  }
+  append_wheel_links(wheel, material, links_);
 }
 
 void DiffDriveRover::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   world_ = &world;
-  if (physics_) {
-    physics_->spawn(world, X_WB);
-  } else {
-    kinematic_->spawn(world, X_WB);
-  }
+  if (!kinematic_) return PlatformVehicle::spawn(world, X_WB);
+  kinematic_->spawn(world, X_WB);
 }
 
 void DiffDriveRover::connect(Ports& ports) {
-  if (physics_) {
-    physics_->connect(ports);
-    return;
-  }
+  if (!kinematic_) return PlatformVehicle::connect(ports);
   wheels_writer_ = ports.write<NamedValues>("wheels");
   battery_writer_ = ports.write<BatteryState>("battery");
 }
 
 void DiffDriveRover::actuate(std::span<const double> values) {
-  VINEROW_ASSERT(values.size() == kWheels);
-  if (physics_) {
-    for (std::size_t i = 0; i < kWheels; ++i) physics_->command_speed(i, values[i]);
-    return;
-  }
-  std::copy(values.begin(), values.end(), spin_radps_.begin());
+  if (!kinematic_) return PlatformVehicle::actuate(values);
+  VINEROW_ASSERT(values.size() == kCorners.size());
+  std::copy(values.begin(), values.end(), actuator_states_.begin());
   kinematic_->command(0.5 * (values[0] + values[2]) * params_.wheel_radius_m,
                       0.5 * (values[1] + values[3]) * params_.wheel_radius_m);
 }
 
-void DiffDriveRover::before_physics(Time /*now*/, Duration dt) {
-  if (physics_) {
-    physics_->before_physics(dt);
-    return;
-  }
+void DiffDriveRover::before_physics(Time now, Duration dt) {
+  if (!kinematic_) return PlatformVehicle::before_physics(now, dt);
   kinematic_->before_physics(dt);
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    angle_rad_[i] = wrap_angle(angle_rad_[i] + spin_radps_[i] * dt.s());
+  for (std::size_t i = 0; i < kCorners.size(); ++i) {
+    angle_rad_[i] = wrap_angle(angle_rad_[i] + actuator_states_[i] * dt.s());
   }
   const double resistance_N = world_->world_model().soil.rolling_resistance * params_.mass_kg *
                               world_->settings().gravity_mps2;
@@ -177,41 +125,31 @@ void DiffDriveRover::before_physics(Time /*now*/, Duration dt) {
   advance_battery(params_.battery, drive_W / params_.motor.efficiency, dt.s(), battery_);
 }
 
-void DiffDriveRover::after_physics(Time /*now*/, Duration dt) {
-  if (physics_) physics_->after_physics(dt);
+void DiffDriveRover::after_physics(Time now, Duration dt) {
+  if (!kinematic_) PlatformVehicle::after_physics(now, dt);
 }
 
 void DiffDriveRover::read_truth(Odometry& truth) const {
-  if (physics_) {
-    physics_->read_truth(truth);
-  } else {
-    kinematic_->read_truth(truth);
-  }
+  if (!kinematic_) return PlatformVehicle::read_truth(truth);
+  kinematic_->read_truth(truth);
 }
 
 Eigen::Vector3d DiffDriveRover::specific_force_B() const {
-  return physics_ ? physics_->state().specific_force_B : kinematic_->state().specific_force_B;
+  return kinematic_ ? kinematic_->state().specific_force_B : PlatformVehicle::specific_force_B();
 }
 
 void DiffDriveRover::read_links(std::vector<Pose>& X_WL) const {
-  const Pose& X_WB = physics_ ? physics_->state().body.X_WB : kinematic_->state().body.X_WB;
-  X_WL[0] = X_WB;
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    if (physics_) {
-      X_WL[i + 1] = X_WB * physics_->wheel(i).link_pose_B(physics_->state().wheels[i]);
-    } else {
-      const Eigen::AngleAxisd turned(angle_rad_[i], Eigen::Vector3d::UnitY());
-      X_WL[i + 1] = X_WB * Pose{Eigen::Quaterniond(turned), hub_B(params_, i)};
-    }
+  if (!kinematic_) return PlatformVehicle::read_links(X_WL);
+  X_WL[0] = kinematic_->state().body.X_WB;
+  for (std::size_t i = 0; i < kCorners.size(); ++i) {
+    const Eigen::AngleAxisd turned(angle_rad_[i], Eigen::Vector3d::UnitY());
+    X_WL[i + 1] = X_WL[0] * Pose{Eigen::Quaterniond(turned), params_.hub_B(kCorners[i])};
   }
 }
 
 void DiffDriveRover::publish(Time now) {
-  if (physics_) {
-    physics_->publish(now);
-    return;
-  }
-  std::copy(spin_radps_.begin(), spin_radps_.end(), wheels_message_.values.begin());
+  if (!kinematic_) return PlatformVehicle::publish(now);
+  wheels_message_.values = actuator_states_;
   if (wheels_writer_.connected()) wheels_writer_.write(now, wheels_message_);
   if (battery_writer_.connected()) battery_writer_.write(now, battery_);
 }

@@ -11,7 +11,7 @@
 #include "engine/api/registry.h"
 #include "vehicles/diff_drive_rover/diff_drive_rover_params.h"
 #include "vehicles/parts/kinematic_platform.h"
-#include "vehicles/parts/wheeled_platform.h"
+#include "vehicles/parts/platform_vehicle.h"
 
 namespace vinerow::vehicles {
 
@@ -19,13 +19,11 @@ namespace vinerow::vehicles {
 WheeledPlatformParams diff_drive_platform_params(const DiffDriveRoverParams& params,
                                                  double gravity_mps2 = 9.80665);
 
-class DiffDriveRover final : public Vehicle {
+class DiffDriveRover final : public PlatformVehicle {
  public:
   /// @throws ConfigError
   explicit DiffDriveRover(const DiffDriveRoverParams& params, double gravity_mps2 = 9.80665);
 
-  const VehicleDescription& description() const override { return description_; }
-  const std::vector<VehicleLink>& links() const override { return links_; }
   void spawn(physics::PhysicsWorld& world, const Pose& X_WB) override;
   void connect(Ports& ports) override;
   void actuate(std::span<const double> values) override;
@@ -36,20 +34,14 @@ class DiffDriveRover final : public Vehicle {
   void read_links(std::vector<Pose>& X_WL) const override;
   void publish(Time now) override;
 
-  /// For tests. Empty with kinematic fidelity.
-  const WheeledPlatform* platform() const { return physics_ ? &*physics_ : nullptr; }
-
  private:
   void describe();
   void make_links();
 
   DiffDriveRoverParams params_;
-  VehicleDescription description_;
-  std::vector<VehicleLink> links_;
-  std::optional<WheeledPlatform> physics_;
+  // Kinematic fidelity: this one instead of the platform; the wheels turn as commanded (their
+  // speeds are the actuator states) and the battery pays rolling resistance.
   std::optional<KinematicPlatform> kinematic_;
-  // With kinematic fidelity the wheels turn as commanded and the battery pays rolling resistance.
-  std::array<double, 4> spin_radps_{};
   std::array<double, 4> angle_rad_{};
   BatteryState battery_;
   NamedValues wheels_message_;

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "vehicles/parts/validation.h"
 #include "vehicles/parts/wheel_parameters.h"
@@ -148,9 +147,10 @@ UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std
 }
 
 UrdfRover::UrdfRover(const UrdfRoverParams& params, double gravity_mps2)
-    : model_(read_urdf_rover(io::load_urdf(params.urdf, params.packages), params.options)),
-      platform_(platform_params(params, model_, gravity_mps2)) {
+    : model_(read_urdf_rover(io::load_urdf(params.urdf, params.packages), params.options)) {
   describe(params);
+  links_ = model_.links;
+  build_platform(platform_params(params, model_, gravity_mps2));
 }
 
 void UrdfRover::describe(const UrdfRoverParams& params) {
@@ -173,47 +173,6 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
       {"wheel_speed_limit_radps", params.wheel_speed_limit_radps},
       {"effective_track_m", calc_effective_track_m(model_.track_m, model_.wheel_base_m)},
   };
-}
-
-void UrdfRover::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
-  platform_.spawn(world, X_WB);
-}
-
-void UrdfRover::connect(Ports& ports) {
-  platform_.connect(ports);
-}
-
-void UrdfRover::actuate(std::span<const double> values) {
-  VINEROW_ASSERT(values.size() == model_.wheels.size());
-  for (std::size_t i = 0; i < values.size(); ++i) platform_.command_speed(i, values[i]);
-}
-
-void UrdfRover::before_physics(Time /*now*/, Duration dt) {
-  platform_.before_physics(dt);
-}
-
-void UrdfRover::after_physics(Time /*now*/, Duration dt) {
-  platform_.after_physics(dt);
-}
-
-void UrdfRover::read_truth(Odometry& truth) const {
-  platform_.read_truth(truth);
-}
-
-Eigen::Vector3d UrdfRover::specific_force_B() const {
-  return platform_.state().specific_force_B;
-}
-
-void UrdfRover::read_links(std::vector<Pose>& X_WL) const {
-  const Pose& X_WB = platform_.state().body.X_WB;
-  X_WL[0] = X_WB;
-  for (std::size_t i = 0; i < model_.wheels.size(); ++i) {
-    X_WL[i + 1] = X_WB * platform_.wheel(i).link_pose_B(platform_.state().wheels[i]);
-  }
-}
-
-void UrdfRover::publish(Time now) {
-  platform_.publish(now);
 }
 
 std::unique_ptr<Vehicle> make_urdf_rover(const ParameterSet& parameters,

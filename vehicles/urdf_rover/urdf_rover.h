@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "engine/api/registry.h"
-#include "vehicles/parts/wheeled_platform.h"
+#include "vehicles/parts/platform_vehicle.h"
 #include "vehicles/urdf_rover/urdf_rover_model.h"
 
 namespace vinerow::vehicles {
@@ -35,32 +35,17 @@ struct UrdfRoverParams {
 PartSpec urdf_rover_spec();
 UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std::string& name);
 
-class UrdfRover final : public Vehicle {
+class UrdfRover final : public PlatformVehicle {
  public:
   /// @throws ConfigError
   explicit UrdfRover(const UrdfRoverParams& params, double gravity_mps2 = 9.80665);
 
-  const VehicleDescription& description() const override { return description_; }
-  const std::vector<VehicleLink>& links() const override { return model_.links; }
-  void spawn(physics::PhysicsWorld& world, const Pose& X_WB) override;
-  void connect(Ports& ports) override;
-  void actuate(std::span<const double> values) override;
-  void before_physics(Time now, Duration dt) override;
-  void after_physics(Time now, Duration dt) override;
-  void read_truth(Odometry& truth) const override;
-  Eigen::Vector3d specific_force_B() const override;
-  void read_links(std::vector<Pose>& X_WL) const override;
-  void publish(Time now) override;
-
   const UrdfRoverModel& model() const { return model_; }
-  const WheeledPlatform& platform() const { return platform_; }
 
  private:
   void describe(const UrdfRoverParams& params);
 
   UrdfRoverModel model_;
-  VehicleDescription description_;
-  WheeledPlatform platform_;
 };
 
 std::unique_ptr<Vehicle> make_urdf_rover(const ParameterSet& parameters,

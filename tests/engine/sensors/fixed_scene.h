@@ -32,10 +32,17 @@ class FixedScene final : public SceneQuery {
   }
 };
 
-/// Only tells the specific force.
+/// Only tells the specific force and the states of one steered axle and one wheel.
 class FixedVehicle final : public Vehicle {
  public:
   Eigen::Vector3d specific_force = {0, 0, 9.80665};
+  std::vector<double> states = {0.1, -3.0};
+
+  FixedVehicle() {
+    description_.type = "fixed";
+    description_.actuators = {{"axle_steer_rad", "rad", -0.4, 0.4},
+                              {"wheel_speed_radps", "rad/s", -8.0, 8.0}};
+  }
 
   const VehicleDescription& description() const override { return description_; }
   const std::vector<VehicleLink>& links() const override { return links_; }
@@ -46,11 +53,13 @@ class FixedVehicle final : public Vehicle {
   void after_physics(Time, Duration) override {}
   void read_truth(Odometry&) const override {}
   Eigen::Vector3d specific_force_B() const override { return specific_force; }
+  std::span<const double> actuator_states() const override { return states; }
   void read_links(std::vector<Pose>&) const override {}
   void publish(Time) override {}
 
- private:
   VehicleDescription description_;
+
+ private:
   std::vector<VehicleLink> links_;
 };
 

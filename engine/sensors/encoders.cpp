@@ -1,0 +1,114 @@
+#include "engine/sensors/encoders.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/core/error.h"
+#include "engine/sensors/delay_line.h"
+#include "engine/sensors/mounting.h"
+
+namespace vinerow {
+namespace {
+
+/// What one kind of encoder does to a true value.
+struct Channel {
+  double resolution = 0.0;
+  double noise_std = 0.0;
+
+  double read(double truth, RandomStream& random) const {
+    const double noisy = truth + noise_std * random.normal();
+    return resolution > 0.0 ? resolution * std::round(noisy / resolution) : noisy;
+  }
+};
+
+class Encoders final : public Sensor {
+ public:
+  Encoders(const ParameterSet& parameters, const SensorContext& context)
+      : name_(context.name),
+        vehicle_(context.vehicle_truth),
+        outages_(outages_of(parameters)),
+        line_(delay_of(parameters), context.period),
+        random_(context.random()) {
+    const Channel angle{parameters.number("angle_resolution_rad"),
+                        parameters.number("angle_noise_std_rad")};
+    const Channel speed{parameters.number("speed_resolution_radps"),
+                        parameters.number("speed_noise_std_radps")};
+    const VehicleDescription& about = vehicle_->description();
+    if (vehicle_->actuator_states().empty()) {
+      throw ConfigError(
+          fmt::format("{}: vehicle type '{}' does not tell the states of its actuators, which "
+                      "encoders measure",
+                      context.part, about.type));
+    }
+    for (const ActuatorSpec& actuator : about.actuators) {
+      if (actuator.unit != "rad" && actuator.unit != "rad/s") {
+        throw ConfigError(
+            fmt::format("{}: actuator '{}' is in {}; encoders measure rad and rad/s only",
+                        context.part, actuator.name, actuator.unit));
+      }
+      channels_.push_back(actuator.unit == "rad" ? angle : speed);
+      reading_.names.push_back(actuator.name);
+    }
+    reading_.values.assign(channels_.size(), 0.0);
+    line_.prefill(reading_);
+  }
+
+  void connect(Ports& ports) override { out_ = ports.write<NamedValues>(name_); }
+  Duration delay() const override { return line_.delay(); }
+  void deliver(Time) override { line_.deliver(out_); }
+
+  void step(Time now) override {
+    const std::span<const double> truth = vehicle_->actuator_states();
+    const bool out = is_in_outage(outages_, now);
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      const double value = channels_[i].read(truth[i], random_);
+      reading_.values[i] = out ? std::numeric_limits<double>::infinity() : value;
+    }
+    line_.push(now, reading_, out_);
+  }
+
+ private:
+  std::string name_;
+  const Vehicle* vehicle_;
+  std::vector<Outage> outages_;
+  DelayLine<NamedValues> line_;
+  RandomStream random_;
+  std::vector<Channel> channels_;  // per actuator
+  NamedValues reading_;
+  SignalWriter<NamedValues> out_;
+};
+
+}  // namespace
+
+PartSpec encoders_spec() {
+  PartSpec spec;
+  spec.name = "encoders";
+  spec.description = "Steering angles and wheel speeds of the actuators, with noise and resolution";
+  spec.default_rate_Hz = 50.0;
+  // Defaults: a 12-bit absolute magnetic encoder on the steering axle (AMS AS5600 data sheet: 4096
+  // steps a turn, 0.015 deg noise in the slow filter), and a motor's hall-sensor speed estimate
+  // (chosen: 0.01 rad/s at the wheel).
+  spec.parameters = {
+      number_parameter("angle_resolution_rad", "rad", 0.00153398, 0.0, 1.0,
+                       "step of angle readings; 0 = none"),
+      number_parameter("angle_noise_std_rad", "rad", 0.00026, 0.0, 1.0,
+                       "white noise of angle readings"),
+      number_parameter("speed_resolution_radps", "rad/s", 0.005, 0.0, 10.0,
+                       "step of speed readings; 0 = none"),
+      number_parameter("speed_noise_std_radps", "rad/s", 0.01, 0.0, 10.0,
+                       "white noise of speed readings"),
+      delay_parameter(),
+      outage_parameter(),
+  };
+  spec.writes = {"<name>: NamedValues"};
+  return spec;
+}
+
+std::unique_ptr<Sensor> make_encoders(const ParameterSet& parameters,
+                                      const SensorContext& context) {
+  return std::make_unique<Encoders>(parameters, context);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,20 @@
+#pragma once
+/// Encoders on a vehicle's actuators: steering angles and wheel speeds as the vehicle measures
+/// them.
+///
+/// reading = resolution * round((true + white noise) / resolution); a resolution of 0 does not
+/// round. Writes NamedValues with the actuators' names, in their order: those in rad with the angle
+/// parameters, those in rad/s with the speed parameters. In an outage every value is +infinity.
+
+#include <memory>
+
+#include "engine/api/registry.h"
+
+namespace vinerow {
+
+PartSpec encoders_spec();
+/// @throws ConfigError where the vehicle does not know the states of its actuators, or one is
+/// neither an angle nor a rate
+std::unique_ptr<Sensor> make_encoders(const ParameterSet& parameters, const SensorContext& context);
+
+}  // namespace vinerow

@@ -1,0 +1,159 @@
+#include "vehicles/four_wheel_steering_rover/four_wheel_steering_rover.h"
+
+#include <fmt/format.h>
+
+#include "engine/core/check.h"
+#include "vehicles/four_wheel_steering_rover/four_wheel_steering_mesh.h"
+
+namespace vinerow::vehicles {
+namespace {
+
+/// The hull above the ground: lower and upper edge. What is lower is met by the wheels; mast and
+/// antenna above it are thin and stay out of the collision shape.
+constexpr double kHullBottom_m = 0.24;
+constexpr double kHullTop_m = 0.95;
+/// How far the noses are narrower than the hull, in wheel radii. The wheels there steer: in the
+/// tightest turn the outer front wheel and the hull's shoulder sweep about the same circle.
+constexpr double kNoseCut = 0.7;
+
+/// Octagon around hull and wheels, counter-clockwise.
+std::vector<Eigen::Vector2d> outline_B(const FourWheelSteeringRoverParams& p) {
+  const double half_width = 0.5 * (p.track_m + p.tyre_width_m), shoulder = 0.5 * p.wheel_base_m;
+  const double nose = shoulder + p.wheel_radius_m;
+  const double nose_width = half_width - kNoseCut * p.wheel_radius_m;
+  return {{nose, -nose_width},      {nose, nose_width},     {shoulder, half_width},
+          {-shoulder, half_width},  {-nose, nose_width},    {-nose, -nose_width},
+          {-shoulder, -half_width}, {shoulder, -half_width}};
+}
+
+physics::HullShape hull_shape(const VehicleDescription& about) {
+  physics::HullShape hull;
+  for (const Eigen::Vector2d& corner : about.footprint_B) {
+    for (const double side : {-1.0, 1.0}) {
+      hull.points_B.emplace_back(
+          corner.x(), corner.y(),
+          about.collision_centre_B.z() + side * about.collision_half_extents_m.z());
+    }
+  }
+  return hull;
+}
+
+}  // namespace
+
+FourWheelSteeringRover::FourWheelSteeringRover(const FourWheelSteeringRoverParams& params,
+                                               double gravity_mps2)
+    : params_(params) {
+  params_.validate();
+  describe();
+  make_links();
+  WheeledPlatformParams platform = chassis_platform_params(params_, gravity_mps2);
+  platform.shapes = {{hull_shape(description_), Pose{}}};
+  build_platform(std::move(platform));
+}
+
+void FourWheelSteeringRover::describe() {
+  const FourWheelSteeringRoverParams& p = params_;
+  const double max_axle = p.max_axle_steer_rad();
+  description_.type = "four_wheel_steering_rover";
+  for (const char* axle : {"front", "rear"}) {
+    description_.actuators.push_back(
+        {fmt::format("axle_{}_steer_rad", axle), "rad", -max_axle, max_axle});
+  }
+  append_wheel_speed_actuators(p, description_.actuators);
+  description_.mass_kg = p.mass_kg;
+  description_.height_above_ground_m = p.com_height_m;
+  description_.footprint_B = outline_B(p);
+  description_.collision_half_extents_m = {0.5 * p.wheel_base_m + p.wheel_radius_m,
+                                           0.5 * (p.track_m + p.tyre_width_m),
+                                           0.5 * (kHullTop_m - kHullBottom_m)};
+  description_.collision_centre_B = {0.0, 0.0, 0.5 * (kHullTop_m + kHullBottom_m) - p.com_height_m};
+  const TwoAxles axles = p.axles();
+  description_.numbers = {
+      {"track_m", p.track_m},
+      {"wheel_base_m", p.wheel_base_m},
+      {"front_axle_m", axles.front_m},
+      {"rear_axle_m", axles.rear_m},
+      {"wheel_radius_m", p.wheel_radius_m},
+      {"max_axle_steer_rad", max_axle},
+      {"steer_rate_radps", p.servo.rate_radps},
+      {"steer_lag_s", p.servo.lag_s},
+      {"wheel_speed_limit_radps", p.wheel_speed_limit_radps},
+      {"max_speed_mps", p.wheel_speed_limit_radps * p.wheel_radius_m},
+      {"min_turning_radius_m", p.min_turning_radius_m()},
+      {"battery_capacity_J", p.battery.capacity_Wh * 3600.0},
+  };
+}
+
+void FourWheelSteeringRover::make_links() {
+  FourWheelSteeringMeshParams body;
+  body.wheel_base_m = params_.wheel_base_m;
+  body.track_m = params_.track_m;
+  body.wheel_radius_m = params_.wheel_radius_m;
+  body.tyre_width_m = params_.tyre_width_m;
+  body.ground_to_origin_m = params_.com_height_m;
+  Material material;
+  material.name = "four_wheel_steering_rover";
+  material.colour = {1.0f, 1.0f, 1.0f};  // the meshes carry their colours
+  material.roughness = 0.55f;
+  links_.push_back(
+      {"body", std::make_shared<TriangleMesh>(make_four_wheel_steering_body(body)), material});
+  WheelMeshParams wheel;
+  wheel.radius_m = params_.wheel_radius_m;
+  wheel.width_m = params_.tyre_width_m;
+  wheel.rim_radius_m = 0.58 * params_.wheel_radius_m;
+  wheel.lug_height_m = 0.08 * params_.wheel_radius_m;
+  wheel.rim_srgb = 0x2b2d30;
+  wheel.hub_srgb = 0xb4b8bc;
+  Material rubber = material;
+  rubber.roughness = 0.9f;
+  append_wheel_links(wheel, rubber, links_);
+  for (const Corner& corner : kCorners) {
+    links_.push_back({fmt::format("knuckle_{}", corner.name),
+                      std::make_shared<TriangleMesh>(make_steering_knuckle(body, corner)),
+                      material});
+  }
+}
+
+void FourWheelSteeringRover::actuate(std::span<const double> values) {
+  VINEROW_ASSERT(values.size() == kFirstWheel + kCorners.size());
+  steer_command_rad_ = {values[kFrontSteer], values[kRearSteer]};
+  PlatformVehicle::actuate(values.subspan(kFirstWheel));
+}
+
+void FourWheelSteeringRover::steer(double dt_s) {
+  bool moved = false;
+  for (const std::size_t axle : {kFrontSteer, kRearSteer}) {
+    double& angle_rad = actuator_states_[axle];
+    if (steer_command_rad_[axle] == angle_rad) continue;
+    angle_rad = advance_servo(params_.servo, steer_command_rad_[axle], dt_s, angle_rad);
+    moved = true;
+  }
+  if (!moved) return;
+  const std::array<double, 4> angles_rad = calc_wheel_angles(
+      params_.axles(), actuator_states_[kFrontSteer], actuator_states_[kRearSteer]);
+  for (std::size_t i = 0; i < angles_rad.size(); ++i) platform_->set_steer(i, angles_rad[i]);
+}
+
+void FourWheelSteeringRover::before_physics(Time now, Duration dt) {
+  steer(dt.s());
+  PlatformVehicle::before_physics(now, dt);
+}
+
+void FourWheelSteeringRover::read_links(std::vector<Pose>& X_WL) const {
+  PlatformVehicle::read_links(X_WL);
+  // A knuckle steers and moves with its wheel, but does not turn with it.
+  const WheeledPlatformState& state = platform_->state();
+  for (std::size_t i = 0; i < kCorners.size(); ++i) {
+    WheelState unturned = state.wheels[i];
+    unturned.angle_rad = 0.0;
+    X_WL[1 + kCorners.size() + i] = state.body.X_WB * platform_->wheel(i).link_pose_B(unturned);
+  }
+}
+
+std::unique_ptr<Vehicle> make_four_wheel_steering_rover(const ParameterSet& parameters,
+                                                        const VehicleContext& context) {
+  return std::make_unique<FourWheelSteeringRover>(
+      read_four_wheel_steering_rover_params(parameters, context.vehicle), context.gravity_mps2);
+}
+
+}  // namespace vinerow::vehicles

@@ -1,0 +1,51 @@
+#pragma once
+/// Paper A's electric rover: an Ackermann mechanism on both axles, a hub motor in each wheel.
+///
+/// Actuators: axle_front_steer_rad, axle_rear_steer_rad (bicycle angle of each axle, positive to
+/// the left), wheel_fl_speed_radps, ..._fr_, ..._rl_, ..._rr_ (positive forward). The wheels'
+/// directions follow from both axle angles (parts/double_ackermann.h) behind servos with a lag and
+/// a rate limit; wheel speeds are commanded one by one, so a controller may let them fight.
+/// Signals: "wheels" (NamedValues), "battery".
+///
+/// What it can do: straight; crab (both axles alike, to max_axle_steer_rad); two-wheel steering
+/// (one axle at 0); and double Ackermann (axles opposite), the tightest turn: min_turning_radius_m
+/// about a point beside B. A turn on the spot would need wheels at right angles to their levers
+/// (60 deg here), beyond the steering range: "pivot-like" means the double Ackermann turn.
+///
+/// B: centre of mass, in the middle between the wheels, com_height_m above level ground.
+
+#include <array>
+#include <memory>
+
+#include "engine/api/registry.h"
+#include "vehicles/four_wheel_steering_rover/four_wheel_steering_rover_params.h"
+#include "vehicles/parts/platform_vehicle.h"
+
+namespace vinerow::vehicles {
+
+class FourWheelSteeringRover final : public PlatformVehicle {
+ public:
+  /// Places in the actuator vector.
+  static constexpr std::size_t kFrontSteer = 0, kRearSteer = 1, kFirstWheel = 2;
+
+  /// @throws ConfigError
+  explicit FourWheelSteeringRover(const FourWheelSteeringRoverParams& params,
+                                  double gravity_mps2 = 9.80665);
+
+  void actuate(std::span<const double> values) override;
+  void before_physics(Time now, Duration dt) override;
+  void read_links(std::vector<Pose>& X_WL) const override;
+
+ private:
+  void describe();
+  void make_links();
+  void steer(double dt_s);
+
+  FourWheelSteeringRoverParams params_;
+  std::array<double, 2> steer_command_rad_{};  ///< front, rear; the angles are actuator states
+};
+
+std::unique_ptr<Vehicle> make_four_wheel_steering_rover(const ParameterSet& parameters,
+                                                        const VehicleContext& context);
+
+}  // namespace vinerow::vehicles

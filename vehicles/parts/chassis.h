@@ -1,0 +1,66 @@
+#pragma once
+/// A body on four equal driven wheels at the corners of a rectangle, the centre of mass above its
+/// middle: numbers, scenario parameters, mechanics and wheel links of such a vehicle.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/api/vehicle.h"
+#include "vehicles/parts/wheel_mesh.h"
+#include "vehicles/parts/wheeled_platform.h"
+
+namespace vinerow::vehicles {
+
+/// One corner: the wheel's name, its side along x and along y.
+struct Corner {
+  const char* name;
+  double along;
+  double across;
+};
+/// Front left, front right, rear left, rear right: the order of wheels everywhere.
+inline constexpr std::array<Corner, 4> kCorners = {
+    {{"fl", 1.0, 1.0}, {"fr", 1.0, -1.0}, {"rl", -1.0, 1.0}, {"rr", -1.0, -1.0}}};
+
+/// Defaults: paper B's rover. Sources: assets/vehicles/rover_paper_b.yaml.
+struct ChassisParams {
+  std::string name = "rover";
+  double wheel_base_m = 1.5;
+  double track_m = 1.0;
+  double wheel_radius_m = 0.2;
+  double tyre_width_m = 0.16;
+  double wheel_speed_limit_radps = 20.0;              ///< of the actuators
+  double mass_kg = 180.0;                             ///< wheels included
+  double com_height_m = 0.38;                         ///< of B above level ground
+  Eigen::Vector3d inertia_kgm2 = {21.0, 56.0, 70.0};  ///< about B's axes
+  double wheel_inertia_kgm2 = 0.28;                   ///< about the axle, gear and rotor included
+  double suspension_stiffness_N_per_m = 20000.0;
+  double suspension_damping_Ns_per_m = 1000.0;
+  int wheel_probes = 3;
+  MotorParams motor{.max_power_W = 1200.0};
+  TyreParams tyre;
+  BatteryParams battery;
+
+  /// @throws ConfigError
+  void validate_chassis() const;
+  /// Centre of a wheel in B, as drawn.
+  Eigen::Vector3d hub_B(const Corner& corner) const;
+};
+
+/// Sizes, masses, springs, then motor, tyre and battery. @param defaults  of the vehicle
+std::vector<ParameterSpec> chassis_parameter_specs(const ChassisParams& defaults);
+/// Fills everything but the checks. @param parameters  with chassis_parameter_specs()
+void read_chassis_params(const ParameterSet& parameters, const std::string& name,
+                         ChassisParams& params);
+
+/// Body, wheels and battery; without collision shapes.
+WheeledPlatformParams chassis_platform_params(const ChassisParams& params, double gravity_mps2);
+
+/// "wheel_<name>_speed_radps" of each corner, both ways.
+void append_wheel_speed_actuators(const ChassisParams& params, std::vector<ActuatorSpec>& out);
+
+/// Four links "wheel_<name>" in the corners' order. @param wheel  `left` is set here
+void append_wheel_links(WheelMeshParams wheel, const Material& material,
+                        std::vector<VehicleLink>& out);
+
+}  // namespace vinerow::vehicles

@@ -1,0 +1,59 @@
+#include "vehicles/parts/platform_vehicle.h"
+
+#include "engine/core/check.h"
+
+namespace vinerow::vehicles {
+
+void PlatformVehicle::build_platform(WheeledPlatformParams params) {
+  platform_.emplace(std::move(params));
+  actuator_states_.assign(description_.actuators.size(), 0.0);
+}
+
+void PlatformVehicle::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
+  platform_->spawn(world, X_WB);
+}
+
+void PlatformVehicle::connect(Ports& ports) {
+  platform_->connect(ports);
+}
+
+void PlatformVehicle::actuate(std::span<const double> values) {
+  VINEROW_ASSERT(values.size() == platform_->state().wheels.size());
+  for (std::size_t i = 0; i < values.size(); ++i) platform_->command_speed(i, values[i]);
+}
+
+void PlatformVehicle::before_physics(Time /*now*/, Duration dt) {
+  platform_->before_physics(dt);
+}
+
+void PlatformVehicle::after_physics(Time /*now*/, Duration dt) {
+  platform_->after_physics(dt);
+  const std::vector<WheelState>& wheels = platform_->state().wheels;
+  // Wheel speeds are the last actuators; what stands before them is the vehicle's own.
+  const std::size_t first = actuator_states_.size() - wheels.size();
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    actuator_states_[first + i] = wheels[i].spin_radps;
+  }
+}
+
+void PlatformVehicle::read_truth(Odometry& truth) const {
+  platform_->read_truth(truth);
+}
+
+Eigen::Vector3d PlatformVehicle::specific_force_B() const {
+  return platform_->state().specific_force_B;
+}
+
+void PlatformVehicle::read_links(std::vector<Pose>& X_WL) const {
+  const WheeledPlatformState& state = platform_->state();
+  X_WL[0] = state.body.X_WB;
+  for (std::size_t i = 0; i < state.wheels.size(); ++i) {
+    X_WL[i + 1] = state.body.X_WB * platform_->wheel(i).link_pose_B(state.wheels[i]);
+  }
+}
+
+void PlatformVehicle::publish(Time now) {
+  platform_->publish(now);
+}
+
+}  // namespace vinerow::vehicles

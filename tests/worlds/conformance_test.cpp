@@ -175,6 +175,22 @@ TEST_P(WorldConformance, AlleysAreClearOfEverythingThatCollides) {
   }
 }
 
+TEST_P(WorldConformance, AlleysAreFreeOnTheMap) {
+  const OccupancyGrid& grid = world_->rows.occupancy;
+  if (world_->rows.rows.empty()) return;
+  ASSERT_FALSE(grid.empty());
+  ASSERT_EQ(grid.cells.size(), static_cast<std::size_t>(grid.columns) * grid.rows);
+  for (const Alley& alley : world_->rows.alleys) {
+    for (const Eigen::Vector3d& p : alley.line_W) {
+      const Eigen::Vector2d cell = (p.head<2>() - grid.corner_W) / grid.cell_m;
+      const int i = static_cast<int>(std::floor(cell.x()));
+      const int j = static_cast<int>(std::floor(cell.y()));
+      ASSERT_TRUE(i >= 0 && j >= 0 && i < grid.columns && j < grid.rows);
+      EXPECT_FALSE(grid.occupied(i, j)) << "alley " << alley.id;
+    }
+  }
+}
+
 TEST_P(WorldConformance, CanopyHullsAreClosedAndOutward) {
   for (const MeshInstance& instance : world_->meshes) {
     if (instance.surface != SurfaceClass::kCanopy || !instance.collides) continue;

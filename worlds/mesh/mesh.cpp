@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/io/mesh_file.h"
 #include "engine/math/angles.h"
+#include "worlds/mapping/map_parameters.h"
 #include "worlds/mesh/sdf_rows.h"
 #include "worlds/parts/common.h"
 #include "worlds/parts/row_map.h"
@@ -63,7 +64,8 @@ PartSpec mesh_spec() {
        trellis_parameters(),
        planting_parameters(),
        origin_parameters(0, 0, 0),
-       surroundings_parameters()});
+       surroundings_parameters(),
+       map_parameters()});
   return spec;
 }
 
@@ -257,6 +259,7 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters, cons
     world->terrain = build_terrain(parameters, planting.seed, world->origin, shape, ground_box);
   }
   if (!rows.empty()) plant_stand_ins(*world, rows, parameters, planting);
+  fill_occupancy(parameters, *world, {}, row_end_margin_m(planting, parameters.boolean("posts")));
   world->spawn_points.push_back({"centre", box.center(), 0.0});
   return world;
 }

@@ -6,7 +6,9 @@
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "worlds/mapping/map_parameters.h"
 #include "worlds/parts/common.h"
+#include "worlds/parts/obstacles.h"
 #include "worlds/parts/row_map.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/parts/trees.h"
@@ -29,8 +31,9 @@ PartSpec orchard_spec() {
         positive_parameter("field_width_m", "m", 100, "width of the field along x, L1"),
         positive_parameter("field_length_m", "m", 100, "length of the field along y, L2"),
         number_parameter("row_start_y_m", "m", 10, 0, 1e5, "where rows begin, Ys"),
-        positive_parameter("refinement_per_m2", "1/m2", 4,
-                           "elements of the map matrix per square metre, m"),
+        optional(positive_parameter("refinement_per_m2", "1/m2", 4,
+                                    "elements per square metre, m: the map is then the paper's "
+                                    "matrix, rows alone, and not the grid of occupancy_cell_m")),
         positive_parameter("tree_spacing_m", "m", 3.2, "between trees of a row"),
         positive_parameter("tree_height_m", "m", 3.6, "of the tallest trees"),
         positive_parameter("crown_base_m", "m", 0.9, "lowest leaves above ground"),
@@ -42,7 +45,9 @@ PartSpec orchard_spec() {
        slope_parameters(0, 0),
        terrain_parameters(0),
        origin_parameters(45.0626, 7.6624, 240),
-       surroundings_parameters()});
+       surroundings_parameters(),
+       map_parameters(),
+       obstacle_parameters()});
   return spec;
 }
 
@@ -54,7 +59,9 @@ OrchardLayout read_layout(const ParameterSet& parameters) {
   layout.field_width_m = parameters.number("field_width_m");
   layout.field_length_m = parameters.number("field_length_m");
   layout.row_start_y_m = parameters.number("row_start_y_m");
-  layout.refinement_per_m2 = parameters.number("refinement_per_m2");
+  if (parameters.has("refinement_per_m2")) {
+    layout.refinement_per_m2 = parameters.number("refinement_per_m2");
+  }
   validate(layout);
   return layout;
 }
@@ -94,7 +101,6 @@ RowMap make_map(const OrchardLayout& layout, const TreeParams& trees, const Heig
                     {layout.field_width_m, 0},
                     {layout.field_width_m, layout.field_length_m},
                     {0, layout.field_length_m}};
-  map.occupancy = make_occupancy(layout);
   return map;
 }
 
@@ -128,6 +134,12 @@ std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters, const W
     plant_tree_row(*world, k, row, stations, ground, trees, store);
   }
   add_alley_spawn_points(*world);
+  const auto on_map = place_obstacles(parameters, *world);
+  if (parameters.has("refinement_per_m2") && !parameters.has("occupancy_file")) {
+    world->rows.occupancy = make_occupancy(layout);
+  } else {
+    fill_occupancy(parameters, *world, on_map, 0.0);
+  }
   return world;
 }
 

@@ -120,9 +120,11 @@ std::string mesh_digest(const TriangleMesh& mesh) {
   return hasher.hex();
 }
 
-void add_parameters(Hasher& hasher, const ParameterSet& parameters) {
+void add_parameters(Hasher& hasher, const ParameterSet& parameters,
+                    const std::vector<std::string>& without) {
   for (const ParameterSpec& spec : parameters.specs()) {
     if (!parameters.has(spec.name)) continue;
+    if (std::find(without.begin(), without.end(), spec.name) != without.end()) continue;
     hasher.add(spec.name);
     switch (spec.kind) {
       case ParameterKind::kNumber:

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/api/mesh.h"
 #include "engine/api/parameters.h"
@@ -59,7 +60,8 @@ std::filesystem::path find_cache_folder();
 /// Digest of a mesh's numbers.
 std::string mesh_digest(const TriangleMesh& mesh);
 
-/// Feeds every value of a set, by name, in the order of the specs.
-void add_parameters(Hasher& hasher, const ParameterSet& parameters);
+/// Feeds every value of a set, by name, in the order of the specs. @param without  names left out
+void add_parameters(Hasher& hasher, const ParameterSet& parameters,
+                    const std::vector<std::string>& without = {});
 
 }  // namespace vinerow::worlds

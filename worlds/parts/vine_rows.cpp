@@ -196,6 +196,10 @@ VinePlanting read_planting(const ParameterSet& parameters) {
   return planting;
 }
 
+double row_end_margin_m(const VinePlanting& planting, bool posts) {
+  return posts && planting.trellis.end_post_lean_rad > 0.0 ? 0.5 * planting.canopy.width_m : 0.0;
+}
+
 std::vector<double> regular_vines(double length_m, double spacing_m, double missing_share,
                                   RandomStream random) {
   std::vector<double> vines;

@@ -39,6 +39,10 @@ std::vector<ParameterSpec> planting_parameters();
 /// From canopy_parameters(), trellis_parameters() and planting_parameters().
 VinePlanting read_planting(const ParameterSet& parameters);
 
+/// How far the map takes a row beyond its ends: half the canopy's width where end posts lean
+/// outward, which is their reach at 1.4 m above ground with the usual 0.2 rad; else nothing.
+double row_end_margin_m(const VinePlanting& planting, bool posts);
+
 /// Regular stems: the first half a spacing inside the row.
 /// @param missing_share  chance of each vine to be missing, independent
 std::vector<double> regular_vines(double length_m, double spacing_m, double missing_share,

@@ -9,7 +9,9 @@
 #include "engine/core/error.h"
 #include "engine/io/geojson.h"
 #include "engine/math/angles.h"
+#include "worlds/mapping/map_parameters.h"
 #include "worlds/parts/common.h"
+#include "worlds/parts/obstacles.h"
 #include "worlds/parts/row_map.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/parts/vine_rows.h"
@@ -43,7 +45,9 @@ PartSpec surveyed_spec() {
        canopy_parameters(),
        trellis_parameters(),
        planting_parameters(),
-       surroundings_parameters()});
+       surroundings_parameters(),
+       map_parameters(),
+       obstacle_parameters()});
   return spec;
 }
 
@@ -216,6 +220,8 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters, const 
   }
   MemoryMeshStore store;
   plant_vine_rows(*world, vine_rows, ground, planting, store);
+  fill_occupancy(parameters, *world, place_obstacles(parameters, *world),
+                 row_end_margin_m(planting, parameters.boolean("posts")));
   return world;
 }
 

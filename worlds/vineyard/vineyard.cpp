@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "engine/math/angles.h"
+#include "worlds/mapping/map_parameters.h"
 #include "worlds/parts/common.h"
+#include "worlds/parts/obstacles.h"
 #include "worlds/parts/row_map.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/parts/vine_rows.h"
@@ -43,7 +45,9 @@ PartSpec vineyard_spec() {
                          "east of the block's centre from the origin"),
         number_parameter("centre_y_m", "m", 38.9, -1e5, 1e5,
                          "north of the block's centre from the origin"),
-        number_parameter("relief_m", "m", 30, 0, 500, "highest minus lowest ground under the rows"),
+        optional(number_parameter("relief_m", "m", 30, 0, 500,
+                                  "highest minus lowest ground under the rows; default: 30 m for "
+                                  "each 118 m of row length")),
         number_parameter("uphill_bearing_deg", "deg", 92, -360, 360,
                          "direction in which the ground rises, from north clockwise"),
         path_parameter(
@@ -54,7 +58,9 @@ PartSpec vineyard_spec() {
        planting_parameters(),
        terrain_parameters(1.5),
        origin_parameters(44.6150, 7.9244, 300),
-       surroundings_parameters()});
+       surroundings_parameters(),
+       map_parameters(),
+       obstacle_parameters()});
   return spec;
 }
 
@@ -136,21 +142,37 @@ HeightField make_ground(const ParameterSet& parameters, const std::vector<RowCur
   return build_terrain(fitted, seed, origin, shape, box);
 }
 
+/// The parameters with a relief: unless given, the ground is as steep as that of Parcel F.
+ParameterSet with_relief(const ParameterSet& parameters) {
+  constexpr double kRelief_m = 30.0, kRowLength_m = 118.0, kMost_m = 500.0;
+  ParameterSet complete = parameters;
+  if (!parameters.has("relief_m")) {
+    const double share = parameters.number("row_length_m") / kRowLength_m;
+    complete.set("relief_m", std::min(kRelief_m * share, kMost_m), "default");
+  }
+  return complete;
+}
+
 /// Everything that shapes a mesh file: parameters, ground, and the generator's version.
 std::string mesh_key(const ParameterSet& parameters, const HeightField& terrain) {
   Hasher hasher;
   hasher.add(kGeneratorVersion);
   ParameterSet shaping = parameters;
-  // Where the files lie and how the sun stands changes no file.
+  // Where the files lie, how the sun stands, what is on the map or in the way changes no file.
   for (const char* name : {"sun_azimuth_deg", "sun_elevation_deg"}) shaping.set(name, 45.0);
   shaping.set("soil", std::string("dry_grass"));
   shaping.set("mesh_folder", std::string());
-  add_parameters(hasher, shaping);
+  std::vector<std::string> without;
+  for (const auto& specs : {map_parameters(), obstacle_parameters()}) {
+    for (const ParameterSpec& spec : specs) without.push_back(spec.name);
+  }
+  add_parameters(hasher, shaping, without);
   hasher.add_bytes(terrain.heights_m.data(), terrain.heights_m.size() * sizeof(float));
   return hasher.hex().substr(0, 16);
 }
 
-std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters, const WorldContext&) {
+std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& given, const WorldContext&) {
+  const ParameterSet parameters = with_relief(given);
   const VinePlanting planting = read_planting(parameters);
   auto world = std::make_unique<WorldModel>();
   world->name = "vineyard";
@@ -183,6 +205,8 @@ std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters, const 
                                            : find_cache_folder();
   FileMeshStore store(folder / ("vineyard-" + mesh_key(parameters, *world->terrain)));
   plant_vine_rows(*world, vine_rows, ground, planting, store);
+  fill_occupancy(parameters, *world, place_obstacles(parameters, *world),
+                 row_end_margin_m(planting, parameters.boolean("posts")));
   return world;
 }
 

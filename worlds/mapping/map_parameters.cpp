@@ -1,0 +1,90 @@
+#include "worlds/mapping/map_parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/io/ros_map.h"
+#include "worlds/parts/row_map.h"
+
+namespace vinerow::worlds {
+namespace {
+
+constexpr std::int64_t kMostCells = 8'000'000;
+
+void give_boundary(WorldModel& world) {
+  constexpr double kHeadland_m = 10.0, kBeside_m = 3.0;
+  std::vector<RowCurve> rows;
+  for (const PlantRow& row : world.rows.rows) {
+    std::vector<Eigen::Vector2d> line;
+    for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
+    rows.emplace_back(std::move(line));
+  }
+  world.rows.boundary_W = parcel_boundary(rows, kHeadland_m, kBeside_m);
+  world.notes.push_back(fmt::format(
+      "the parcel has no boundary; a box {:g} m beyond the row ends and {:g} m beside the outer "
+      "rows stands in",
+      kHeadland_m, kBeside_m));
+}
+
+}  // namespace
+
+std::vector<ParameterSpec> map_parameters() {
+  ParameterSpec cell =
+      number_parameter("occupancy_cell_m", "m", 0.05, 0, 10,
+                       "cell of the occupancy grid that vehicles are told; 0: no grid");
+  return {cell,
+          boolean_parameter("virtual_walls", true,
+                            "walls on the map from row ends to the boundary, so that only the "
+                            "serpentine is free"),
+          choice_parameter("first_wall", "auto", {"auto", "first", "last"},
+                           "point of row 0 that is walled, the ends of the others alternate; auto: "
+                           "open for a serpentine that begins at alley 0's first point"),
+          path_parameter("occupancy_file",
+                         "ROS map (YAML with a PGM beside it) that vehicles are told instead of "
+                         "the true rows")};
+}
+
+bool has_map_parameters(const ParameterSet& parameters) {
+  const auto& specs = parameters.specs();
+  return std::any_of(specs.begin(), specs.end(),
+                     [](const ParameterSpec& spec) { return spec.name == "occupancy_cell_m"; });
+}
+
+OccupancyOptions read_map_options(const ParameterSet& parameters) {
+  OccupancyOptions options;
+  options.cell_m = parameters.number("occupancy_cell_m");
+  options.virtual_walls = parameters.boolean("virtual_walls");
+  const std::string& first = parameters.text("first_wall");
+  if (first == "first") options.first_wall = RowEnd::kFirst;
+  if (first == "last") options.first_wall = RowEnd::kLast;
+  return options;
+}
+
+void fill_occupancy(const ParameterSet& parameters, WorldModel& world,
+                    const std::vector<std::vector<Eigen::Vector2d>>& obstacles_W,
+                    double row_end_margin_m) {
+  if (parameters.has("occupancy_file")) {
+    io::RosMap map = io::load_ros_map(parameters.text("occupancy_file"));
+    world.rows.occupancy = std::move(map.grid);
+    for (std::string& note : map.notes) world.notes.push_back(std::move(note));
+    return;
+  }
+  OccupancyOptions options = read_map_options(parameters);
+  if (options.cell_m == 0.0 || world.rows.rows.empty()) return;
+  if (world.rows.boundary_W.empty()) give_boundary(world);
+  const double wanted_m = options.cell_m;
+  options.cell_m = cell_that_fits_m(world.rows.boundary_W, wanted_m, kMostCells);
+  if (options.cell_m != wanted_m) {
+    world.notes.push_back(fmt::format(
+        "occupancy_cell_m = {:g} m would make more than {} million cells; {:g} m is used", wanted_m,
+        kMostCells / 1'000'000, options.cell_m));
+  }
+  options.obstacles_W = obstacles_W;
+  options.row_end_margin_m = row_end_margin_m;
+  const OccupancyReport report = plan_occupancy(world.rows, options);
+  world.rows.occupancy = make_occupancy_grid(world.rows, options, report);
+  for (const std::string& note : report.notes) world.notes.push_back(note);
+}
+
+}  // namespace vinerow::worlds

@@ -69,7 +69,8 @@ class LogObserver final : public RunObserver {
     if (name.ends_with("/wheels")) return period_of_rate(config.truth_rate_Hz) * 2;
     // A charge changes slowly, and its message is a large one.
     if (name.ends_with("/battery")) return period_of_rate(std::min(1.0, config.truth_rate_Hz));
-    if (name == "run/events" || name.ends_with("/plan") || name.ends_with("/contacts")) return {};
+    const bool is_event = std::string_view(signal.type()) == Event::kType;
+    if (is_event || name.ends_with("/plan") || name.ends_with("/contacts")) return {};
     return period_of_rate(config.sensor_rate_limit_Hz);
   }
 

@@ -1,0 +1,130 @@
+/// What parts tell beside their work reaches the files of a run: events, planners' numbers, trees
+/// and maps.
+
+#include "engine/sim/run.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/record/log_reader.h"
+#include "engine/sim/metrics/register.h"
+#include "tests/engine/sim/small_parts.h"
+
+namespace vinerow {
+namespace {
+
+const char* const kScenario = R"(
+vinerow: 1
+name: small
+duration_s: 0.5
+world: {type: plain, has_map: true}
+vehicles:
+  rover:
+    type: statue
+    spawn: {x_m: 0, y_m: 0}
+    planner: {type: straight_ahead}
+    controller: {type: teller, rate_Hz: 20}
+metrics: {travel: {type: travel}}
+)";
+
+class SmallRun : public testing::Test {
+ protected:
+  SmallRun() : registry_(test::small_registry()) {
+    register_metrics(registry_);
+    folder_ =
+        std::filesystem::temp_directory_path() /
+        (std::string("vinerow_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(folder_);
+  }
+  ~SmallRun() override { std::filesystem::remove_all(folder_); }
+
+  RunResult run(const std::vector<std::string>& sets = {}) {
+    io::Overrides overrides;
+    overrides.sets = sets;
+    RunOptions options;
+    options.out = folder_;
+    return run_scenario(io::parse_scenario(kScenario, ".", registry_, overrides), registry_,
+                        options);
+  }
+  nlohmann::json summary() const {
+    return nlohmann::json::parse(std::ifstream(folder_ / "summary.json"));
+  }
+  record::LogReader log() const { return record::LogReader(folder_ / "log.mcap"); }
+
+  Registry registry_;
+  std::filesystem::path folder_;
+};
+
+TEST_F(SmallRun, APartsEventReachesTheRunsEventsOnce) {
+  run();
+  // The file: one line each, at its time, with the part as source where it names none.
+  std::ifstream lines(folder_ / "events.jsonl");
+  std::vector<nlohmann::json> told;
+  for (std::string line; std::getline(lines, line);) {
+    const auto event = nlohmann::json::parse(line);
+    if (event["text"] == "blocked" || event["text"] == "goes on") told.push_back(event);
+  }
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_DOUBLE_EQ(told[0]["t_s"], 0.1);
+  EXPECT_EQ(told[0]["level"], "warning");
+  EXPECT_EQ(told[0]["source"], "rover.controller");
+  EXPECT_DOUBLE_EQ(told[1]["t_s"], 0.3);
+  EXPECT_EQ(told[1]["source"], "rover.dwa");
+  // The log: on "run/events" and, as it was written, on the part's own channel.
+  int in_run = 0, own = 0;
+  const auto is_told = [](const Event& e) { return e.text == "blocked" || e.text == "goes on"; };
+  log().read<Event>("/run/events", [&](Time, const Event& e) { in_run += is_told(e); });
+  log().read<Event>("/rover/controller_event", [&](Time, const Event& e) { own += is_told(e); });
+  EXPECT_EQ(in_run, 2);
+  EXPECT_EQ(own, 2);
+}
+
+TEST_F(SmallRun, EventsAndTreesAreNotInTheDigest) {
+  const std::string digest = run().digest;
+  EXPECT_EQ(run({"rover.controller.tells=false"}).digest, digest);
+  EXPECT_EQ(run({"rover.planner.reports=false"}).digest, digest);
+  // The check can fail: the map is a signal like others.
+  EXPECT_NE(run({"world.has_map=false"}).digest, digest);
+}
+
+TEST_F(SmallRun, APlannersNumbersReachTheSummaryAndItsTreeTheLog) {
+  run();
+  EXPECT_EQ(summary()["planning"]["rover"],
+            (nlohmann::json{{"clearance_m", 0.25}, {"nodes", 42.0}}));
+  std::vector<LineList> trees;
+  log().read<LineList>("/rover/plan_tree",
+                       [&](Time, const LineList& tree) { trees.push_back(tree); });
+  ASSERT_EQ(trees.size(), 1u);
+  EXPECT_EQ(trees[0].points_W, (std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}}));
+}
+
+TEST_F(SmallRun, WithoutAReportThereIsNothingToTell) {
+  run({"rover.planner.reports=false"});
+  EXPECT_FALSE(summary().contains("planning"));
+  int trees = 0;
+  log().read<LineList>("/rover/plan_tree", [&](Time, const LineList&) { ++trees; });
+  EXPECT_EQ(trees, 0);
+}
+
+TEST_F(SmallRun, TheMapIsInTheLogOnceWhereTheWorldHasOne) {
+  run();
+  std::vector<OccupancyGrid> maps;
+  log().read<OccupancyGrid>("/run/map", [&](Time t, const OccupancyGrid& map) {
+    EXPECT_EQ(t.ns, 0);
+    maps.push_back(map);
+  });
+  ASSERT_EQ(maps.size(), 1u);
+  EXPECT_EQ(maps[0].columns, 3);
+  EXPECT_EQ(maps[0].corner_W, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(maps[0].cells, (std::vector<std::uint8_t>{0, 1, 0, 1, 1, 0}));
+  run({"world.has_map=false"});
+  for (const record::ChannelInfo& channel : log().info().channels) {
+    EXPECT_NE(channel.topic, "/run/map");
+  }
+}
+
+}  // namespace
+}  // namespace vinerow

@@ -1,0 +1,125 @@
+#pragma once
+/// Parts for tests of the kernel: level ground with a map, a vehicle that stands, a planner that
+/// reports, a controller that tells events.
+
+#include <memory>
+
+#include "engine/api/registry.h"
+
+namespace vinerow::test {
+
+inline std::unique_ptr<WorldModel> make_plain(const ParameterSet& parameters, const WorldContext&) {
+  auto world = std::make_unique<WorldModel>();
+  world->name = "plain";
+  HeightField ground;
+  ground.columns = ground.rows = 3;
+  ground.cell_m = 10.0;
+  ground.corner_W = {-10, -10};
+  ground.heights_m.assign(9, 0.0f);
+  world->terrain = ground;
+  if (parameters.boolean("has_map")) {
+    OccupancyGrid& grid = world->rows.occupancy;
+    grid.columns = 3;
+    grid.rows = 2;
+    grid.cell_m = 0.5;
+    grid.corner_W = {1, 2};
+    grid.cells = {0, 1, 0, 1, 1, 0};
+  }
+  return world;
+}
+
+/// Stands where it was put.
+class Statue final : public Vehicle {
+ public:
+  Statue() { description_.type = "statue"; }
+  const VehicleDescription& description() const override { return description_; }
+  const std::vector<VehicleLink>& links() const override { return links_; }
+  void spawn(physics::PhysicsWorld&, const Pose& X_WB) override { X_WB_ = X_WB; }
+  void connect(Ports&) override {}
+  void actuate(std::span<const double>) override {}
+  void before_physics(Time, Duration) override {}
+  void after_physics(Time, Duration) override {}
+  void read_truth(Odometry& truth) const override { truth.X_WB = X_WB_; }
+  Eigen::Vector3d specific_force_B() const override { return {0, 0, 9.8}; }
+  void read_links(std::vector<Pose>&) const override {}
+  void publish(Time) override {}
+
+ private:
+  VehicleDescription description_;
+  std::vector<VehicleLink> links_;
+  Pose X_WB_;
+};
+
+/// A straight path of 2 m, and a tree of one branch where `reports` says so.
+class StraightAhead final : public Planner {
+ public:
+  explicit StraightAhead(const ParameterSet& parameters) : reports_(parameters.boolean("reports")) {
+    report_.numbers = {{"nodes", 42.0}, {"clearance_m", 0.25}};
+    report_.tree.points_W = {{0, 0, 0}, {1, 0, 0}};
+  }
+  Result<PlannedPath> plan(const Pose& start) override {
+    PlannedPath path;
+    path.points.resize(2);
+    path.points[0].p_W = start.p;
+    path.points[1].p_W = start.p + Eigen::Vector3d(2, 0, 0);
+    path.length_m = 2.0;
+    return path;
+  }
+  const PlanReport* report() const override { return reports_ ? &report_ : nullptr; }
+
+ private:
+  bool reports_;
+  PlanReport report_;
+};
+
+/// Writes an event of its own at 0.1 s and, with another source, at 0.3 s, where `tells` says so.
+class Teller final : public Controller {
+ public:
+  explicit Teller(const ParameterSet& parameters) : tells_(parameters.boolean("tells")) {}
+  void connect(Ports& ports) override {
+    plan_ = ports.read_optional<PlannedPath>("plan");
+    actuators_ = ports.write<NamedValues>("actuators");
+    event_ = ports.write<Event>("controller_event");
+  }
+  void step(Time now) override {
+    if (!tells_) return;
+    if (now.ns == 100'000'000) event_.write(now, {Event::Level::kWarning, "", "blocked"});
+    if (now.ns == 300'000'000) event_.write(now, {Event::Level::kInfo, "rover.dwa", "goes on"});
+  }
+
+ private:
+  bool tells_;
+  SignalReader<PlannedPath> plan_;
+  SignalWriter<NamedValues> actuators_;
+  SignalWriter<Event> event_;
+};
+
+inline Registry small_registry() {
+  const auto spec = [](const char* name, std::vector<ParameterSpec> parameters) {
+    PartSpec result;
+    result.name = name;
+    result.description = "for tests";
+    result.parameters = std::move(parameters);
+    return result;
+  };
+  Registry registry;
+  registry.add_world(
+      spec("plain", {boolean_parameter("has_map", false, "whether it has an occupancy grid")}),
+      make_plain);
+  registry.add_vehicle(spec("statue", {}), [](const ParameterSet&, const VehicleContext&) {
+    return std::make_unique<Statue>();
+  });
+  registry.add_planner(
+      spec("straight_ahead", {boolean_parameter("reports", true, "whether it keeps a report")}),
+      [](const ParameterSet& parameters, const PlannerContext&) {
+        return std::make_unique<StraightAhead>(parameters);
+      });
+  registry.add_controller(
+      spec("teller", {boolean_parameter("tells", true, "whether it writes events")}),
+      [](const ParameterSet& parameters, const ControllerContext&) {
+        return std::make_unique<Teller>(parameters);
+      });
+  return registry;
+}
+
+}  // namespace vinerow::test

@@ -1,0 +1,177 @@
+#include "controllers/dwa/dwa.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "controllers/dwa/dwa_params.h"
+#include "engine/math/pose.h"
+
+namespace vinerow {
+namespace {
+
+std::vector<SensorMounting> find_rangers(const ControllerContext& context) {
+  std::vector<SensorMounting> rangers;
+  for (const SensorMounting& sensor : context.sensors) {
+    if (sensor.type == "ultrasound") rangers.push_back(sensor);
+  }
+  return rangers;
+}
+
+/// Axle angles out of a signal of named values, found by name once.
+class SteeringReader {
+ public:
+  void connect(Ports& ports, const std::string& signal) {
+    values_ = ports.read_optional<NamedValues>(signal);
+  }
+  bool read(AxleSteering* steering) {
+    if (!values_.has_value()) return false;
+    const NamedValues& now = values_.value();
+    if (front_ < 0 || rear_ < 0) {
+      for (std::size_t i = 0; i < now.names.size(); ++i) {
+        if (now.names[i] == "axle_front_steer_rad") front_ = static_cast<int>(i);
+        if (now.names[i] == "axle_rear_steer_rad") rear_ = static_cast<int>(i);
+      }
+    }
+    const int most = static_cast<int>(now.values.size());
+    if (front_ < 0 || rear_ < 0 || front_ >= most || rear_ >= most) return false;
+    *steering = {now.values[front_], now.values[rear_]};
+    return true;
+  }
+
+ private:
+  SignalReader<NamedValues> values_;
+  int front_ = -1;
+  int rear_ = -1;
+};
+
+class Dwa final : public Guidance {
+ public:
+  Dwa(const ParameterSet& parameters, const ControllerContext& context)
+      : vehicle_(context.vehicle),
+        source_(context.part),
+        known_(context.map != nullptr ? DistanceField(context.map->occupancy) : DistanceField()),
+        rangers_(find_rangers(context)),
+        memory_(read_obstacle_memory_params(parameters), rangers_, known_,
+                context.vehicle_description->outline_B(),
+                context.vehicle_description->height_above_ground_m),
+        guide_(read_dwa_params(parameters, context), read_dwa_outline(parameters, context),
+               context.vehicle_description->outline_B(), known_) {}
+
+  void connect(Ports& ports) override {
+    estimate_ = ports.read<Odometry>("estimate");
+    plan_ = ports.read<PlannedPath>("plan");
+    encoders_.connect(ports, "encoders");
+    actuators_.connect(ports, "actuators");
+    for (const SensorMounting& ranger : rangers_) {
+      ranges_.push_back(ports.read<RangeSample>(ranger.name));
+    }
+    seen_ranges_.assign(ranges_.size(), 0);
+    out_ = ports.write<LocalCommand>("local_command");
+    news_ = ports.write<Event>("guidance_event");
+  }
+
+  void step(Time now) override {
+    if (plan_.is_newer_than(seen_plan_)) guide_.set_plan(plan_.value(), now);
+    LocalCommand command;
+    if (estimate_.has_value()) {
+      const Odometry& estimate = estimate_.value();
+      for (std::size_t i = 0; i < ranges_.size(); ++i) {
+        if (ranges_[i].is_newer_than(seen_ranges_[i])) {
+          memory_.read(static_cast<int>(i), ranges_[i].value());
+        }
+      }
+      memory_.update(now, estimate.X_WB);
+      if (guide_.has_plan()) command = guide_.step(now, read_state(estimate), memory_);
+    }
+    last_ = {command.front_axle_rad, command.rear_axle_rad};
+    out_.write(now, command);
+    tell(now);
+  }
+
+ private:
+  DwaState read_state(const Odometry& estimate) {
+    DwaState state;
+    state.pose = {estimate.X_WB.p.head<2>(), yaw_from_quaternion(estimate.X_WB.q)};
+    const Eigen::Vector2d v_B = estimate.v_WB_B.head<2>();
+    state.v_mps = std::copysign(v_B.norm(), v_B.x());
+    // Measured angles, else commanded ones, else what was asked for last.
+    if (!encoders_.read(&state.steering) && !actuators_.read(&state.steering)) {
+      state.steering = last_;
+    }
+    return state;
+  }
+
+  /// Allocates, but only when there is something to tell.
+  void tell(Time now) {
+    DwaNews news;
+    if (!guide_.take_news(&news)) return;
+    Event event;
+    event.source = source_;
+    const double x = news.p_W.x(), y = news.p_W.y();
+    const std::string what =
+        std::isfinite(news.distance_m)
+            ? fmt::format("by an obstacle that the map does not have, {:.2f} m ahead",
+                          news.distance_m)
+            : "by what the map has: no motion from here leads on along the plan";
+    switch (news.kind) {
+      case DwaNews::Kind::kSeen:
+        event.text = fmt::format(
+            "sees an obstacle that the map does not have at ({:.2f}, {:.2f}), {:.2f} m from the "
+            "vehicle's centre",
+            x, y, news.distance_m);
+        break;
+      case DwaNews::Kind::kReverse:
+        event.text = fmt::format("jammed at ({:.2f}, {:.2f}) {}; goes back a little", x, y, what);
+        break;
+      case DwaNews::Kind::kBlocked:
+        event.level = Event::Level::kWarning;
+        event.text = fmt::format("blocked at ({:.2f}, {:.2f}) {}", x, y, what);
+        break;
+      case DwaNews::Kind::kFollow:
+        event.text = fmt::format("follows the plan again at ({:.2f}, {:.2f})", x, y);
+        break;
+    }
+    news_.write(now, event);
+  }
+
+  std::string vehicle_;
+  std::string source_;
+  DistanceField known_;
+  std::vector<SensorMounting> rangers_;
+  ObstacleMemory memory_;
+  DwaGuide guide_;
+  AxleSteering last_;
+  std::uint64_t seen_plan_ = 0;
+  std::vector<std::uint64_t> seen_ranges_;
+  SignalReader<Odometry> estimate_;
+  SignalReader<PlannedPath> plan_;
+  SteeringReader encoders_;
+  SteeringReader actuators_;
+  std::vector<SignalReader<RangeSample>> ranges_;
+  SignalWriter<LocalCommand> out_;
+  SignalWriter<Event> news_;
+};
+
+}  // namespace
+
+PartSpec dwa_spec() {
+  PartSpec spec;
+  spec.name = "dwa";
+  spec.description =
+      "Dynamic window approach in (v, front, rear axle angle) with obstacles that ultrasound sees "
+      "(paper A, eq. 23 corrected); follows the plan where it is free, else passes, backs out or "
+      "stands.";
+  spec.parameters = dwa_parameters();
+  spec.default_rate_Hz = 10.0;
+  spec.reads = {"estimate", "plan", "<ultrasound sensors>", "encoders", "actuators"};
+  spec.writes = {"local_command", "guidance_event"};
+  return spec;
+}
+
+std::unique_ptr<Guidance> make_dwa(const ParameterSet& parameters,
+                                   const ControllerContext& context) {
+  return std::make_unique<Dwa>(parameters, context);
+}
+
+}  // namespace vinerow

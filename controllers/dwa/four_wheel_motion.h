@@ -1,0 +1,58 @@
+#pragma once
+/// How a vehicle with two steered axles rolls: crab and curve at once.
+///
+/// Paper A, section 3, as corrected: with axle angles d_F, d_R (bicycle model, positive to the
+/// left), front axle at x = +a and rear axle at x = -b,
+///   k = (tan d_F - tan d_R) / (a + b),   s = (b tan d_F + a tan d_R) / (a + b),
+/// the velocity of the centre is v_x (1, s) and the yaw rate k v_x. Per metre that the centre
+/// travels it turns by k / sqrt(1 + s^2), in the direction atan(s) off the nose. Both axles then
+/// have v_F cos d_F = v_R cos d_R = v_x.
+
+#include <algorithm>
+#include <cmath>
+
+#include "controllers/parts/pose2.h"
+
+namespace vinerow {
+
+/// Angles of both axles, rad, positive to the left.
+struct AxleSteering {
+  double front_rad = 0.0;
+  double rear_rad = 0.0;
+};
+
+/// Where the axles are and how they steer.
+struct FourWheelGeometry {
+  double front_axle_m = 0.75;  ///< a, > 0
+  double rear_axle_m = 0.75;   ///< b, > 0: distance, not coordinate
+  double max_steer_rad = 0.4;
+  double steer_rate_radps = 2.0;
+};
+
+struct RollingMotion {
+  double course_rad = 0.0;       ///< direction of travel of the centre from the nose
+  double curvature_per_m = 0.0;  ///< heading change per metre that the centre travels
+};
+
+inline RollingMotion calc_motion(const AxleSteering& steering, const FourWheelGeometry& geometry) {
+  const double a = geometry.front_axle_m, b = geometry.rear_axle_m;
+  const double front = std::tan(steering.front_rad), rear = std::tan(steering.rear_rad);
+  const double s = (b * front + a * rear) / (a + b);
+  return {std::atan(s), (front - rear) / (a + b) / std::sqrt(1.0 + s * s)};
+}
+
+/// Pose after the centre travelled `length_m` (negative: backwards) with steering at rest: exact.
+inline Pose2 roll(const Pose2& pose, const RollingMotion& motion, double length_m) {
+  const Pose2 moved = advance({pose.p, pose.yaw_rad + motion.course_rad}, length_m,
+                              length_m * motion.curvature_per_m);
+  return {moved.p, moved.yaw_rad - motion.course_rad};
+}
+
+/// Both axles move towards their targets, each by at most `most_rad`.
+inline AxleSteering turn_axles(const AxleSteering& now, const AxleSteering& target,
+                               double most_rad) {
+  return {now.front_rad + std::clamp(target.front_rad - now.front_rad, -most_rad, most_rad),
+          now.rear_rad + std::clamp(target.rear_rad - now.rear_rad, -most_rad, most_rad)};
+}
+
+}  // namespace vinerow

@@ -1,0 +1,78 @@
+#pragma once
+/// How much room a vehicle has at a pose, to what the map knows and to what was seen since.
+///
+/// The outline is a set of discs: three along the vehicle, a single one around it (paper A's
+/// "circular safe zone"), or the polygon itself as many points on its edge. All answers are
+/// distances from the outline, negative where a disc overlaps.
+
+#include <vector>
+
+#include "controllers/dwa/point_field.h"
+#include "controllers/parts/distance_field.h"
+#include "controllers/parts/pose2.h"
+
+namespace vinerow {
+
+/// A vehicle's outline as discs in B.
+class DiscOutline {
+ public:
+  struct Disc {
+    Eigen::Vector2d centre_B;
+    double radius_m;
+    bool only_overlap = false;  ///< inside the outline: speaks up only where something is within it
+  };
+
+  /// Discs of one radius at x = -spacing, 0, +spacing. Reference values for the 1.5 x 1.0 m hull:
+  /// 0.56 m, 0.5 m.
+  static DiscOutline three_circles(double radius_m, double spacing_m);
+  /// The smallest disc about B's origin that holds the outline (paper A, section 3.2).
+  static DiscOutline circumscribed(const std::vector<Eigen::Vector2d>& outline_B);
+  /// The outline itself, sampled every `spacing_m`. @param outline_B convex, counter-clockwise
+  static DiscOutline polygon(const std::vector<Eigen::Vector2d>& outline_B,
+                             double spacing_m = 0.05);
+
+  const std::vector<Disc>& discs() const { return discs_; }
+  /// Few discs that hold all others; empty where that saves nothing.
+  const std::vector<Disc>& cover() const { return cover_; }
+  /// How far the outline sticks out of the discs, m; 0 where they cover it.
+  double uncovered_m(const std::vector<Eigen::Vector2d>& outline_B) const;
+
+ private:
+  std::vector<Disc> discs_;
+  std::vector<Disc> cover_;
+};
+
+/// Distances from the outline, m.
+struct Room {
+  double known_m = 0.0;    ///< to what the map knows
+  double unknown_m = 0.0;  ///< to what was seen and is not on the map
+  double least_m() const { return std::min(known_m, unknown_m); }
+  bool meets(const Room& need) const {
+    return known_m >= need.known_m && unknown_m >= need.unknown_m;
+  }
+};
+
+/// Looks poses up. Both fields must outlive it.
+class RoomFinder {
+ public:
+  RoomFinder(const DistanceField& known, const PointField& unknown)
+      : known_(&known), unknown_(&unknown) {}
+
+  /// @param ahead  unit vector of the heading
+  Room measure(const DiscOutline& outline, const Eigen::Vector2d& p_W,
+               const Eigen::Vector2d& ahead) const;
+  Room measure(const DiscOutline& outline, const Pose2& pose) const {
+    return measure(outline, pose.p, direction(pose.yaw_rad));
+  }
+  /// measure(...).meets(need), by the cover where that is enough.
+  bool meets(const DiscOutline& outline, const Eigen::Vector2d& p_W, const Eigen::Vector2d& ahead,
+             const Room& need) const;
+
+ private:
+  Room measure_discs(const std::vector<DiscOutline::Disc>& discs, const Eigen::Vector2d& p_W,
+                     const Eigen::Vector2d& ahead) const;
+  const DistanceField* known_;
+  const PointField* unknown_;
+};
+
+}  // namespace vinerow

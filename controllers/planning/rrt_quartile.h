@@ -1,0 +1,41 @@
+#pragma once
+/// Planner `rrt_quartile`: the planner of paper A, section 4.1, on the occupancy grid.
+
+#include "controllers/planning/pose_search.h"
+#include "controllers/planning/quartile_tree.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+struct RrtQuartileParams {
+  QuartileTreeParams tree;
+  DistanceKind heuristic = DistanceKind::kGeodesic;
+  std::int64_t max_iterations = 100'000;  ///< expansions, over all refinements of one search
+  int refinements = 1;  ///< further trees, each with half the step and half the cells
+  bool smooth = true;
+};
+
+/// Searches with a QuartileTree; when the tree is exhausted, once more with finer steps and cells,
+/// since the exhausted one proves only that no sequence of its own arcs leads to the goal.
+/// Stops on iterations. The same call gives the same bits.
+class RrtQuartile final : public PoseSearch {
+ public:
+  /// @param context  seed and names of its random streams
+  RrtQuartile(const RrtQuartileParams& params, PartContext context);
+
+  Result<std::vector<PathPiece>> find(const Pose2& from, const Pose2& to,
+                                      const Footprint& footprint, int problem,
+                                      SearchReport& report) override;
+
+ private:
+  RrtQuartileParams params_;
+  PartContext context_;
+};
+
+PartSpec rrt_quartile_spec();
+/// @throws ConfigError for arcs tighter than the vehicle turns, steps that do not leave a cell, and
+/// what make_route_planner refuses
+std::unique_ptr<Planner> make_rrt_quartile(const ParameterSet& parameters,
+                                           const PlannerContext& context);
+
+}  // namespace vinerow

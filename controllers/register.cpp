@@ -2,6 +2,7 @@
 
 #include "controllers/estimation/gps_pose.h"
 #include "controllers/estimation/odometry_filter.h"
+#include "controllers/four_wheel_steering/four_wheel_steering.h"
 #include "controllers/path_follower/path_follower.h"
 #include "controllers/planning/coverage.h"
 #include "controllers/planning/rrt_quartile.h"
@@ -18,6 +19,7 @@ void register_controllers(Registry& registry) {
   registry.add_planner(waypoints_spec(), make_waypoints);
   registry.add_controller(pure_pursuit_spec(), make_pure_pursuit);
   registry.add_controller(path_follower_spec(), make_path_follower);
+  registry.add_controller(four_wheel_steering_spec(), make_four_wheel_steering);
 }
 
 }  // namespace vinerow

@@ -2,26 +2,13 @@
 
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
-#include "controllers/parts/differential_drive.h"
 #include "controllers/register.h"
 #include "engine/core/check.h"
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test {
-
-VehicleDescription make_rover_description() {
-  VehicleDescription description;
-  description.type = "test_rover";
-  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-  for (const char* place : {"fl", "fr", "rl", "rr"}) {
-    description.actuators.push_back(
-        {std::string("wheel_") + place + "_speed_radps", "rad/s", -kNoLimit, kNoLimit});
-  }
-  description.numbers = {{"track_m", 1.0}, {"wheel_radius_m", 0.2}};
-  return description;
-}
 
 RowMap make_paper_map() {
   RowMap map;
@@ -60,6 +47,22 @@ ParameterSet make_parameters(const PartSpec& spec, const Values& values) {
   for (const auto& [name, value] : values) parameters.set(name, value);
   parameters.require_complete();
   return parameters;
+}
+
+const VehicleDescription& vehicle_for(const std::string& controller) {
+  static const VehicleDescription rover = make_rover_description();
+  static const VehicleDescription steered = make_steered_description();
+  ControllerContext context;
+  context.part = "rover.controller";
+  context.period = Duration{25'000'000};
+  context.vehicle_description = &rover;
+  try {
+    const PartSpec& spec = parts().spec(PartKind::kController, controller);
+    parts().make_controller(controller, make_parameters(spec, {}), context);
+    return rover;
+  } catch (const ConfigError&) {
+    return steered;
+  }
 }
 
 std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& map) {
@@ -114,8 +117,10 @@ std::unique_ptr<Estimator> make_estimator(const MissionSetup& setup,
 }  // namespace
 
 MissionResult run_mission(const MissionSetup& setup) {
-  static const VehicleDescription description = make_rover_description();
-  const DifferentialDrive drive(description, "test");
+  const VehicleDescription& description = vehicle_for(setup.controller.type);
+  std::unique_ptr<Plant> plant = description.type == "test_rover"
+                                     ? make_rover_plant(setup.start)
+                                     : std::make_unique<SteeredPlant>(setup.start);
   MissionResult result;
   result.plan = plan_mission(setup);
 
@@ -154,15 +159,10 @@ MissionResult run_mission(const MissionSetup& setup) {
 
   RandomStream random(setup.seed, "rover", "rover.gps");
   plan_out.write(Time{}, result.plan);
-  Pose2 pose = setup.start;
-  VelocityCommand driven;
-  measure(pose);
+  measure(setup.start);
   const Duration period = duration_from_s(setup.cycle_s);
   for (Time now{}; now.s() < setup.longest_s; now = now + period) {
-    Odometry truth;
-    truth.X_WB = {quaternion_from_rpy({0, 0, pose.yaw_rad}), {pose.p.x(), pose.p.y(), 0.0}};
-    truth.v_WB_B.x() = driven.v_mps;
-    truth.w_WB_B.z() = driven.yaw_rate_radps;
+    const Odometry truth = plant->truth();
     truth_out.write(now, truth);
     GnssFix fix;
     fix.valid = true;
@@ -180,12 +180,11 @@ MissionResult run_mission(const MissionSetup& setup) {
     controller->step(now);
     result.finished = controller->finished();
     if (result.finished) break;
-    driven = drive.unmix(actuators.value().values);
+    plant->drive(actuators.value().values, setup.cycle_s);
     result.max_yaw_rate_radps =
-        std::max(result.max_yaw_rate_radps, std::abs(driven.yaw_rate_radps));
-    pose = advance(pose, driven.v_mps * setup.cycle_s, driven.yaw_rate_radps * setup.cycle_s);
+        std::max(result.max_yaw_rate_radps, std::abs(plant->truth().w_WB_B.z()));
     result.time_s += setup.cycle_s;
-    measure(pose);
+    measure(plant->pose());
   }
   result.average_m = meter.average_m();
   result.max_m = meter.max_m();

@@ -1,6 +1,6 @@
 #pragma once
 /// Drives a planner, an estimator and a controller with exact kinematics and no kernel: one pose
-/// per cycle, moved by a constant twist. The plant of paper B.
+/// per cycle. The plant is paper B's, or a steered one for controllers that want that (plant.h).
 
 #include <memory>
 #include <string>
@@ -11,6 +11,7 @@
 #include "engine/api/registry.h"
 #include "engine/api/vehicle.h"
 #include "engine/math/deviation.h"
+#include "tests/controllers/support/plant.h"
 
 namespace vinerow::test {
 
@@ -47,8 +48,9 @@ struct MissionResult {
   std::vector<Pose2> poses;
 };
 
-/// Paper B's rover: 1 m track, 0.2 m wheels, four wheel speeds without limit.
-VehicleDescription make_rover_description();
+/// Of the vehicle that a controller drives here: paper B's rover, or the steered one where the
+/// controller refuses that.
+const VehicleDescription& vehicle_for(const std::string& controller);
 
 /// Paper B's orchard: plant rows at x = 10, 20 .. 90, alleys at x = 5, 15 .. 95, y from 10 to 90.
 RowMap make_paper_map();

@@ -1,0 +1,56 @@
+#pragma once
+/// What the controller knows of a vehicle with two steered axles and four driven wheels.
+
+#include <string>
+
+#include "controllers/four_wheel_steering/axle_geometry.h"
+#include "engine/api/messages.h"
+#include "engine/api/vehicle.h"
+
+namespace vinerow {
+
+struct SteeredVehicle {
+  AxleGeometry geometry;
+  double max_axle_rad = 0.0;
+  double steer_rate_radps = 0.0;
+  double steer_lag_s = 0.0;  ///< first-order lag of the steering servos
+  double rim_max_mps = 0.0;  ///< wheel speed limit times wheel radius
+
+  /// Time to swing the axles from one limit to the other.
+  double swing_s() const { return 2.0 * max_axle_rad / steer_rate_radps; }
+};
+
+/// @param who  part that asks, e.g. "rover.controller (four_wheel_steering)"
+/// Reads track_m, front_axle_m, rear_axle_m, wheel_radius_m, max_axle_steer_rad, steer_rate_radps,
+/// wheel_speed_limit_radps and, where told, steer_lag_s.
+/// @throws ConfigError if an actuator or a number is missing or not positive
+SteeredVehicle read_steered_vehicle(const VehicleDescription& description, const std::string& who);
+
+/// The six actuators by name, all zero: front axle, rear axle, wheels fl, fr, rl, rr.
+NamedValues make_steered_actuators();
+
+/// The angles of both axles over time: measured where an encoder tells them, else those of a servo
+/// with the vehicle's lag and rate limit.
+class AxleState {
+ public:
+  explicit AxleState(const SteeredVehicle& vehicle)
+      : rate_radps_(vehicle.steer_rate_radps), lag_s_(vehicle.steer_lag_s) {}
+
+  /// The cycle that ends now was spent turning towards the last command.
+  void advance(double dt_s);
+  /// Takes over measured angles. Encoders without the two axles change nothing.
+  void measure(const NamedValues& encoders);
+  void command(const AxleAngles& wanted) { wanted_ = wanted; }
+
+  const AxleAngles& actual() const { return actual_; }
+  const AxleAngles& wanted() const { return wanted_; }
+  /// Where the steering will be after a time, turning towards the command.
+  AxleAngles predict(double dt_s) const;
+
+ private:
+  double rate_radps_, lag_s_;
+  AxleAngles actual_, wanted_;
+  int front_ = -1, rear_ = -1;  ///< places in the encoders' values
+};
+
+}  // namespace vinerow

@@ -1,0 +1,74 @@
+#include "controllers/four_wheel_steering/steering_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vinerow {
+namespace {
+
+/// Range of gamma for which |sin g + a kappa| <= tan(max) cos g and the same with -b kappa, from
+/// sin g -+ tan(max) cos g = sin(g -+ max) / cos(max).
+struct Range {
+  double low, high;
+};
+Range calc_steer_range(const AxleGeometry& geometry, double max_axle_rad, double curvature_per_m) {
+  const double shrink = std::cos(max_axle_rad);
+  const auto turn = [&](double lever_m) {
+    return std::asin(std::clamp(lever_m * curvature_per_m * shrink, -1.0, 1.0));
+  };
+  const double front = turn(geometry.front_m), rear = turn(-geometry.rear_m);
+  return {std::max(-max_axle_rad - front, -max_axle_rad - rear),
+          std::min(max_axle_rad - front, max_axle_rad - rear)};
+}
+
+AxleAngles steer_as_printed(const AxleGeometry& geometry, const SteeringParams& params,
+                            const SteeringInput& input) {
+  const double gamma = -params.lateral_gain_radpm * input.lateral_error_m;
+  const double kappa = -params.heading_gain_per_m * input.heading_error_rad;
+  const double cosine = std::cos(gamma), sine = std::sin(gamma);
+  const auto cut = [&](double angle_rad) {
+    return std::clamp(angle_rad, -params.max_axle_rad, params.max_axle_rad);
+  };
+  return {cut(std::atan((geometry.front_m * kappa + sine) / cosine)),
+          cut(std::atan((geometry.rear_m * kappa - sine) / cosine))};
+}
+
+}  // namespace
+
+double calc_largest_curvature(const AxleGeometry& geometry, double max_axle_rad) {
+  // Both axles at their limit; with a != b the origin then travels at an angle.
+  const double half_base = 0.5 * geometry.wheel_base_m() / std::tan(max_axle_rad);
+  const double half_skew = 0.5 * (geometry.rear_m - geometry.front_m);
+  return 1.0 / std::sqrt(half_base * half_base + half_skew * half_skew);
+}
+
+SteeringCommand steer(const AxleGeometry& geometry, const SteeringParams& params,
+                      const SteeringInput& input) {
+  SteeringCommand command;
+  if (params.form == SteeringForm::kPrinted) {
+    command.axles = steer_as_printed(geometry, params, input);
+    return command;
+  }
+  const double largest = calc_largest_curvature(geometry, params.max_axle_rad);
+  const double kappa =
+      std::clamp(input.reference_per_m - params.heading_gain_per_m * input.heading_error_rad -
+                     input.slip_curvature_per_m,
+                 -largest, largest);
+  const double wanted = -params.lateral_gain_radpm * input.lateral_error_m -
+                        params.course_share * input.heading_error_rad - input.slip_rad;
+  const Range range = calc_steer_range(geometry, params.max_axle_rad, kappa);
+  // At the largest curvature the range is one point, up to rounding.
+  const double gamma = range.low < range.high ? std::clamp(wanted, range.low, range.high)
+                                              : 0.5 * (range.low + range.high);
+  const double cosine = std::cos(gamma), sine = std::sin(gamma);
+  const auto cut = [&](double angle_rad) {
+    return std::clamp(angle_rad, -params.max_axle_rad, params.max_axle_rad);
+  };
+  command.steer_rad = gamma;
+  command.curvature_per_m = kappa;
+  command.axles = {cut(std::atan((sine + geometry.front_m * kappa) / cosine)),
+                   cut(std::atan((sine - geometry.rear_m * kappa) / cosine))};
+  return command;
+}
+
+}  // namespace vinerow

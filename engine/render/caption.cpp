@@ -56,7 +56,9 @@ char32_t next_code_point(const std::string& text, std::size_t& at) {
   return code;
 }
 
-void blend(Image& image, int x, int y, const int (&colour)[3], double alpha) {
+using Rgb = std::array<int, 3>;
+
+void blend(Image& image, int x, int y, const Rgb& colour, double alpha) {
   if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
   std::uint8_t* p = &image.rgb[(static_cast<std::size_t>(y) * image.width + x) * 3];
   for (int c = 0; c < 3; ++c) {
@@ -66,7 +68,7 @@ void blend(Image& image, int x, int y, const int (&colour)[3], double alpha) {
 
 /// Draws (or, without an image, measures) one line. @returns its width in pixels
 double draw_line(FT_Face face, int size_px, const std::string& text, double x, int baseline,
-                 Image* image) {
+                 Image* image, const Rgb& ink = {248, 246, 238}) {
   FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(size_px));
   const double start = x;
   FT_UInt previous = 0;
@@ -84,10 +86,9 @@ double draw_line(FT_Face face, int size_px, const std::string& text, double x, i
         for (unsigned column = 0; column < slot->bitmap.width; ++column) {
           const unsigned char cover = slot->bitmap.buffer[row * slot->bitmap.pitch + column];
           if (cover == 0) continue;
-          constexpr int kInk[3] = {248, 246, 238};
           blend(*image,
                 static_cast<int>(std::lround(x)) + slot->bitmap_left + static_cast<int>(column),
-                baseline - slot->bitmap_top + static_cast<int>(row), kInk, cover / 255.0);
+                baseline - slot->bitmap_top + static_cast<int>(row), ink, cover / 255.0);
         }
       }
     }
@@ -97,7 +98,7 @@ double draw_line(FT_Face face, int size_px, const std::string& text, double x, i
 }
 
 void draw_panel(Image& image, int x0, int y0, int x1, int y1, double radius) {
-  constexpr int kShade[3] = {18, 24, 20};
+  constexpr Rgb kShade = {18, 24, 20};
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
       // Distance to the rectangle that is smaller by the radius gives rounded, smooth corners.
@@ -141,6 +142,20 @@ bool draw_caption(const std::vector<std::string>& lines, Image& image) {
     baseline += small + gap;
   }
   return true;
+}
+
+double draw_text(const std::string& text, int size_px, double x, double baseline, const Rgb& rgb,
+                 Image& image) {
+  const Fonts fonts;
+  if (fonts.plain() == nullptr) return 0.0;
+  return draw_line(fonts.plain(), size_px, text, x, static_cast<int>(std::lround(baseline)), &image,
+                   rgb);
+}
+
+double text_width(const std::string& text, int size_px) {
+  const Fonts fonts;
+  if (fonts.plain() == nullptr) return 0.0;
+  return draw_line(fonts.plain(), size_px, text, 0.0, 0, nullptr);
 }
 
 }  // namespace vinerow::render

@@ -1,6 +1,7 @@
 #pragma once
 /// Text in a translucent rounded panel at the lower left of a picture, by FreeType on the CPU.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,13 @@ namespace vinerow::render {
 /// (DejaVu Sans, Debian package fonts-dejavu-core) are absent the picture stays as it is.
 /// @returns whether the text was drawn
 bool draw_caption(const std::vector<std::string>& lines, Image& image);
+
+/// One line of text, without a panel. @param x,baseline  pixels, where it begins
+/// @param rgb  0 to 255 @returns its width in pixels; 0 where the fonts are absent, or drawn
+/// outside
+double draw_text(const std::string& text, int size_px, double x, double baseline,
+                 const std::array<int, 3>& rgb, Image& image);
+/// How wide draw_text() makes it.
+double text_width(const std::string& text, int size_px);
 
 }  // namespace vinerow::render

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-const Vector3f kBoard(0.46f, 0.30f, 0.15f), kFrame(0.36f, 0.22f, 0.10f),
+const Vector3f kBoard(0.42f, 0.29f, 0.16f), kFrame(0.33f, 0.215f, 0.11f),
     kShade(0.05f, 0.035f, 0.02f);
 
 /// A closed box with flat faces.

@@ -1,0 +1,88 @@
+#include "tools/vinerow/canvas.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/render/caption.h"
+
+namespace vinerow::tools {
+
+using Eigen::Vector2d;
+
+Canvas::Canvas(int width, int height, const Rgb& background) {
+  image_.width = width;
+  image_.height = height;
+  for (int k = 0; k < width * height; ++k) {
+    for (const int value : background) image_.rgb.push_back(static_cast<std::uint8_t>(value));
+  }
+}
+
+void Canvas::blend(int x, int y, const Rgb& colour, double alpha) {
+  if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
+  std::uint8_t* pixel = &image_.rgb[(static_cast<std::size_t>(y) * image_.width + x) * 3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] + (colour[c] - pixel[c]) * alpha));
+  }
+}
+
+void Canvas::fill(const std::vector<Vector2d>& polygon, const Rgb& colour, double alpha) {
+  constexpr int kSamples = 4;
+  double top = 1e9, bottom = -1e9;
+  for (const Vector2d& p : polygon) {
+    top = std::min(top, p.y());
+    bottom = std::max(bottom, p.y());
+  }
+  std::vector<int> cover(static_cast<std::size_t>(image_.width));
+  std::vector<double> crossings;
+  const int last = std::min(image_.height - 1, static_cast<int>(std::floor(bottom)));
+  for (int y = std::max(0, static_cast<int>(std::floor(top))); y <= last; ++y) {
+    std::fill(cover.begin(), cover.end(), 0);
+    for (int s = 0; s < kSamples; ++s) {
+      const double line_y = y + (s + 0.5) / kSamples;
+      crossings.clear();
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Vector2d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+        if ((a.y() <= line_y) == (b.y() <= line_y)) continue;
+        crossings.push_back(a.x() + (line_y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      }
+      std::sort(crossings.begin(), crossings.end());
+      for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+        const double most = kSamples * static_cast<double>(image_.width);
+        const int first =
+            static_cast<int>(std::ceil(std::clamp(kSamples * crossings[k] - 0.5, 0.0, most)));
+        const int end =
+            static_cast<int>(std::ceil(std::clamp(kSamples * crossings[k + 1] - 0.5, 0.0, most)));
+        for (int i = first; i < end; ++i) ++cover[static_cast<std::size_t>(i / kSamples)];
+      }
+    }
+    for (int x = 0; x < image_.width; ++x) {
+      const int count = cover[static_cast<std::size_t>(x)];
+      if (count > 0) blend(x, y, colour, alpha * count / (kSamples * kSamples));
+    }
+  }
+}
+
+void Canvas::line(const Vector2d& a, const Vector2d& b, double width_px, const Rgb& colour,
+                  double alpha) {
+  if ((b - a).norm() < 1e-9) return;
+  const Vector2d d = (b - a).normalized(), side = 0.5 * width_px * Vector2d(-d.y(), d.x());
+  fill({a + side, b + side, b - side, a - side}, colour, alpha);
+}
+
+void Canvas::outline(const std::vector<Vector2d>& polygon, double width_px, const Rgb& colour,
+                     double alpha) {
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vector2d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    if ((b - a).norm() < 1e-9) continue;
+    const Vector2d cap = 0.5 * width_px * (b - a).normalized();
+    line(a - cap, b + cap, width_px, colour, alpha);
+  }
+}
+
+void Canvas::text(const std::string& text, int size_px, const Vector2d& at, const Rgb& colour,
+                  double anchor) {
+  const double left = anchor > 0.0 ? anchor * render::text_width(text, size_px) : 0.0;
+  render::draw_text(text, size_px, at.x() - left, at.y(), colour, image_);
+}
+
+}  // namespace vinerow::tools

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "engine/core/error.h"
+#include "engine/io/ros_map.h"
+#include "engine/sim/simulation.h"
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/grid_picture.h"
+#include "worlds/mapping/map_parameters.h"
+
+namespace vinerow::tools {
+namespace {
+
+void print_report(const WorldModel& world, const worlds::OccupancyReport& report) {
+  const OccupancyGrid& grid = world.rows.occupancy;
+  fmt::print("rows           {}\n", world.rows.rows.size());
+  fmt::print("alleys         {}\n", world.rows.alleys.size());
+  fmt::print("cells          {} x {} of {:g} m, {:.2f} million, {:.1f} % free\n", grid.columns,
+             grid.rows, grid.cell_m, 1e-6 * static_cast<double>(grid.cells.size()),
+             100.0 * worlds::free_share(grid));
+  fmt::print("virtual walls  {}\n", report.walls.size());
+  if (report.turning_areas.empty()) {
+    fmt::print("turning areas  0\n");
+    return;
+  }
+  const auto [narrow, wide] =
+      std::minmax_element(report.turning_areas.begin(), report.turning_areas.end(),
+                          [](const auto& a, const auto& b) { return a.width_m < b.width_m; });
+  fmt::print("turning areas  {}, {:.3f} m wide (row {}) to {:.3f} m (row {})\n",
+             report.turning_areas.size(), narrow->width_m, narrow->row, wide->width_m, wide->row);
+}
+
+}  // namespace
+
+void add_grid_command(CLI::App& app, int& exit_status) {
+  struct Arguments {
+    ScenarioArguments scenario;
+    std::filesystem::path out;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "grid", "write the occupancy grid of a scenario's world as a ROS map and as a picture");
+  add_scenario_arguments(*command, arguments->scenario);
+  command->add_option("--out", arguments->out,
+                      "folder for map.yaml, map.pgm and grid.png (default: maps/<scenario name>)");
+  command->callback([arguments, &exit_status] {
+    Registry registry;
+    const io::Scenario scenario = load(arguments->scenario, registry);
+    const auto world = build_world(scenario, registry);
+    for (const std::string& note : world->notes) fmt::print("note: {}\n", note);
+    if (world->rows.occupancy.empty()) {
+      throw ConfigError(
+          fmt::format("{}: world '{}' has no occupancy grid (no rows, or occupancy_cell_m = 0)",
+                      arguments->scenario.file.string(), scenario.world.type));
+    }
+    worlds::OccupancyReport report;
+    const ParameterSet& parameters = scenario.world.parameters;
+    // A map from a file has the walls that it has.
+    if (worlds::has_map_parameters(parameters) && !parameters.has("occupancy_file")) {
+      report = worlds::plan_occupancy(world->rows, worlds::read_map_options(parameters));
+    }
+    const std::filesystem::path out =
+        arguments->out.empty() ? std::filesystem::path("maps") / scenario.name : arguments->out;
+    std::error_code error;
+    std::filesystem::create_directories(out, error);
+    if (error) {
+      throw ConfigError(
+          fmt::format("--out: folder '{}' cannot be made: {}", out.string(), error.message()));
+    }
+    io::save_ros_map(world->rows.occupancy, out / "map.yaml");
+    render::write_png((out / "grid.png").string(), draw_grid(*world, report, scenario.name));
+    print_report(*world, report);
+    fmt::print("map            {}\npicture        {}\n", (out / "map.yaml").string(),
+               (out / "grid.png").string());
+    exit_status = 0;
+  });
+}
+
+}  // namespace vinerow::tools

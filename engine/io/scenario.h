@@ -60,11 +60,13 @@ enum class CameraKind { kFixed, kChase, kTop, kOnBoard };
 struct CameraConfig {
   std::string name;
   CameraKind kind = CameraKind::kChase;
-  std::string vehicle;                   ///< chase, on board; top: follows it if given
-  Eigen::Vector3d p_W = {0, 0, 10};      ///< fixed: position_m; z is above the ground
-  Eigen::Vector3d target_W = {0, 0, 0};  ///< fixed: look_at_m
-  double distance_m = 6.0;               ///< chase: behind the vehicle
-  double height_m = 2.5;  ///< chase: above the vehicle; top: above the ground (0 = fits the world)
+  std::string vehicle;                      ///< chase, on board; top: follows it if given
+  Eigen::Vector3d p_W = {0, 0, 10};         ///< fixed: position_m; z is above the ground
+  Eigen::Vector3d target_W = {0, 0, 0};     ///< fixed: look_at_m
+  std::optional<Eigen::Vector2d> centre_W;  ///< top: centre_m, the middle of the picture
+  double distance_m = 6.0;                  ///< chase: behind the vehicle
+  double height_m = 2.5;  ///< chase: above the vehicle; top: what the picture shows from south to
+                          ///< north (0 = fits the world)
   Eigen::Vector3d offset_B = {0.3, 0, 0.6};  ///< on board
   double yaw_rad = 0.0;    ///< yaw_deg: chase, orbit angle from behind; on board, view direction
   double pitch_rad = 0.0;  ///< pitch_deg: on board, positive looks down
@@ -72,6 +74,8 @@ struct CameraConfig {
   bool show_sensor_rays = false;
   bool show_trail = true;
   bool show_plan = true;
+  bool show_grid = false;  ///< the occupancy grid, of the log or the world
+  bool show_tree = false;  ///< what planners searched
   SourceMark where;
 };
 

@@ -194,8 +194,13 @@ std::vector<ParameterSpec> camera_fields(const std::string& kind) {
   } else if (kind == "top") {
     ParameterSpec followed = vehicle;
     followed.description = "the vehicle it stays above; absent: the middle of the world";
-    fields = {followed, number_parameter("height_m", "m", 0.0, 0.0, 1e5,
-                                         "above the ground; 0 = the whole world fits")};
+    fields = {followed,
+              optional(number_list_parameter("centre_m", "m", {},
+                                             "x and y in the middle of the picture, instead of a "
+                                             "vehicle",
+                                             2)),
+              number_parameter("height_m", "m", 0.0, 0.0, 1e5,
+                               "what the picture shows from south to north; 0 = the whole world")};
   } else {
     fields = {vehicle, point("offset_m", {0.3, 0.0, 0.6}, "in the body frame: forward, left, up"),
               number_parameter("yaw_deg", "deg", 0.0, -360.0, 360.0, "view direction, to the left"),
@@ -205,6 +210,8 @@ std::vector<ParameterSpec> camera_fields(const std::string& kind) {
   fields.push_back(boolean_parameter("show_sensor_rays", false, "draw the rays of range sensors"));
   fields.push_back(boolean_parameter("show_trail", true, "draw where the vehicles have been"));
   fields.push_back(boolean_parameter("show_plan", true, "draw the planned paths"));
+  fields.push_back(boolean_parameter("show_grid", false, "draw the occupancy grid"));
+  fields.push_back(boolean_parameter("show_tree", false, "draw what the planners searched"));
   return fields;
 }
 
@@ -242,8 +249,9 @@ bool is_valid_name(const std::string& name) {
 }
 
 const std::vector<std::string>& reserved_sensor_names() {
-  static const std::vector<std::string> names = {"truth", "estimate",  "plan",     "reference",
-                                                 "links", "actuators", "follower", "command"};
+  static const std::vector<std::string> names = {
+      "truth",     "estimate", "plan",    "reference", "links",
+      "actuators", "follower", "command", "plan_tree", "local_command"};
   return names;
 }
 

@@ -28,6 +28,20 @@ std::string read_kind(const YamlNode& camera, const std::string& path) {
   return kind->text;
 }
 
+/// A view of one place needs its extent, and cannot follow a vehicle as well.
+void check_centre(const YamlNode& camera, const YamlEntry& centre, const std::string& path,
+                  double height_m) {
+  if (camera.has("vehicle")) {
+    fail_at(centre.mark,
+            fmt::format("{}: centre_m and vehicle are both given, must be one of them", path));
+  }
+  if (height_m <= 0.0) {
+    fail_at(centre.mark, fmt::format("{}.centre_m needs height_m > 0, what the picture shows from "
+                                     "south to north",
+                                     path));
+  }
+}
+
 CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
                          const std::vector<std::string>& vehicles, YamlNode& resolved) {
   const YamlNode& node = entry.value;
@@ -47,6 +61,8 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
   camera.show_sensor_rays = values.boolean("show_sensor_rays");
   camera.show_trail = values.boolean("show_trail");
   camera.show_plan = values.boolean("show_plan");
+  camera.show_grid = values.boolean("show_grid");
+  camera.show_tree = values.boolean("show_tree");
   if (kind == "fixed") {
     camera.kind = CameraKind::kFixed;
     camera.p_W = vector_of(values, "position_m");
@@ -59,6 +75,11 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
   } else if (kind == "top") {
     camera.kind = CameraKind::kTop;
     camera.height_m = values.number("height_m");
+    if (const YamlEntry* centre = node.find_entry("centre_m")) {
+      check_centre(node, *centre, path, camera.height_m);
+      const std::vector<double>& p = values.numbers("centre_m");
+      camera.centre_W = Eigen::Vector2d(p[0], p[1]);
+    }
   } else {
     camera.kind = CameraKind::kOnBoard;
     camera.offset_B = vector_of(values, "offset_m");

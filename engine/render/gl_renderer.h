@@ -9,6 +9,7 @@
 
 #include "engine/render/drawables.h"
 #include "engine/render/frame_target.h"
+#include "engine/render/grid_overlay.h"
 #include "engine/render/ground_mask.h"
 #include "engine/render/light.h"
 #include "engine/render/offscreen_context.h"
@@ -26,6 +27,8 @@ struct Program {
   GLint material = -1;
   GLint texture_mode = -1;
   GLint thicken = -1;
+  GLint grid_rect = -1;
+  GLint grid_size = -1;
 };
 
 class GlRenderer final : public Renderer {
@@ -51,6 +54,9 @@ class GlRenderer final : public Renderer {
   void draw_ground(const Frame& frame, const Frustum& frustum);
   void draw_tufts(const Frame& frame, const Frustum& frustum);
   void draw_sky();
+  /// Readies texture and programs of the frame's grid; they are made when the first frame has one.
+  void prepare_grid(const Frame& frame);
+  void draw_grid_map();
   void draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
   void draw_drawable(const Program& program, const Drawable& drawable);
   void draw_mesh(const GpuMesh& mesh);
@@ -72,6 +78,9 @@ class GlRenderer final : public Renderer {
   std::unique_ptr<ShadowMaps> shadows_;
   Program sky_, ground_, country_, surface_, foliage_, foliage_depth_, grass_, ribbon_,
       shadow_solid_, shadow_cards_;
+  GridOverlay grid_;
+  Program grid_map_, grid_ground_, grid_grass_;  ///< made by prepare_grid
+  bool grid_on_ground_ = false;                  ///< in this frame
   GLuint frame_buffer_ = 0;
   GLuint empty_array_ = 0;
   GpuMesh tufts_;

@@ -9,6 +9,7 @@
 #include "engine/render/gl_renderer.h"
 #include "engine/render/grass_tufts.h"
 #include "engine/render/ribbons.h"
+#include "engine/render/texture_units.h"
 
 namespace vinerow::render {
 
@@ -220,19 +221,23 @@ void GlRenderer::draw_tufts(const Frame& frame, const Frustum& frustum) {
   if (tuft_indices_.empty()) return;
   fill_vertices(gl_, tufts_, tuft_vertices_, GL_STREAM_DRAW);
   fill_indices(gl_, tufts_, tuft_indices_, GL_STREAM_DRAW);
-  gl_.UseProgram(grass_.id);
+  const Program& grass = grid_on_ground_ ? grid_grass_ : grass_;
+  gl_.UseProgram(grass.id);
+  if (grid_on_ground_) grid_.set_place(grass.grid_rect, grass.grid_size);
   gl_.Disable(GL_CULL_FACE);
   draw_mesh(tufts_);
 }
 
 void GlRenderer::draw_ground(const Frame& frame, const Frustum& frustum) {
-  gl_.UseProgram(ground_.id);
+  const Program& ground = grid_on_ground_ ? grid_ground_ : ground_;
+  gl_.UseProgram(ground.id);
+  if (grid_on_ground_) grid_.set_place(ground.grid_rect, ground.grid_size);
   gl_.Disable(GL_CULL_FACE);
   for (const Drawable& mesh : ground_meshes_) {
-    if (!settings_.cull || frustum.may_see(mesh.box_W)) draw_drawable(ground_, mesh);
+    if (!settings_.cull || frustum.may_see(mesh.box_W)) draw_drawable(ground, mesh);
   }
   const Eigen::Matrix4f identity = Eigen::Matrix4f::Identity();
-  gl_.UniformMatrix4fv(ground_.world_from_model, 1, GL_FALSE, identity.data());
+  gl_.UniformMatrix4fv(ground.world_from_model, 1, GL_FALSE, identity.data());
   gl_.Disable(GL_CULL_FACE);
   for (const GpuMesh& chunk : chunks_) {
     if (settings_.cull && !frustum.may_see(chunk.bounds_M)) continue;
@@ -256,6 +261,32 @@ void GlRenderer::draw_sky() {
   gl_.Disable(GL_CULL_FACE);
   gl_.BindVertexArray(empty_array_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void GlRenderer::prepare_grid(const Frame& frame) {
+  grid_on_ground_ = frame.grid != nullptr && !is_map_view(frame.camera);
+  if (frame.grid == nullptr) return;
+  if (grid_map_.id == 0) {
+    grid_map_ = make_program("grid_map", shaders::grid_map());
+    grid_ground_ = make_program("grid_ground", shaders::ground(true));
+    grid_grass_ = make_program("grid_grass", shaders::grass(true));
+  }
+  grid_.show(frame.grid);
+  gl_.ActiveTexture(GL_TEXTURE0 + kUnitImage);
+}
+
+void GlRenderer::draw_grid_map() {
+  gl_.UseProgram(grid_map_.id);
+  grid_.set_place(grid_map_.grid_rect, grid_map_.grid_size);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl_.BindVertexArray(empty_array_);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  ++statistics_.draw_calls;
+  gl_.Disable(GL_BLEND);
+  gl_.Enable(GL_DEPTH_TEST);
 }
 
 void GlRenderer::draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from_world) {
@@ -321,6 +352,7 @@ Image GlRenderer::draw(const Frame& frame) {
   gl_.CullFace(GL_BACK);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);
+  prepare_grid(frame);
   if (shadows_) update_shadows(frame.camera, vehicles);
   upload_frame_block(frame, clip_from_world);
   target_.begin(frame.width, frame.height, scale);
@@ -328,6 +360,7 @@ Image GlRenderer::draw(const Frame& frame) {
   draw_tufts(frame, frustum);
   draw_ground(frame, frustum);
   draw_sky();
+  if (frame.grid != nullptr && !grid_on_ground_) draw_grid_map();
   draw_lines(frame, clip_from_world);
   Image image = target_.read();
   check_gl(gl_, "drawing a frame");

@@ -18,7 +18,8 @@ GlRenderer::GlRenderer(std::unique_ptr<OffscreenContext> context, const WorldMod
       mask_(make_ground_mask(world.rows)),
       terrain_(world.terrain),
       store_(gl_),
-      target_(gl_) {
+      target_(gl_),
+      grid_(gl_) {
   make_programs();
   gl_.GenBuffers(1, &frame_buffer_);
   gl_.GenVertexArrays(1, &empty_array_);
@@ -65,6 +66,8 @@ Program GlRenderer::make_program(const char* name, const shaders::Pair& sources)
   program.material = place("material");
   program.texture_mode = place("texture_mode");
   program.thicken = place("thicken");
+  program.grid_rect = place("grid_rect");
+  program.grid_size = place("grid_size");
   return program;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/math/angles.h"
 
@@ -13,9 +14,10 @@ constexpr double kLift_m = 0.04;
 constexpr double kBias_m = 0.12;
 constexpr double kNearW = 0.06;  // least clip w, m in front of the eye
 
-/// Points along the line, close enough for it to follow the ground, none below it.
-std::vector<Eigen::Vector3d> drape(const Polyline& line, const HeightField* field) {
-  std::vector<Eigen::Vector3d> points;
+/// Points along a part of the line, close enough for it to follow the ground, none below it.
+void drape(std::span<const Eigen::Vector3d> line, const HeightField* field,
+           std::vector<Eigen::Vector3d>& points) {
+  points.clear();
   const auto add = [&](Eigen::Vector3d p) {
     if (field != nullptr && field->contains(p.x(), p.y())) {
       p.z() = std::max(p.z(), field->height_m(p.x(), p.y()) + kLift_m);
@@ -23,16 +25,15 @@ std::vector<Eigen::Vector3d> drape(const Polyline& line, const HeightField* fiel
     points.push_back(p);
   };
   const double spacing = field != nullptr ? std::max(0.4, 0.5 * field->cell_m) : 1e9;
-  for (std::size_t i = 0; i < line.points_W.size(); ++i) {
-    if (!line.points_W[i].allFinite()) continue;
-    if (i > 0 && line.points_W[i - 1].allFinite()) {
-      const Eigen::Vector3d step = line.points_W[i] - line.points_W[i - 1];
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (!line[i].allFinite()) continue;
+    if (i > 0 && line[i - 1].allFinite()) {
+      const Eigen::Vector3d step = line[i] - line[i - 1];
       const int pieces = std::min(2000, static_cast<int>(step.norm() / spacing) + 1);
-      for (int k = 1; k < pieces; ++k) add(line.points_W[i - 1] + step * (double{1} * k / pieces));
+      for (int k = 1; k < pieces; ++k) add(line[i - 1] + step * (double{1} * k / pieces));
     }
-    add(line.points_W[i]);
+    add(line[i]);
   }
-  return points;
 }
 
 class Builder {
@@ -117,24 +118,9 @@ class Builder {
   Eigen::Vector2d last_side_ = {0, 0};
 };
 
-}  // namespace
-
-std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* field,
-                                      const Eigen::Matrix4d& clip_from_world, const Camera& camera,
-                                      int width_px, int height_px) {
-  Builder builder(line, width_px, height_px);
-  const std::vector<Eigen::Vector3d> points = drape(line, field);
-  const Eigen::Vector3d forward = camera.X_WC.q * Eigen::Vector3d::UnitZ();
-  const auto clip_of = [&](const Eigen::Vector3d& p) {
-    Eigen::Vector4d clip = clip_from_world * p.homogeneous();
-    // The depth of a point that is nearer to the eye by the bias, at the same pixel.
-    const double reach = (p - camera.X_WC.p).dot(forward);
-    const double nearer =
-        camera.orthographic ? kBias_m : std::min(kBias_m, 0.3 * std::max(reach, 0.0));
-    const Eigen::Vector4d moved = clip_from_world * (p - forward * nearer).homogeneous();
-    if (moved.w() > 0.0) clip.z() = moved.z() / moved.w() * clip.w();
-    return clip;
-  };
+/// @param clip_of  from a point in W to clip space
+template <class ClipOf>
+void draw_piece(const std::vector<Eigen::Vector3d>& points, ClipOf&& clip_of, Builder& builder) {
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     Eigen::Vector4d a = clip_of(points[i]);
     Eigen::Vector4d b = clip_of(points[i + 1]);
@@ -149,6 +135,33 @@ std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* f
     }
     if (b.w() < kNearW) b += (a - b) * ((kNearW - b.w()) / (a.w() - b.w()));
     builder.segment(a, b);
+  }
+}
+
+}  // namespace
+
+std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* field,
+                                      const Eigen::Matrix4d& clip_from_world, const Camera& camera,
+                                      int width_px, int height_px) {
+  Builder builder(line, width_px, height_px);
+  const Eigen::Vector3d forward = camera.X_WC.q * Eigen::Vector3d::UnitZ();
+  const auto clip_of = [&](const Eigen::Vector3d& p) {
+    Eigen::Vector4d clip = clip_from_world * p.homogeneous();
+    // The depth of a point that is nearer to the eye by the bias, at the same pixel.
+    const double reach = (p - camera.X_WC.p).dot(forward);
+    const double nearer =
+        camera.orthographic ? kBias_m : std::min(kBias_m, 0.3 * std::max(reach, 0.0));
+    const Eigen::Vector4d moved = clip_from_world * (p - forward * nearer).homogeneous();
+    if (moved.w() > 0.0) clip.z() = moved.z() / moved.w() * clip.w();
+    return clip;
+  };
+  std::vector<Eigen::Vector3d> points;
+  const std::size_t whole = line.points_W.size();
+  const std::size_t piece = line.pairs ? 2 : std::max<std::size_t>(whole, 1);
+  for (std::size_t first = 0; first < whole; first += piece) {
+    drape(std::span(line.points_W).subspan(first, std::min(piece, whole - first)), field, points);
+    builder.interrupt();
+    draw_piece(points, clip_of, builder);
   }
   return std::move(builder.vertices);
 }

@@ -46,6 +46,7 @@ struct Polyline {
   float width_px = 3.0f;
   float alpha = 1.0f;
   bool dashed = false;
+  bool pairs = false;  ///< two points each are a piece of their own (LineList)
 };
 
 struct Camera {
@@ -59,6 +60,9 @@ struct Frame {
   Camera camera;
   std::vector<VehicleDrawing> vehicles;
   std::vector<Polyline> lines;
+  /// Drawn over the ground, in views from above over everything; null: none. Held by the renderer
+  /// until another is shown, so that its texture is made once.
+  std::shared_ptr<const OccupancyGrid> grid;
   std::vector<std::string> caption;  ///< lower left, first line larger
   int width = 1280;
   int height = 720;

@@ -11,13 +11,14 @@ struct Pair {
 };
 
 Pair sky();
-Pair ground();         ///< terrain
-Pair country();        ///< what lies beyond it
-Pair surface();        ///< posts, trunks, vehicles, anything opaque
-Pair foliage();        ///< leaf cards, where their depth is drawn already
-Pair foliage_depth();  ///< alpha-tested leaf cards, depth only
-Pair grass();          ///< alpha-tested tufts near the camera
-Pair ribbon();         ///< lines in clip space
+Pair ground(bool with_grid = false);  ///< terrain; with the occupancy grid painted on it
+Pair country();                       ///< what lies beyond it
+Pair surface();                       ///< posts, trunks, vehicles, anything opaque
+Pair foliage();                       ///< leaf cards, where their depth is drawn already
+Pair foliage_depth();                 ///< alpha-tested leaf cards, depth only
+Pair grass(bool with_grid = false);   ///< alpha-tested tufts near the camera
+Pair grid_map();                      ///< the occupancy grid over a view from above
+Pair ribbon();                        ///< lines in clip space
 Pair shadow_solid();
 Pair shadow_cards();
 
@@ -25,5 +26,7 @@ Pair shadow_cards();
 const std::string& frame_block();
 const std::string& light_functions();
 const std::string& grass_colour();
+/// vec4 grid_tint(vec2 place): colour and opacity of the occupancy grid.
+const std::string& grid_tint();
 
 }  // namespace vinerow::render::shaders

@@ -101,11 +101,17 @@ float turf_relief(Turf t, float bare) {
 }
 )";
 
+/// What a shader's `seen` becomes where the grid covers its place.
+const char* const kApplyGrid = R"(
+  vec4 tint = grid_tint(p_W.xy);
+  seen = mix(seen, tint.rgb, tint.a);
+)";
+
 }  // namespace
 
-Pair ground() {
-  const std::string fragment =
-      frame_block() + light_functions() + grass_colour() + kGroundInputs + R"(
+Pair ground(bool with_grid) {
+  const std::string fragment = frame_block() + light_functions() + grass_colour() + kGroundInputs +
+                               (with_grid ? grid_tint() : "") + R"(
 void main() {
   vec3 n = normalize(n_W);
   vec2 q = p_W.xy;
@@ -132,7 +138,10 @@ void main() {
   vec3 light = sun_irradiance.rgb * (max(dot(n, sun_direction.xyz), 0.0) * sun) + ambient(n) * turf_relief(t, bare);
   // The foot of the vines sees little sky.
   light *= 1.0 - 0.22 * (1.0 - smoothstep(0.0, 0.8, d.x));
-  colour = vec4(finish(albedo * light * kOneOverPi, p_W), 1.0);
+  vec3 seen = finish(albedo * light * kOneOverPi, p_W);
+)" + (with_grid ? kApplyGrid : "") +
+                               R"(
+  colour = vec4(seen, 1.0);
 }
 )";
   return {frame_block() + kGroundVertex, fragment};
@@ -164,7 +173,7 @@ void main() {
   return {frame_block() + kGroundVertex, fragment};
 }
 
-Pair grass() {
+Pair grass(bool with_grid) {
   const std::string vertex = frame_block() + R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -188,7 +197,8 @@ void main() {
   gl_Position = clip_from_world * vec4(p_W, 1.0);
 }
 )";
-  const std::string fragment = frame_block() + light_functions() + grass_colour() + R"(
+  const std::string fragment = frame_block() + light_functions() + grass_colour() +
+                               (with_grid ? grid_tint() : "") + R"(
 in vec3 p_W;
 in vec3 n_W;
 in vec3 card;
@@ -208,7 +218,10 @@ void main() {
   float through = pow(clamp(dot(view, sun_direction.xyz), 0.0, 1.0), 3.0) * card.y;
   float lit = max(dot(n, sun_direction.xyz), 0.0) * (0.75 + 0.35 * card.y) + 0.55 * through;
   vec3 light = sun_irradiance.rgb * lit * sun + ambient(n) * (0.6 + 0.4 * card.y);
-  colour = vec4(finish(albedo * light * kOneOverPi, p_W), 1.0);
+  vec3 seen = finish(albedo * light * kOneOverPi, p_W);
+)" + (with_grid ? kApplyGrid : "") +
+                               R"(
+  colour = vec4(seen, 1.0);
 }
 )";
   return {vertex, fragment};

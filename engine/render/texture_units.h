@@ -11,6 +11,7 @@ enum TextureUnit : int {
   kUnitMask = 4,
   kUnitLeaves = 5,
   kUnitImage = 6,
+  kUnitGrid = 7,
 };
 
 struct SamplerUnit {
@@ -19,9 +20,9 @@ struct SamplerUnit {
 };
 
 inline constexpr SamplerUnit kSamplerUnits[] = {
-    {"shadow_maps", kUnitShadow}, {"sky_table", kUnitSky}, {"noise_tile", kUnitNoise},
-    {"ground_tile", kUnitGround}, {"row_mask", kUnitMask}, {"leaf_cards", kUnitLeaves},
-    {"image", kUnitImage},
+    {"shadow_maps", kUnitShadow}, {"sky_table", kUnitSky},   {"noise_tile", kUnitNoise},
+    {"ground_tile", kUnitGround}, {"row_mask", kUnitMask},   {"leaf_cards", kUnitLeaves},
+    {"image", kUnitImage},        {"grid_cells", kUnitGrid},
 };
 
 }  // namespace vinerow::render

@@ -11,6 +11,7 @@ namespace vinerow {
 namespace {
 
 const Eigen::Vector3f kPlanColour{0.05f, 0.45f, 1.0f};
+const Eigen::Vector3f kTreeColour{0.95f, 0.97f, 0.86f};
 const Eigen::Vector3f kRayColour{1.0f, 0.25f, 0.1f};
 /// Trails of the first vehicles; more vehicles start again.
 const Eigen::Vector3f kTrailColours[] = {
@@ -36,8 +37,15 @@ FrameComposer::FrameComposer(const io::Scenario& scenario, const WorldModel& wor
       for (const PathPoint& point : plan.points) extent_W_.extend(point.p_W);
     }
   }
+  // Both live longer than the frames that point to the grid.
+  const OccupancyGrid& grid = trace.map.empty() ? world.rows.occupancy : trace.map;
+  if (!grid.empty()) grid_ = {std::shared_ptr<const OccupancyGrid>(), &grid};
   if (extent_W_.isEmpty())
     extent_W_ = Eigen::AlignedBox3d(Eigen::Vector3d(-10, -10, 0), Eigen::Vector3d(10, 10, 2));
+  parcel_W_ = extent_W_;
+  for (const Eigen::Vector2d& p : world.rows.boundary_W) {
+    parcel_W_.extend(Eigen::Vector3d(p.x(), p.y(), extent_W_.center().z()));
+  }
 }
 
 const VehicleTrace& FrameComposer::trace_of(const std::string& vehicle) const {
@@ -65,9 +73,16 @@ render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, doub
           X_WB, {quaternion_from_rpy({0.0, camera.pitch_rad, camera.yaw_rad}), camera.offset_B},
           camera.fov_rad);
     case io::CameraKind::kTop: {
-      if (!follows || camera.height_m <= 0.0) return render::top_camera(extent_W_, aspect);
+      if (camera.height_m <= 0.0 || !(follows || camera.centre_W)) {
+        return render::top_camera(camera.show_grid ? parcel_W_ : extent_W_, aspect);
+      }
+      Eigen::Vector3d centre = X_WB.p;
+      if (camera.centre_W) {
+        const Eigen::Vector2d& c = *camera.centre_W;
+        centre = {c.x(), c.y(), ground_m(c.x(), c.y())};
+      }
       const Eigen::Vector3d half(0.5 * camera.height_m * aspect, 0.5 * camera.height_m, 1.0);
-      return render::top_camera(Eigen::AlignedBox3d(X_WB.p - half, X_WB.p + half), aspect, 0.0);
+      return render::top_camera(Eigen::AlignedBox3d(centre - half, centre + half), aspect, 0.0);
     }
     case io::CameraKind::kFixed:
       break;
@@ -119,6 +134,22 @@ void FrameComposer::add_plans(Time t, render::Frame& frame) const {
   }
 }
 
+void FrameComposer::add_trees(Time t, render::Frame& frame) const {
+  for (const auto& [name, vehicle] : trace_.vehicles) {
+    if (vehicle.plan_tree.empty() || vehicle.plan_tree.times.front() > t) continue;
+    render::Polyline tree;
+    tree.colour = kTreeColour;
+    tree.width_px = 1.0f;
+    tree.alpha = 0.5f;
+    tree.pairs = true;
+    tree.points_W = vehicle.plan_tree.values[vehicle.plan_tree.index_at(t)].points_W;
+    for (Eigen::Vector3d& p : tree.points_W) {
+      p.z() = std::max(p.z(), ground_m(p.x(), p.y())) + 0.4 * kHover_m;
+    }
+    frame.lines.push_back(std::move(tree));
+  }
+}
+
 void FrameComposer::add_rays(Time t, render::Frame& frame) const {
   for (const auto& [name, vehicle] : trace_.vehicles) {
     for (const auto& [sensor, ranges] : vehicle.ranges) {
@@ -153,6 +184,8 @@ render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) con
         {&vehicles_[v]->links(), trace_of(scenario_.vehicles[v].name).links_at(t)});
     if (frame.vehicles.back().X_WL.empty()) frame.vehicles.pop_back();
   }
+  if (camera.show_grid) frame.grid = grid_;
+  if (camera.show_tree) add_trees(t, frame);
   if (camera.show_plan) add_plans(t, frame);
   if (camera.show_trail) add_trails(camera, t, frame);
   if (camera.show_sensor_rays) add_rays(t, frame);

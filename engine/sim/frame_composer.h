@@ -23,6 +23,7 @@ class FrameComposer {
   render::Camera place(const io::CameraConfig& camera, Time t, double aspect) const;
   void add_trails(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
   void add_plans(Time t, render::Frame& frame) const;
+  void add_trees(Time t, render::Frame& frame) const;
   void add_rays(Time t, render::Frame& frame) const;
   double ground_m(double x, double y) const;
   const VehicleTrace& trace_of(const std::string& vehicle) const;
@@ -32,6 +33,9 @@ class FrameComposer {
   const std::vector<std::unique_ptr<Vehicle>>& vehicles_;
   const LogTrace& trace_;
   Eigen::AlignedBox3d extent_W_;  // what a top view shows: rows, plans and tracks
+  Eigen::AlignedBox3d parcel_W_;  // the same with the parcel's boundary, for views with the grid
+  std::shared_ptr<const OccupancyGrid>
+      grid_;  // of the log or else the world; null: neither has one
 };
 
 }  // namespace vinerow

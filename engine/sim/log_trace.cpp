@@ -42,6 +42,7 @@ std::size_t Trace<T>::index_at(Time t) const {
 template struct Trace<Odometry>;
 template struct Trace<LinkPoses>;
 template struct Trace<PlannedPath>;
+template struct Trace<LineList>;
 template struct Trace<RangeSample>;
 
 Odometry VehicleTrace::truth_at(Time t) const {
@@ -70,6 +71,11 @@ LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>
   LogTrace trace;
   trace.first = log.info().first;
   trace.last = log.info().last;
+  for (const record::ChannelInfo& channel : log.info().channels) {
+    if (channel.topic != "/run/map") continue;
+    log.read<OccupancyGrid>(channel.topic,
+                            [&](Time, const OccupancyGrid& map) { trace.map = map; });
+  }
   for (const std::string& name : vehicles) {
     VehicleTrace& vehicle = trace.vehicles[name];
     for (const record::ChannelInfo& channel : log.info().channels) {
@@ -77,6 +83,7 @@ LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>
       if (channel.topic == prefix + "truth") read_into(log, channel.topic, vehicle.truth);
       if (channel.topic == prefix + "links") read_into(log, channel.topic, vehicle.links);
       if (channel.topic == prefix + "plan") read_into(log, channel.topic, vehicle.plan);
+      if (channel.topic == prefix + "plan_tree") read_into(log, channel.topic, vehicle.plan_tree);
       const auto type = channel.metadata.find("vinerow_type");
       if (type != channel.metadata.end() && type->second == RangeSample::kType &&
           channel.topic.starts_with(prefix)) {

@@ -28,6 +28,7 @@ struct VehicleTrace {
   Trace<Odometry> truth;
   Trace<LinkPoses> links;
   Trace<PlannedPath> plan;
+  Trace<LineList> plan_tree;
   std::map<std::string, Trace<RangeSample>> ranges;  ///< by sensor
 
   /// Pose and speed at t, between the samples around it (constant twist is not assumed: straight
@@ -40,6 +41,7 @@ struct VehicleTrace {
 struct LogTrace {
   Time first;
   Time last;
+  OccupancyGrid map;  ///< of the run; empty where the log has none
   std::map<std::string, VehicleTrace> vehicles;
 };
 

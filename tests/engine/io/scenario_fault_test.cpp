@@ -223,6 +223,14 @@ TEST(ScenarioFault, CriteriaAndCamerasNameVehicles) {
       "height above the ground)");
   EXPECT_THAT(fault_of(with_line(2, pictures + "{kind: top, distance_m: 3}")),
               HasSubstr("pictures.cameras.c.distance_m: unknown key of camera of kind 'top'"));
+  EXPECT_EQ(
+      fault_of(with_line(2, pictures + "{kind: top, centre_m: [1, 2]}")),
+      "scenario:4: pictures.cameras.c.centre_m needs height_m > 0, what the picture shows from "
+      "south to north");
+  EXPECT_EQ(
+      fault_of(
+          with_line(2, pictures + "{kind: top, centre_m: [1, 2], height_m: 9, vehicle: rover}")),
+      "scenario:4: pictures.cameras.c: centre_m and vehicle are both given, must be one of them");
 }
 
 TEST(ScenarioFault, NamesAreSimpleWords) {
@@ -233,7 +241,8 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
   EXPECT_EQ(
       fault_of(with_line(10, "      truth: {type: gps}")),
       "scenario:10: vehicles.rover.sensors.truth: a sensor cannot have the name of another signal "
-      "(truth, estimate, plan, reference, links, actuators, follower, command)");
+      "(truth, estimate, plan, reference, links, actuators, follower, command, plan_tree, "
+      "local_command)");
 }
 
 TEST(ScenarioFault, DuplicateKeysNameBothLines) {

@@ -62,6 +62,7 @@ pictures:
     behind: {kind: chase, vehicle: tail, distance_m: 4, height_m: 1, yaw_deg: 180, show_trail: false}
     map: {kind: top, height_m: 80, show_plan: false}
     bonnet: {kind: on_board, offset_m: [1, 0, 0.5], pitch_deg: 45, show_sensor_rays: true}
+    turn: {kind: top, centre_m: [12.5, -3], height_m: 15, show_grid: true, show_tree: true}
 )");
   EXPECT_EQ(s.name, "all");
   EXPECT_EQ(s.description, "every key once");
@@ -127,7 +128,7 @@ pictures:
   EXPECT_EQ(p.every_s, 30.0);
   EXPECT_EQ(p.times_s, (std::vector<double>{1, 2.5}));
   EXPECT_EQ(p.shares, (std::vector<double>{0.5, 1}));
-  ASSERT_EQ(p.cameras.size(), 4u);
+  ASSERT_EQ(p.cameras.size(), 5u);
   EXPECT_EQ(p.cameras[0].kind, CameraKind::kFixed);
   EXPECT_EQ(p.cameras[0].p_W, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(p.cameras[0].target_W, Eigen::Vector3d(4, 5, 6));
@@ -144,6 +145,13 @@ pictures:
   EXPECT_EQ(p.cameras[3].offset_B, Eigen::Vector3d(1, 0, 0.5));
   EXPECT_DOUBLE_EQ(p.cameras[3].pitch_rad, 0.78539816339744828);
   EXPECT_TRUE(p.cameras[3].show_sensor_rays);
+  EXPECT_FALSE(p.cameras[3].show_grid);
+  EXPECT_FALSE(p.cameras[3].show_tree);
+  EXPECT_FALSE(p.cameras[2].centre_W.has_value());
+  EXPECT_EQ(p.cameras[4].centre_W, Eigen::Vector2d(12.5, -3));
+  EXPECT_EQ(p.cameras[4].height_m, 15.0);
+  EXPECT_TRUE(p.cameras[4].show_grid);
+  EXPECT_TRUE(p.cameras[4].show_tree);
 }
 
 TEST(Scenario, FillsInDefaults) {

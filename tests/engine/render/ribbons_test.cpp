@@ -49,6 +49,25 @@ TEST(Ribbon, OddInputMakesNoOddTriangles) {
   }
 }
 
+// Two branches of a tree are two quads, without a line between them and without a joint.
+TEST(Ribbon, PairsArePiecesOfTheirOwn) {
+  const Camera camera = look_at({0, 0, 1}, {1, 0, 1}, 0.9);
+  const Eigen::Matrix4d clip_from_world = calc_clip_from_world(camera, 2.0, 0.1, 500.0);
+  Polyline line;
+  line.points_W = {{5, -1, 0}, {5, -0.5, 0}, {5, 0.5, 0}, {5, 1, 0}, {9, 9, 9}};  // one left over
+  line.pairs = true;
+  const std::vector<RibbonVertex> vertices =
+      make_ribbon(line, nullptr, clip_from_world, camera, 400, 200);
+  ASSERT_EQ(vertices.size(), 12u);
+  Eigen::Vector2d left, right;
+  ASSERT_TRUE(project(camera, 400, 200, {5, 0.5, 0}, left));
+  ASSERT_TRUE(project(camera, 400, 200, {5, -0.5, 0}, right));
+  for (const RibbonVertex& v : vertices) {
+    const double x = 200.0 + 200.0 * v.clip[0] / v.clip[3];
+    EXPECT_TRUE(x < left.x() + 1e-3 || x > right.x() - 1e-3) << x;
+  }
+}
+
 TEST(Ribbon, FollowsTheGround) {
   HeightField field = test::make_level_ground(16.0);
   for (int j = 0; j < 33; ++j)

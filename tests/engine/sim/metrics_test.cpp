@@ -284,5 +284,24 @@ TEST(Travel, WithoutBatteryOrCapacityDoesNotGuess) {
   EXPECT_EQ(without_battery.results().at("displacement_m"), 0.0);
 }
 
+TEST(Travel, StandingDriftCountsFromWhereTheSpringsHaveSettled) {
+  Bench bench;
+  bench.start(make_travel);
+  const auto at = [&](double t_s, double x_m, double v_mps) {
+    bench.drive(t_s, {x_m, 0}, v_mps);
+    bench.step();
+    return bench.results().at("standing_drift_m");
+  };
+  EXPECT_TRUE(std::isnan(at(0.0, 0.0, 0.02)));   // settling
+  EXPECT_TRUE(std::isnan(at(1.0, 0.012, 0.0)));  // not yet for 2 s
+  EXPECT_EQ(at(2.0, 0.012, 0.0), 0.0);
+  EXPECT_DOUBLE_EQ(at(12.0, 0.0125, 0.00005), 0.0005);
+  EXPECT_DOUBLE_EQ(at(20.0, 0.052, 0.02), 0.04);  // it slips: still standing, and seen
+  EXPECT_DOUBLE_EQ(at(21.0, 0.08, 0.2), 0.04);    // it drives: no more
+  EXPECT_DOUBLE_EQ(at(30.0, 5.0, 0.0), 0.04);
+  EXPECT_DOUBLE_EQ(at(33.0, 5.0, 0.0), 0.04);   // the next stand has its own place
+  EXPECT_DOUBLE_EQ(at(40.0, 5.03, 0.0), 0.04);  // and the largest drift of all is told
+}
+
 }  // namespace
 }  // namespace vinerow

@@ -1,0 +1,118 @@
+#include "engine/sim/frame_composer.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/render/cameras.h"
+
+namespace vinerow {
+namespace {
+
+/// One vehicle without links on level ground at 7 m, with a plan and its tree written at 1 s.
+class ComposedFrame : public testing::Test {
+ protected:
+  ComposedFrame() {
+    io::VehicleConfig rover;
+    rover.name = "rover";
+    scenario_.vehicles.push_back(rover);
+    scenario_.pictures.width = 200;
+    scenario_.pictures.height = 100;
+    HeightField ground;
+    ground.columns = ground.rows = 2;
+    ground.cell_m = 100.0;
+    ground.corner_W = {-50, -50};
+    ground.heights_m.assign(4, 7.0f);
+    world_.terrain = ground;
+    VehicleTrace& trace = trace_.vehicles["rover"];
+    PlannedPath plan;
+    plan.points.resize(2);
+    plan.points[1].p_W = {3, 0, 0};
+    trace.plan.times = {Time{1'000'000'000}};
+    trace.plan.values = {plan};
+    LineList tree;
+    tree.points_W = {{0, 0, 0}, {1, 0, 0}, {1, 0, 9}, {2, 1, 9}};
+    trace.plan_tree.times = trace.plan.times;
+    trace.plan_tree.values = {tree};
+  }
+  render::Frame compose(const io::CameraConfig& camera, double t_s = 2.0) {
+    const FrameComposer composer(scenario_, world_, vehicles_, trace_);
+    return composer.compose(camera, Time{} + duration_from_s(t_s));
+  }
+  static OccupancyGrid grid_of(double cell_m) {
+    OccupancyGrid grid;
+    grid.columns = grid.rows = 1;
+    grid.cell_m = cell_m;
+    grid.cells = {1};
+    return grid;
+  }
+
+  io::Scenario scenario_;
+  WorldModel world_;
+  std::vector<std::unique_ptr<Vehicle>> vehicles_{1};
+  LogTrace trace_;
+};
+
+io::CameraConfig top_camera() {
+  io::CameraConfig camera;
+  camera.kind = io::CameraKind::kTop;
+  return camera;
+}
+
+TEST_F(ComposedFrame, ATopCameraLooksAtTheGivenPlace) {
+  io::CameraConfig camera = top_camera();
+  camera.centre_W = Eigen::Vector2d(12, -5);
+  camera.height_m = 8.0;
+  const render::Camera placed = compose(camera).camera;
+  EXPECT_TRUE(placed.orthographic);
+  EXPECT_DOUBLE_EQ(placed.ortho_height_m, 8.0);
+  Eigen::Vector2d pixel;
+  ASSERT_TRUE(render::project(placed, 200, 100, {12, -5, 7}, pixel));
+  EXPECT_LT((pixel - Eigen::Vector2d(100, 50)).norm(), 1e-9);
+  // 100 pixels are 8 m: 2 m north are 25 pixels up.
+  ASSERT_TRUE(render::project(placed, 200, 100, {12, -3, 7}, pixel));
+  EXPECT_LT((pixel - Eigen::Vector2d(100, 25)).norm(), 1e-9);
+}
+
+TEST_F(ComposedFrame, TheTreeIsDrawnOnTheGroundFromWhenItIsThere) {
+  io::CameraConfig camera = top_camera();
+  camera.show_plan = false;
+  EXPECT_TRUE(compose(camera).lines.empty());
+  camera.show_tree = true;
+  EXPECT_TRUE(compose(camera, 0.5).lines.empty());
+  const render::Frame frame = compose(camera);
+  ASSERT_EQ(frame.lines.size(), 1u);
+  EXPECT_TRUE(frame.lines[0].pairs);
+  ASSERT_EQ(frame.lines[0].points_W.size(), 4u);
+  EXPECT_NEAR(frame.lines[0].points_W[0].z(), 7.0, 0.1);
+  EXPECT_NEAR(frame.lines[0].points_W[3].z(), 9.0, 0.1);
+  // The plan is drawn over it.
+  camera.show_plan = true;
+  ASSERT_EQ(compose(camera).lines.size(), 2u);
+  EXPECT_TRUE(compose(camera).lines[1].dashed);
+}
+
+TEST_F(ComposedFrame, TheGridIsTheLogsOrElseTheWorlds) {
+  io::CameraConfig camera = top_camera();
+  camera.show_grid = true;
+  EXPECT_EQ(compose(camera).grid, nullptr) << "there is none";
+  world_.rows.occupancy = grid_of(0.1);
+  ASSERT_NE(compose(camera).grid, nullptr);
+  EXPECT_EQ(compose(camera).grid->cell_m, 0.1);
+  trace_.map = grid_of(0.2);
+  EXPECT_EQ(compose(camera).grid->cell_m, 0.2);
+  camera.show_grid = false;
+  EXPECT_EQ(compose(camera).grid, nullptr);
+}
+
+TEST_F(ComposedFrame, AViewOfTheWholeGridShowsTheParcelsBoundary) {
+  world_.rows.boundary_W = {{-40, -30}, {40, -30}, {40, 30}, {-40, 30}};
+  io::CameraConfig camera = top_camera();
+  const double without_m = compose(camera).camera.ortho_height_m;
+  camera.show_grid = true;
+  const double with_m = compose(camera).camera.ortho_height_m;
+  EXPECT_LT(without_m, 20.0);
+  EXPECT_GE(with_m, 60.0);
+  EXPECT_LT(with_m, 70.0);
+}
+
+}  // namespace
+}  // namespace vinerow

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/render/cameras.h"
+#include "tests/engine/sim/small_parts.h"
 
 namespace vinerow {
 namespace {
@@ -14,6 +15,7 @@ class ComposedFrame : public testing::Test {
     io::VehicleConfig rover;
     rover.name = "rover";
     scenario_.vehicles.push_back(rover);
+    vehicles_.push_back(std::make_unique<test::Statue>());
     scenario_.pictures.width = 200;
     scenario_.pictures.height = 100;
     HeightField ground;
@@ -47,7 +49,7 @@ class ComposedFrame : public testing::Test {
 
   io::Scenario scenario_;
   WorldModel world_;
-  std::vector<std::unique_ptr<Vehicle>> vehicles_{1};
+  std::vector<std::unique_ptr<Vehicle>> vehicles_;
   LogTrace trace_;
 };
 

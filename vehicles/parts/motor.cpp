@@ -47,15 +47,18 @@ MotorStep Motor::begin(double command_radps, double spin_radps, double dt_s,
                        MotorState& state) const {
   MotorStep step;
   step.command_radps = command_radps;
-  state.braked = command_radps == 0.0 && std::abs(spin_radps) < params_.brake_below_radps &&
-                 params_.brake_torque_Nm > 0.0;
+  // Hill hold: a closed brake opens only when the wheel says that the motor carries the load.
+  if (command_radps == 0.0) {
+    state.braked =
+        std::abs(spin_radps) < params_.brake_below_radps && params_.brake_torque_Nm > 0.0;
+  }
   const double driving = driving_limit_Nm(spin_radps);
   step.max_Nm = spin_radps >= 0.0 ? driving : params_.max_torque_Nm;
   step.min_Nm = spin_radps <= 0.0 ? -driving : -params_.max_torque_Nm;
 
   // tau+ = tau + a (u - tau), a = dt / (T + dt); u = kp (omega* - omega+) + i
   const double a = dt_s / (params_.lag_s + dt_s);
-  if (state.braked) {
+  if (state.braked && command_radps == 0.0) {
     state.integral_Nm = 0.0;
     step.constant_Nm = (1.0 - a) * state.torque_Nm;
     return step;
@@ -72,13 +75,18 @@ void Motor::finish(const MotorStep& step, double spin_radps, double torque_Nm, d
   const double error = step.command_radps - spin_radps;
   const bool at_max = torque_Nm >= step.max_Nm && error > 0.0;
   const bool at_min = torque_Nm <= step.min_Nm && error < 0.0;
-  if (!state.braked && !at_max && !at_min) {
+  const bool rests = state.braked && step.command_radps == 0.0;
+  if (!rests && !at_max && !at_min) {
     const double change = params_.speed_integral_gain_Nm * error * dt_s;
     state.integral_Nm =
         std::clamp(state.integral_Nm + change, -params_.max_torque_Nm, params_.max_torque_Nm);
   }
   state.torque_Nm = torque_Nm;
   state.power_W = electric_power_W(torque_Nm, spin_radps);
+}
+
+void Motor::release_brake(const MotorStep& step, double net_torque_Nm, MotorState& state) const {
+  if (net_torque_Nm * step.command_radps > 0.0) state.braked = false;
 }
 
 }  // namespace vinerow::vehicles

@@ -6,6 +6,10 @@
 ///   torque         T dtau/dt = u - tau,           |tau| <= min(tau_max, P_max / |omega|) driving
 ///   electric power P = tau omega / eta (driving), tau omega eta_r (braking), + r tau^2
 ///
+/// The parking brake closes when zero is commanded near standstill. It holds the hill: it opens
+/// again only when motor and ground together turn the wheel the way that is commanded, so that a
+/// start on a slope does not begin by rolling back.
+///
 /// The torque is linear in the new spin until it meets a limit, so a wheel solves both together
 /// (implicit Euler: stable for any gain and step).
 
@@ -54,6 +58,10 @@ class Motor {
   /// @param spin_radps,torque_Nm  as solved by the wheel
   void finish(const MotorStep& step, double spin_radps, double torque_Nm, double dt_s,
               MotorState& state) const;
+
+  /// Opens the brake where motor and ground together turn the wheel the commanded way.
+  /// @param net_torque_Nm  of motor and ground on the wheel, what the brake holds
+  void release_brake(const MotorStep& step, double net_torque_Nm, MotorState& state) const;
 
   /// Largest torque in the direction of rotation at this spin, Nm >= 0.
   double driving_limit_Nm(double spin_radps) const;

@@ -137,7 +137,9 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
     }
     state.tyre = tyre_state;
   }
+  const double brake_Nm = state.motor.braked ? params_.motor.brake_torque_Nm : 0.0;
   motor_.finish(motor_step, new_spin, torque, dt_s, state.motor);
+  motor_.release_brake(motor_step, torque - r * force.x(), state.motor);
   state.spin_radps = new_spin;
   state.angle_rad += 0.5 * (spin + new_spin) * dt_s;
   if (std::abs(state.angle_rad) > kPi) state.angle_rad = wrap_angle(state.angle_rad);
@@ -145,8 +147,7 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
   // The ground's whole moment about the axle is R F_x and the rolling resistance; what does not
   // turn the wheel turns the body (motor and brake are inner torques).
   const double spin_torque_Nm = inertia * (new_spin - spin);
-  const double held_Nm =
-      take_off(torque - r * force.x(), state.motor.braked ? params_.motor.brake_torque_Nm : 0.0);
+  const double held_Nm = take_off(torque - r * force.x(), brake_Nm);
   const double resistance_Nm = new_spin != 0.0 ? std::copysign(rolling_Nm, new_spin)
                                                : std::clamp(held_Nm, -rolling_Nm, rolling_Nm);
   out.body_torque_W = -(spin_torque_Nm + resistance_Nm) * disc.y_W -

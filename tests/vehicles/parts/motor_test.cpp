@@ -51,8 +51,32 @@ TEST(Motor, BrakeClosesAtZeroCommandAndLowSpinOnly) {
   EXPECT_FALSE(state.braked);
   motor.begin(0.0, 0.1, 1e-3, state);
   EXPECT_TRUE(state.braked);
-  motor.begin(0.5, 0.1, 1e-3, state);
-  EXPECT_FALSE(state.braked);
+}
+
+TEST(Motor, BrakeHoldsTheHillUntilTheMotorCarries) {
+  const Motor motor{MotorParams{}};
+  const double load_Nm = -25.0, dt = 1e-3;  // the slope pulls backwards
+  MotorState state;
+  motor.begin(0.0, 0.0, dt, state);
+  ASSERT_TRUE(state.braked);
+  int steps = 0;
+  while (state.braked && steps < 2000) {
+    const MotorStep step = motor.begin(0.15, 0.0, dt, state);
+    motor.finish(step, 0.0, step.constant_Nm, dt, state);
+    motor.release_brake(step, state.torque_Nm + load_Nm, state);
+    ++steps;
+  }
+  // 40 Nms x 0.15 rad/s at once, and 200 Nm/rad x 0.15 rad/s = 30 Nm each second: 19 Nm take 0.63
+  // s, and the current's lag 0.01 s more.
+  EXPECT_NEAR(steps * dt, 0.643, 0.01);
+  EXPECT_GT(state.torque_Nm, 25.0 - 1e-9);
+  // Downhill it opens at once.
+  MotorState downhill;
+  motor.begin(0.0, 0.0, dt, downhill);
+  const MotorStep step = motor.begin(-0.15, 0.0, dt, downhill);
+  motor.finish(step, 0.0, step.constant_Nm, dt, downhill);
+  motor.release_brake(step, downhill.torque_Nm + load_Nm, downhill);
+  EXPECT_FALSE(downhill.braked);
 }
 
 TEST(Motor, IntegralRestsAtTheTorqueLimit) {

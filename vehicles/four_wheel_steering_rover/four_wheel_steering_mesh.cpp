@@ -81,7 +81,7 @@ void add_frame(const Layout& l, MeshBuilder& b) {
       b.cylinder(0.034, 0.005, 24);
       // Rod of the mechanism from the servo box in the middle to the housing.
       b.colour(colour_from_srgb(kAluminium)).place(l.at(0, 0, 0));
-      const double rod_x = ex * (x - 0.075), rod_z = z - l.ground + 0.03;
+      const double rod_x = ex * (x - 0.075), rod_z = z + 0.03;
       b.rod({rod_x, ey * 0.13, rod_z}, {rod_x + ex * 0.01, ey * (l.half_track - 0.03), rod_z},
             0.010, 10);
     }
@@ -184,12 +184,10 @@ void add_spray_columns(const Layout& l, MeshBuilder& b) {
   for (const double ey : {-0.26, 0.26}) {
     b.place(l.at(-0.752, ey, z + 0.09)).box({0.006, 0.022, 0.032}, 0.004);
   }
-  b.colour(colour_from_srgb(kAluminium)).place(l.at(0, 0, -0.0));
-  const double base = z - l.ground, top = 1.34 - l.ground;
+  const double base = z, top = 1.34;
   for (const double ey : {-1.0, 1.0}) {
     const double y = ey * 0.345;
-    b.colour(colour_from_srgb(kAluminium)).place(l.at(0, 0, l.ground));
-    b.place(l.at(0, 0, 0));
+    b.colour(colour_from_srgb(kAluminium)).place(l.at(0, 0, 0));
     b.rod({x, y, base - 0.03}, {x, y, top}, 0.017, 14);
     b.rod({x + 0.20, y, base + 0.01}, {x, y, base + 0.30}, 0.009, 10);
     b.colour(colour_from_srgb(kBlack));
@@ -218,8 +216,8 @@ void add_mast(const Layout& l, MeshBuilder& b) {
       .place(l.at(x, 0, deck + 0.010))
       .box({0.06, 0.06, 0.012}, 0.004);
   b.colour(colour_from_srgb(kAluminium)).place(l.at(0, 0, 0));
-  b.rod({x, 0, deck - l.ground}, {x, 0, top - l.ground}, 0.018, 14);
-  b.rod({x - 0.14, 0, deck - l.ground}, {x, 0, deck - l.ground + 0.26}, 0.009, 10);
+  b.rod({x, 0, deck}, {x, 0, top}, 0.018, 14);
+  b.rod({x - 0.14, 0, deck}, {x, 0, deck + 0.26}, 0.009, 10);
   const std::vector<Vector2d> dome = {{0.072, 0.005}, {0.076, 0.022}, {0.070, 0.045},
                                       {0.052, 0.062}, {0.026, 0.072}, {0.0, 0.075}};
   b.place(l.upright(x, 0, top)).cylinder(0.085, 0.005, 28);
@@ -230,7 +228,7 @@ void add_mast(const Layout& l, MeshBuilder& b) {
                                          {0.048, 0.080}, {0.040, 0.086}, {0.0, 0.086}};
   b.colour(colour_from_srgb(kBlack)).place(l.upright(x + 0.13, 0, deck + 0.002)).lathe(scanner, 24);
   b.place(l.at(0, 0, 0));
-  b.rod({0.16, 0.26, deck - l.ground - 0.02}, {0.13, 0.26, deck - l.ground + 0.48}, 0.004, 8);
+  b.rod({0.16, 0.26, deck - 0.02}, {0.13, 0.26, deck + 0.48}, 0.004, 8);
 }
 
 /// An ultrasonic ranger with its two eyes, looking along yaw.
@@ -261,10 +259,10 @@ void add_sensors(const Layout& l, MeshBuilder& b) {
   // Tube bumpers between the wheels, low enough to meet a post before the nose does.
   b.place(l.at(0, 0, 0)).colour(colour_from_srgb(kBlack));
   for (const double ex : {-1.0, 1.0}) {
-    const double at = ex * (l.half_base + 0.17), low = 0.31 - l.ground;
+    const double at = ex * (l.half_base + 0.17), low = 0.31;
     b.rod({at, -0.20, low}, {at, 0.20, low}, 0.018, 14);
     for (const double ey : {-0.20, 0.20}) {
-      b.rod({at, ey, low}, {ex * (l.half_base + 0.06), ey, l.beam() - l.ground}, 0.016, 12);
+      b.rod({at, ey, low}, {ex * (l.half_base + 0.06), ey, l.beam()}, 0.016, 12);
     }
   }
 }
@@ -302,7 +300,7 @@ TriangleMesh make_steering_knuckle(const FourWheelSteeringMeshParams& params,
       .place(l.at(0, leg + in * 0.026, r))
       .cylinder(0.22 * r, 0.006, 24);
   // Coil spring strut along the leg, and the motor's cable.
-  b.place(l.at(0, 0, 0)).colour(colour_from_srgb(kOrange));
+  b.place(l.at(0, 0, r)).colour(colour_from_srgb(kOrange));
   b.rod({0.055, leg, 0.02}, {0.030, leg, head - r - 0.015}, 0.013, 12);
   b.colour(colour_from_srgb(kBlack));
   b.rod({-0.05, leg + in * 0.02, 0.0}, {-0.03, leg + in * 0.005, head - r}, 0.006, 8);

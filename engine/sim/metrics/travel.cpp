@@ -27,7 +27,9 @@ class Travel final : public Metric {
     distance_m_ += (truth.X_WB.p - last_p_W_).norm();
     last_p_W_ = truth.X_WB.p;
     has_last_ = true;
-    max_speed_mps_ = std::max(max_speed_mps_, truth.v_WB_B.norm());
+    const double speed_mps = truth.v_WB_B.norm();
+    max_speed_mps_ = std::max(max_speed_mps_, speed_mps);
+    watch_standing(now, truth.X_WB.p, speed_mps);
     now_ = now;
   }
 
@@ -40,6 +42,7 @@ class Travel final : public Metric {
         mean_power_W > 0.0 ? capacity_J_ / mean_power_W / 3600.0 : kNotMeasured;
     return {{"distance_m", distance_m_},
             {"displacement_m", (last_p_W_ - start_p_W_).norm()},
+            {"standing_drift_m", standing_drift_m_},
             {"time_s", time_s},
             {"mean_speed_mps", time_s > 0.0 ? distance_m_ / time_s : 0.0},
             {"max_speed_mps", max_speed_mps_},
@@ -50,6 +53,20 @@ class Travel final : public Metric {
   }
 
  private:
+  /// A stand begins where the vehicle has been slower than 5 mm/s for 2 s, its springs settled, and
+  /// ends above 5 cm/s. A creeping vehicle stands, so that its creep is seen.
+  void watch_standing(Time now, const Eigen::Vector3d& p_W, double speed_mps) {
+    constexpr double kSlow_mps = 0.005, kDriving_mps = 0.05, kSettle_s = 2.0;
+    if (speed_mps > kDriving_mps) stands_ = false;
+    if (speed_mps > kSlow_mps) slow_since_ = now;
+    if (!stands_ && (now - slow_since_).s() >= kSettle_s) {
+      stands_ = true;
+      stand_p_W_ = p_W;
+      if (!(standing_drift_m_ >= 0.0)) standing_drift_m_ = 0.0;
+    }
+    if (stands_) standing_drift_m_ = std::max(standing_drift_m_, (p_W - stand_p_W_).norm());
+  }
+
   SignalReader<Odometry> truth_;
   SignalReader<BatteryState> battery_;
   SignalReader<FollowerState> follower_;
@@ -57,6 +74,10 @@ class Travel final : public Metric {
   Eigen::Vector3d start_p_W_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_p_W_ = Eigen::Vector3d::Zero();
   bool has_last_ = false;
+  Time slow_since_;
+  bool stands_ = false;
+  Eigen::Vector3d stand_p_W_ = Eigen::Vector3d::Zero();
+  double standing_drift_m_ = kNotMeasured;
   double distance_m_ = 0.0;
   double max_speed_mps_ = 0.0;
   Time now_;
@@ -69,8 +90,9 @@ PartSpec travel_spec() {
   spec.name = "travel";
   spec.description = "Distance, time, speed, energy and how long the battery lasts at that";
   spec.reads = {"truth", "battery (optional)", "follower (optional)"};
-  spec.writes = {"distance_m", "displacement_m", "time_s",        "mean_speed_mps", "max_speed_mps",
-                 "energy_J",   "mean_power_W",   "battery_hours", "finished"};
+  spec.writes = {"distance_m",     "displacement_m", "standing_drift_m", "time_s",
+                 "mean_speed_mps", "max_speed_mps",  "energy_J",         "mean_power_W",
+                 "battery_hours",  "finished"};
   return spec;
 }
 

@@ -8,18 +8,11 @@
 
 namespace vinerow::vehicles {
 
-struct FourWheelSteeringMeshParams {
-  double wheel_base_m = 1.5;
-  double track_m = 0.85;
-  double wheel_radius_m = 0.2;
-  double tyre_width_m = 0.15;
-  double ground_to_origin_m = 0.42;  ///< height of the body mesh's origin above level ground
-};
-
-/// x forward, y left, z up, origin at B.
-TriangleMesh make_four_wheel_steering_body(const FourWheelSteeringMeshParams& params);
+/// x forward, y left, z up, origin at B. Laid out for the default size and stretched with the
+/// chassis.
+TriangleMesh make_four_wheel_steering_body(const ChassisParams& params);
 
 /// What steers with a wheel and does not turn with it; origin at the hub, kingpin along z.
-TriangleMesh make_steering_knuckle(const FourWheelSteeringMeshParams& params, const Corner& corner);
+TriangleMesh make_steering_knuckle(const ChassisParams& params, const Corner& corner);
 
 }  // namespace vinerow::vehicles

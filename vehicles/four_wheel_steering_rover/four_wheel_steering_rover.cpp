@@ -85,18 +85,12 @@ void FourWheelSteeringRover::describe() {
 }
 
 void FourWheelSteeringRover::make_links() {
-  FourWheelSteeringMeshParams body;
-  body.wheel_base_m = params_.wheel_base_m;
-  body.track_m = params_.track_m;
-  body.wheel_radius_m = params_.wheel_radius_m;
-  body.tyre_width_m = params_.tyre_width_m;
-  body.ground_to_origin_m = params_.com_height_m;
   Material material;
   material.name = "four_wheel_steering_rover";
   material.colour = {1.0f, 1.0f, 1.0f};  // the meshes carry their colours
   material.roughness = 0.55f;
   links_.push_back(
-      {"body", std::make_shared<TriangleMesh>(make_four_wheel_steering_body(body)), material});
+      {"body", std::make_shared<TriangleMesh>(make_four_wheel_steering_body(params_)), material});
   WheelMeshParams wheel;
   wheel.radius_m = params_.wheel_radius_m;
   wheel.width_m = params_.tyre_width_m;
@@ -109,7 +103,7 @@ void FourWheelSteeringRover::make_links() {
   append_wheel_links(wheel, rubber, links_);
   for (const Corner& corner : kCorners) {
     links_.push_back({fmt::format("knuckle_{}", corner.name),
-                      std::make_shared<TriangleMesh>(make_steering_knuckle(body, corner)),
+                      std::make_shared<TriangleMesh>(make_steering_knuckle(params_, corner)),
                       material});
   }
 }

@@ -48,8 +48,7 @@ class SteeringReader {
 class Dwa final : public Guidance {
  public:
   Dwa(const ParameterSet& parameters, const ControllerContext& context)
-      : vehicle_(context.vehicle),
-        source_(context.part),
+      : source_(context.part),
         known_(context.map != nullptr ? DistanceField(context.map->occupancy) : DistanceField()),
         rangers_(find_rangers(context)),
         memory_(read_obstacle_memory_params(parameters), rangers_, known_,
@@ -135,7 +134,6 @@ class Dwa final : public Guidance {
     news_.write(now, event);
   }
 
-  std::string vehicle_;
   std::string source_;
   DistanceField known_;
   std::vector<SensorMounting> rangers_;

@@ -99,7 +99,7 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
   if (is_free && (params_.mode == DwaMode::kAssist || is_near_end)) {
     lane_left_m_ = 0.0;
     recovery_.forward(now, plan_.distance_m(), state.v_mps, true, true);
-    if (is_off_plan_ && (now - free_since_).s() >= kFollowAgain_s) {
+    if (is_off_plan_ && !recovery_.is_in_trouble() && (now - free_since_).s() >= kFollowAgain_s) {
       is_off_plan_ = false;
       tell(DwaNews::Kind::kFollow, state.pose.p, 0.0);
     }
@@ -107,8 +107,7 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
   }
   free_since_ = now;
 
-  bool has_lane = false;
-  const DwaChoice choice = choose_forward(state, memory, speed, &has_lane);
+  const DwaChoice choice = choose_forward(state, memory, speed);
   const bool can_drive = choice.is_admissible && choice.v_mps > kSlow_mps;
   LocalCommand command =
       choice.is_admissible || choice.v_mps > kSlow_mps ? make_drive(choice) : make_stop(state);
@@ -139,13 +138,12 @@ LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
 }
 
 DwaChoice DwaGuide::choose_forward(const DwaState& state, const ObstacleMemory& memory,
-                                   double speed_mps, bool* has_lane) {
+                                   double speed_mps) {
   // A way beside the plan is looked for only where something was seen: the map is the planner's.
-  *has_lane = false;
   if (memory.obstacles_W().empty()) {
     lane_left_m_ = 0.0;
   } else {
-    *has_lane = plan_.find_lane(rooms_, law_.outline(), lane_left_m_, &lane_left_m_);
+    plan_.find_lane(rooms_, law_.outline(), lane_left_m_, &lane_left_m_);
   }
   lane_.copy_moved(plan_.window(), lane_left_m_);
   DwaTask task;

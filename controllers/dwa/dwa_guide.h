@@ -64,8 +64,7 @@ class DwaGuide {
   double wanted_speed_mps() const;
   LocalCommand drive_forward(Time now, const DwaState& state, const ObstacleMemory& memory);
   LocalCommand drive_back(Time now, const DwaState& state);
-  DwaChoice choose_forward(const DwaState& state, const ObstacleMemory& memory, double speed_mps,
-                           bool* has_lane);
+  DwaChoice choose_forward(const DwaState& state, const ObstacleMemory& memory, double speed_mps);
   LocalCommand make_follow(const DwaState& state, double speed_mps, double free_m) const;
   LocalCommand make_drive(const DwaChoice& choice) const;
   LocalCommand make_stop(const DwaState& state) const;

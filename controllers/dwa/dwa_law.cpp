@@ -37,40 +37,57 @@ double calc_score(const DwaTerms& terms, const DwaCost& cost) {
          cost.path_weight * terms.path_m;
 }
 
-void roll_out(const Pose2& start, double v_mps, const AxleSteering& steering,
-              const AxleSteering& target, const FourWheelGeometry& geometry, double horizon_s,
+void calc_sweep(const AxleSteering& steering, const AxleSteering& target,
+                const FourWheelGeometry& geometry, double step_s, SteeringSweep* out) {
+  const double most_rad = geometry.steer_rate_radps * step_s;
+  AxleSteering now = steering;
+  out->count = 0;
+  bool is_moving = true;
+  while (is_moving && out->count < Rollout::kMost) {
+    // The mean angles of the step; once the axles stand, the arc is exact.
+    const AxleSteering next = turn_axles(now, target, most_rad);
+    const RollingMotion motion = calc_motion({mean_angle(now.front_rad, next.front_rad, most_rad),
+                                              mean_angle(now.rear_rad, next.rear_rad, most_rad)},
+                                             geometry);
+    out->steps[out->count++] = {motion.curvature_per_m, direction(motion.course_rad)};
+    is_moving = next.front_rad != now.front_rad || next.rear_rad != now.rear_rad;
+    now = next;
+  }
+}
+
+void roll_out(const Pose2& start, double v_mps, const SteeringSweep& sweep, double horizon_s,
               double step_s, Rollout* out) {
   const int steps =
       std::clamp(static_cast<int>(std::ceil(horizon_s / step_s - 1e-9)), 1, Rollout::kMost);
   const double length_m = v_mps * step_s;
-  const double most_rad = geometry.steer_rate_radps * step_s;
-  AxleSteering now = steering;
   Rollout::Node node{start.p, direction(start.yaw_rad), start.yaw_rad};
-  // Of one step, in B: where the centre goes and how the heading turns.
-  Eigen::Vector2d move_B;
-  Eigen::Vector2d turned;
-  AxleSteering middle;
+  // Of one step, in B: where the centre goes (see advance()) and how the heading turns.
+  Eigen::Vector2d move_B = Eigen::Vector2d::Zero(), turned = Eigen::Vector2d::UnitX();
   double turn_rad = 0.0;
   for (int i = 0; i < steps; ++i) {
-    const AxleSteering next = turn_axles(now, target, most_rad);
-    const bool is_moving = next.front_rad != now.front_rad || next.rear_rad != now.rear_rad;
-    if (i == 0 || is_moving || now.front_rad != middle.front_rad ||
-        now.rear_rad != middle.rear_rad) {
-      // The mean angles of the step; once the axles stand, the arc is exact.
-      middle = {mean_angle(now.front_rad, next.front_rad, most_rad),
-                mean_angle(now.rear_rad, next.rear_rad, most_rad)};
-      const Pose2 step = roll({}, calc_motion(middle, geometry), length_m);
-      move_B = step.p;
-      turn_rad = step.yaw_rad;
-      turned = direction(turn_rad);
+    if (i < sweep.count) {
+      const SteeringSweep::Step& step = sweep.steps[i];
+      turn_rad = length_m * step.curvature_per_m;
+      const double half = 0.5 * turn_rad;
+      const Eigen::Vector2d by_half = direction(half);
+      const double chord_m = std::abs(half) < 1e-8 ? length_m : length_m * by_half.y() / half;
+      move_B = chord_m * (by_half.x() * step.course + by_half.y() * left_of(step.course));
+      turned = by_half.x() * by_half + by_half.y() * left_of(by_half);
     }
-    now = next;
     node.p += move_B.x() * node.ahead + move_B.y() * left_of(node.ahead);
     node.ahead = turned.x() * node.ahead + turned.y() * left_of(node.ahead);
     node.yaw_rad += turn_rad;
     out->nodes[i] = node;
   }
   out->count = steps;
+}
+
+void roll_out(const Pose2& start, double v_mps, const AxleSteering& steering,
+              const AxleSteering& target, const FourWheelGeometry& geometry, double horizon_s,
+              double step_s, Rollout* out) {
+  SteeringSweep sweep;
+  calc_sweep(steering, target, geometry, step_s, &sweep);
+  roll_out(start, v_mps, sweep, horizon_s, step_s, out);
 }
 
 DwaTerms DwaLaw::judge(const Rollout& rollout, const DwaTask& task) const {
@@ -85,7 +102,7 @@ DwaTerms DwaLaw::judge(const Rollout& rollout, const DwaTask& task) const {
   terms.path_m /= rollout.count;
   terms.heading_error_rad = wrap_angle(end.yaw_rad - path[near].yaw_rad);
   terms.goal_m = (end.p - task.goal_W).norm();
-  terms.clearance_m = rooms_.measure(outline_, end.p, end.ahead).least_m();
+  terms.clearance_m = rooms_.measure_cover(outline_, end.p, end.ahead).least_m();
   return terms;
 }
 
@@ -114,16 +131,18 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
   best.score = -std::numeric_limits<double>::infinity();
   double best_stop_m = -std::numeric_limits<double>::infinity();
   Rollout rollout;
+  SteeringSweep sweep;
   for (int i = 0; i < params_.steers; ++i) {
     for (int j = 0; j < params_.steers; ++j) {
       const AxleSteering target{spread(front_low, front_high, i, params_.steers),
                                 spread(rear_low, rear_high, j, params_.steers)};
+      calc_sweep(state.steering, target, params_.geometry, params_.step_s, &sweep);
       for (int k = 0; k < params_.speeds; ++k) {
         const double v = spread(v_low, v_high, k, params_.speeds);
         // Whatever the horizon, as far as it takes to stop.
         const double stop_s = 0.5 * std::abs(v) / params_.acceleration_mps2;
-        roll_out(state.pose, v, state.steering, target, params_.geometry,
-                 std::max(params_.horizon_s, stop_s), params_.step_s, &rollout);
+        roll_out(state.pose, v, sweep, std::max(params_.horizon_s, stop_s), params_.step_s,
+                 &rollout);
         int free = 0;
         while (free < rollout.count && rooms_.meets(outline_, rollout.nodes[free].p,
                                                     rollout.nodes[free].ahead, task.need)) {

@@ -64,6 +64,21 @@ struct Rollout {
   std::array<Node, kMost> nodes;
 };
 
+/// How the vehicle rolls in each step while the axles turn to `target` at their rate.
+struct SteeringSweep {
+  struct Step {
+    double curvature_per_m = 0.0;
+    Eigen::Vector2d course = Eigen::Vector2d::UnitX();  ///< unit vector in B
+  };
+  int count = 0;  ///< the last one lasts
+  std::array<Step, Rollout::kMost> steps;
+};
+void calc_sweep(const AxleSteering& steering, const AxleSteering& target,
+                const FourWheelGeometry& geometry, double step_s, SteeringSweep* out);
+
+/// Drives `v_mps` through a sweep.
+void roll_out(const Pose2& start, double v_mps, const SteeringSweep& sweep, double horizon_s,
+              double step_s, Rollout* out);
 /// Drives `v_mps` (negative: backwards) while the axles turn to `target` at their rate.
 void roll_out(const Pose2& start, double v_mps, const AxleSteering& steering,
               const AxleSteering& target, const FourWheelGeometry& geometry, double horizon_s,

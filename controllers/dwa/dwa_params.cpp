@@ -64,6 +64,8 @@ std::vector<ParameterSpec> dwa_parameters() {
       integer_parameter("max_recoveries", 3, 0, 100, "ways back before it stands"),
       positive_parameter("stall_s", "s", 2.0, "no progress for this long is a jam"),
       positive_parameter("retry_s", "s", 5.0, "how often it tries again when it stands"),
+      number_parameter("look_back_s", "s", 6.0, 0.0, 60.0,
+                       "longest way back of every fourth try, to see from afar what is there"),
       number_parameter("finish_m", "m", 0.3, 0.0, 2.0,
                        "so near the plan's end the tracking controller takes over"),
       number_parameter("obstacle_range_m", "m", 2.5, 0.0, 20.0,
@@ -76,7 +78,8 @@ std::vector<ParameterSpec> dwa_parameters() {
       integer_parameter("consistent_echoes", 2, 1, 20,
                         "readings of one sensor that must agree before they count"),
       integer_parameter("hits", 2, 1, 20, "readings that make a point an obstacle"),
-      positive_parameter("forget_s", "s", 30.0, "points are kept so long after their last echo"),
+      positive_parameter("forget_s", "s", 30.0,
+                         "points 3 m away are kept so long after their last echo"),
   };
 }
 
@@ -129,6 +132,7 @@ DwaGuideParams read_dwa_params(const ParameterSet& parameters, const ControllerC
   params.recovery.max_recoveries = static_cast<int>(parameters.integer("max_recoveries"));
   params.recovery.stall_s = parameters.number("stall_s");
   params.recovery.retry_s = parameters.number("retry_s");
+  params.recovery.look_back_s = parameters.number("look_back_s");
   params.finish_m = parameters.number("finish_m");
   return params;
 }

@@ -7,7 +7,13 @@ namespace vinerow {
 
 void LocalPath::add(const Pose2& pose, double distance_m) {
   if (size_ == kCapacity) return;
-  samples_[size_++] = {pose.p, direction(pose.yaw_rad), pose.yaw_rad, distance_m};
+  const int n = size_++;
+  samples_[n] = {pose.p, direction(pose.yaw_rad), {0, 0}, pose.yaw_rad, distance_m};
+  if (n == 0) return;
+  // Across the way to the neighbours: a crabbing trace does not run along its headings.
+  const int before = std::max(n - 2, 0);
+  samples_[n - 1].along = (samples_[n].p - samples_[before].p).stableNormalized();
+  samples_[n].along = (samples_[n].p - samples_[n - 1].p).stableNormalized();
 }
 
 int LocalPath::nearest(const Eigen::Vector2d& p, int hint) const {
@@ -27,18 +33,12 @@ int LocalPath::nearest(const Eigen::Vector2d& p, int hint) const {
 }
 
 double LocalPath::distance_m(const Eigen::Vector2d& p, int i) const {
-  const Eigen::Vector2d offset = p - samples_[i].p;
-  if (i == 0 || i + 1 == size_) {
-    // The trace backwards runs against its headings, so its neighbour tells which way is outwards.
-    const int inner = i == 0 ? 1 : i - 1;
-    const bool is_beyond = size_ < 2 || offset.dot(samples_[inner].p - samples_[i].p) < 0.0;
-    if (is_beyond) return offset.norm();
-  }
-  // Across the way to the neighbours: a crabbing trace does not run along its headings.
-  const Eigen::Vector2d along =
-      samples_[std::min(i + 1, size_ - 1)].p - samples_[std::max(i - 1, 0)].p;
-  const double length_m = along.norm();
-  return length_m > 0.0 ? std::abs(cross(along, offset)) / length_m : offset.norm();
+  const Sample& sample = samples_[i];
+  const Eigen::Vector2d offset = p - sample.p;
+  const double ahead_m = sample.along.dot(offset);
+  const bool is_beyond =
+      size_ < 2 || (i == 0 && ahead_m < 0.0) || (i + 1 == size_ && ahead_m > 0.0);
+  return is_beyond ? offset.norm() : std::abs(cross(sample.along, offset));
 }
 
 int LocalPath::index_at(double distance_m) const {

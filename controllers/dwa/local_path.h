@@ -15,6 +15,7 @@ class LocalPath {
   struct Sample {
     Eigen::Vector2d p = Eigen::Vector2d::Zero();
     Eigen::Vector2d ahead = Eigen::Vector2d::UnitX();  ///< heading of the vehicle there
+    Eigen::Vector2d along = Eigen::Vector2d::Zero();   ///< unit vector of the path, 0 if alone
     double yaw_rad = 0.0;
     double distance_m = 0.0;  ///< along the path, from anywhere
   };
@@ -22,7 +23,7 @@ class LocalPath {
   void clear() { size_ = 0; }
   int size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// Ignored beyond the capacity.
+  /// Ignored beyond the capacity. Poses differ in place.
   void add(const Pose2& pose, double distance_m);
   const Sample& operator[](int i) const { return samples_[i]; }
   const Sample& last() const { return samples_[size_ - 1]; }

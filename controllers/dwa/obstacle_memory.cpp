@@ -14,6 +14,8 @@ namespace {
 constexpr double kFreeBefore_m = 0.12;
 // The cone's rim is not surely seen.
 constexpr double kRim_rad = 0.0175;
+// Nearer than this from the vehicle's centre nothing is forgotten for its age.
+constexpr double kNear_m = 3.0;
 constexpr double kMerge_m = 0.8 * ObstacleMemory::kPitch_m;
 
 }  // namespace
@@ -84,7 +86,9 @@ void ObstacleMemory::clear_free_points(Time now, const Pose2& pose) {
   int kept = 0;
   for (int i = 0; i < count_; ++i) {
     Point point = points_[i];
-    if ((now - point.seen).s() > params_.forget_s || is_on_vehicle(point.p_W, pose)) continue;
+    const bool is_old = (now - point.seen).s() > params_.forget_s;
+    if (is_old && (point.p_W - pose.p).norm() > kNear_m) continue;
+    if (is_on_vehicle(point.p_W, pose)) continue;
     bool is_free = false;
     for (const Beam& beam : beams_) {
       is_free = is_free || (beam.is_new && is_seen_through(point.p_W, beam));

@@ -10,7 +10,9 @@
 ///   under the vehicle before it,
 /// - the sensor's readings before it do not agree with it (consistent_echoes in a row).
 /// A point counts after `hits` readings, and is forgotten when the cones see through it
-/// kMissesToClear times in a row, when the vehicle stands on it, or forget_s after its last hit.
+/// kMissesToClear times in a row, when the vehicle stands on it, or forget_s after its last hit if
+/// the vehicle is 3 m away by then. Beside and close before the vehicle no cone looks: a vehicle
+/// that stands before an obstacle must not forget it there.
 ///
 /// Everything happens in the horizontal plane, at the estimated pose at the time of the update;
 /// how far the vehicle moves between measurement and update (a sensor's delay) is not made up for.

@@ -47,7 +47,8 @@ void Recovery::try_again(Time now, double distance_m) {
 Recovery::Change Recovery::forward(Time now, double distance_m, double v_mps, bool is_free,
                                    bool can_move) {
   if (is_in_trouble() && distance_m > jam_m_ + params_.past_m) {
-    recoveries_ = 0;
+    recoveries_ = tries_ = 0;
+    is_looking_back_ = false;
     is_told_ = false;
   }
   if (is_free || distance_m > progress_m_ + params_.progress_m) {
@@ -64,8 +65,8 @@ Recovery::Change Recovery::forward(Time now, double distance_m, double v_mps, bo
     ++reversals_;
     state_ = State::kReverse;
     is_reversing_ = false;
-    until_ = now + duration_from_s(params_.reverse_s);
-    return Change::kReverse;
+    until_ = now + duration_from_s(reverse_time_s());
+    return is_told_ ? Change::kNone : Change::kReverse;
   }
   state_ = State::kStand;
   until_ = now + duration_from_s(params_.retry_s);
@@ -78,13 +79,16 @@ void Recovery::reverse(Time now, double distance_m, double v_mps, bool can_move)
   if (!is_reversing_ && v_mps < kStanding_mps) {
     // The time counts from standing still.
     is_reversing_ = true;
-    until_ = now + duration_from_s(params_.reverse_s);
+    until_ = now + duration_from_s(reverse_time_s());
   }
   if (!can_move || now >= until_) try_again(now, distance_m);
 }
 
 void Recovery::stand(Time now, double distance_m) {
-  if (now >= until_) try_again(now, distance_m);
+  if (now < until_) return;
+  is_looking_back_ = ++tries_ % kLookBack == 0;
+  if (is_looking_back_) recoveries_ = std::max(params_.max_recoveries - 1, 0);
+  try_again(now, distance_m);
 }
 
 }  // namespace vinerow

@@ -1,6 +1,7 @@
 #pragma once
 /// What to do when there is no way ahead: go back a little along the own trace and try again, a
-/// few times; then stand, and try again now and then.
+/// few times; then stand, and try again now and then. Every kLookBack-th try goes back farther
+/// first: from there the sensors see what lies beside their cones when they are close up.
 
 #include <vector>
 
@@ -36,6 +37,7 @@ struct RecoveryParams {
   double reverse_s = 2.0;    ///< longest way back
   int max_recoveries = 3;    ///< then it stands
   double retry_s = 5.0;      ///< and tries again this often
+  double look_back_s = 6.0;  ///< longest way back of a look from afar
   double progress_m = 0.05;  ///< less along the plan is none
   double past_m = 1.0;       ///< this far past the place of a jam, it is forgotten
 };
@@ -63,11 +65,16 @@ class Recovery {
   void stand(Time now, double distance_m);
 
  private:
+  double reverse_time_s() const {
+    return is_looking_back_ ? params_.look_back_s : params_.reverse_s;
+  }
   void try_again(Time now, double distance_m);
 
   RecoveryParams params_;
   State state_ = State::kForward;
+  static constexpr int kLookBack = 4;
   int recoveries_ = 0;
+  int tries_ = 0;      // from standing
   int reversals_ = 0;  // since reset()
   bool is_told_ = false;
   double jam_m_ = 0.0;
@@ -75,6 +82,7 @@ class Recovery {
   Time progress_;
   Time moving_;
   bool is_reversing_ = false;
+  bool is_looking_back_ = false;
   Time until_;
 };
 

@@ -109,7 +109,7 @@ Room RoomFinder::measure_discs(const std::vector<DiscOutline::Disc>& discs,
   for (const DiscOutline::Disc& disc : discs) {
     const Eigen::Vector2d at = p_W + disc.centre_B.x() * ahead + disc.centre_B.y() * left;
     const double known_m = known_->at(at) - disc.radius_m;
-    const double unknown_m = unknown_->at(at) - disc.radius_m;
+    const double unknown_m = unknown_->empty() ? kInfinity : unknown_->at(at) - disc.radius_m;
     if (!disc.only_overlap || known_m < 0.0) room.known_m = std::min(room.known_m, known_m);
     if (!disc.only_overlap || unknown_m < 0.0) room.unknown_m = std::min(room.unknown_m, unknown_m);
   }
@@ -126,7 +126,16 @@ bool RoomFinder::meets(const DiscOutline& outline, const Eigen::Vector2d& p_W,
   if (!outline.cover().empty() && measure_discs(outline.cover(), p_W, ahead).meets(need)) {
     return true;
   }
-  return measure_discs(outline.discs(), p_W, ahead).meets(need);
+  const Eigen::Vector2d left = left_of(ahead);
+  for (const DiscOutline::Disc& disc : outline.discs()) {
+    const Eigen::Vector2d at = p_W + disc.centre_B.x() * ahead + disc.centre_B.y() * left;
+    const double known_m = known_->at(at) - disc.radius_m;
+    if (known_m < need.known_m && (!disc.only_overlap || known_m < 0.0)) return false;
+    if (unknown_->empty()) continue;
+    const double unknown_m = unknown_->at(at) - disc.radius_m;
+    if (unknown_m < need.unknown_m && (!disc.only_overlap || unknown_m < 0.0)) return false;
+  }
+  return true;
 }
 
 }  // namespace vinerow

@@ -67,6 +67,11 @@ class RoomFinder {
   /// measure(...).meets(need), by the cover where that is enough.
   bool meets(const DiscOutline& outline, const Eigen::Vector2d& p_W, const Eigen::Vector2d& ahead,
              const Room& need) const;
+  /// Room of the cover: never more than that of the outline, and cheap.
+  Room measure_cover(const DiscOutline& outline, const Eigen::Vector2d& p_W,
+                     const Eigen::Vector2d& ahead) const {
+    return measure_discs(outline.cover().empty() ? outline.discs() : outline.cover(), p_W, ahead);
+  }
 
  private:
   Room measure_discs(const std::vector<DiscOutline::Disc>& discs, const Eigen::Vector2d& p_W,

@@ -273,7 +273,7 @@ Drive drive(const Course& course) {
   context.period = Duration{100'000'000};
   context.vehicle_description = &vehicle;
   context.map = &map;
-  context.sensors = make_rangers();
+  context.sensors = course.sensors;
   const auto guidance = make_dwa(make_dwa_parameters(course.values), context);
 
   SignalBus bus;

@@ -42,6 +42,7 @@ struct Course {
   Values values;  ///< of the guidance
   double longest_s = 120.0;
   double range_noise_m = 0.0;
+  std::vector<SensorMounting> sensors = make_rangers();
   /// Obstacles that go away at this time.
   double unknown_until_s = 1e9;
 };

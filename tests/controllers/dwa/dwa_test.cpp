@@ -26,21 +26,11 @@ std::string all_events(const Drive& drive) {
   return text;
 }
 
-void show(const char* what, const Drive& d) {
-  std::printf(
-      "[ %s ] %s in %.1f s, room known %.3f unknown %.3f m, off plan %.3f m, %d reversals, "
-      "ticks follow %d drive %d stop %d\n",
-      what, d.finished ? "finished" : "NOT finished", d.time_s, d.least_known_m, d.least_unknown_m,
-      d.farthest_off_plan_m, d.reversals, d.follow_ticks, d.drive_ticks, d.stop_ticks);
-  for (const Event& event : d.events) std::printf("    %s\n", event.text.c_str());
-}
-
 TEST(Dwa, FollowsAllTheWayInAFreeAlley) {
   for (const double canopy_half_m : {0.3, 0.35, 0.4}) {
     Course course = make_alley(canopy_half_m);
     course.range_noise_m = 0.003;
     const Drive result = drive(course);
-    show("free alley", result);
     EXPECT_TRUE(result.finished);
     EXPECT_EQ(result.drive_ticks + result.stop_ticks, 0);
     EXPECT_TRUE(result.events.empty()) << all_events(result);
@@ -55,7 +45,6 @@ TEST(Dwa, PassesABoxAtTheSide) {
       course.unknown = {make_box(12.0, 12.0 + length_m, low, low + 0.4)};
       course.range_noise_m = 0.003;
       const Drive result = drive(course);
-      show("side box", result);
       EXPECT_TRUE(result.finished);
       EXPECT_GT(result.least_unknown_m, 0.05);
       EXPECT_GT(result.least_known_m, 0.02);
@@ -66,19 +55,41 @@ TEST(Dwa, PassesABoxAtTheSide) {
   }
 }
 
+TEST(Dwa, TouchesNoBoxWhereverItStands) {
+  // From the row to the middle: passes where there is room, else stands; two rangers or four.
+  for (const int rangers : {2, 4}) {
+    for (const double low : {0.55, 0.45, 0.35, -0.2}) {
+      Course course = make_alley();
+      course.sensors.resize(rangers);
+      course.unknown = {make_box(12.0, 12.4, low, low + 0.4)};
+      course.range_noise_m = 0.003;
+      course.longest_s = 60.0;
+      const Drive result = drive(course);
+      EXPECT_GT(result.least_unknown_m, 0.1) << rangers << " " << low;
+      EXPECT_GT(result.least_known_m, 0.02) << rangers << " " << low;
+      EXPECT_TRUE(result.finished || count_events(result, "blocked at (") == 1)
+          << all_events(result);
+      if (low > 0.5) {
+        EXPECT_TRUE(result.finished);
+      }
+    }
+  }
+}
+
 TEST(Dwa, StandsBeforeABoxInTheMiddle) {
   Course course = make_alley();
   course.unknown = {make_box(12.0, 12.5, -0.2, 0.2)};
   course.range_noise_m = 0.003;
   const Drive result = drive(course);
-  show("middle box", result);
   EXPECT_FALSE(result.finished);
   EXPECT_GT(result.least_unknown_m, 0.1);
   EXPECT_GT(result.least_known_m, 0.02);
   EXPECT_EQ(count_events(result, "blocked at ("), 1);
   EXPECT_EQ(count_events(result, "by an obstacle that the map does not have"), 4);
-  EXPECT_EQ(result.reversals, 3);
-  EXPECT_EQ(result.commands.back().mode, LocalCommand::Mode::kStop);
+  // Three, and one more with every fourth try from standing.
+  EXPECT_GE(result.reversals, 3);
+  EXPECT_LE(result.reversals, 7);
+  EXPECT_GT(result.stop_ticks, 500);
 }
 
 TEST(Dwa, DrivesOnWhenTheObstacleIsGone) {
@@ -87,7 +98,6 @@ TEST(Dwa, DrivesOnWhenTheObstacleIsGone) {
   course.unknown_until_s = 70.0;
   course.longest_s = 160.0;
   const Drive result = drive(course);
-  show("box goes away", result);
   EXPECT_TRUE(result.finished);
   EXPECT_EQ(count_events(result, "blocked at ("), 1);
   EXPECT_EQ(count_events(result, "follows the plan again"), 1);
@@ -116,7 +126,6 @@ TEST(Dwa, TurnsByItselfInTheTurningArea) {
     Course course = make_turn();
     course.values = {{"mode", std::string(mode)}};
     const Drive result = drive(course);
-    show(mode, result);
     EXPECT_TRUE(result.finished);
     EXPECT_LE(result.reversals, 3);
     EXPECT_GT(result.least_known_m, 0.0);
@@ -137,7 +146,6 @@ TEST(Dwa, PureForwardJamsInTheTurnAndRecoveryBringsItThrough) {
   EXPECT_EQ(count_events(forward, "blocked at ("), 1) << all_events(forward);
   course.values.back().second = std::int64_t{3};
   const Drive result = drive(course);
-  show("recovery", result);
   EXPECT_TRUE(result.finished);
   EXPECT_GE(result.reversals, 1);
   EXPECT_LE(result.reversals, 3);
@@ -176,7 +184,6 @@ TEST(Dwa, HoldsTheFootprintsOfEveryKindApart) {
     course.unknown = {make_box(12.0, 12.4, 0.55, 0.95)};
     course.values = {{"footprint", std::string(footprint)}};
     const Drive result = drive(course);
-    show(footprint, result);
     EXPECT_TRUE(result.finished);
     EXPECT_GT(result.least_unknown_m, 0.05);
   }

@@ -128,11 +128,19 @@ TEST(ObstacleMemory, ForgetsWhatIsSeenThroughAndWhatIsOld) {
   EXPECT_EQ(bench.count(), before);
   bench.see({kNothing}, 1);
   EXPECT_LT(bench.count(), before);
-  // The rim of the cone is not surely free; age takes the rest.
-  bench.see({kNothing}, 291);
+  // The rim of the cone is not surely free; age takes the rest, but not from before the vehicle.
+  bench.see({kNothing}, 400);
   EXPECT_GT(bench.count(), 0u);
-  bench.see({kNothing}, 10);
+  bench.X_WB.p.x() = 7.0;
+  bench.see({kNothing});
   EXPECT_EQ(bench.count(), 0u);
+  Bench young;
+  young.see({1.5}, 5);
+  young.X_WB.p.x() = 7.0;
+  young.see({kNothing}, 290);
+  EXPECT_GT(young.count(), 0u);
+  young.see({kNothing}, 20);
+  EXPECT_EQ(young.count(), 0u);
 }
 
 TEST(ObstacleMemory, ForgetsWhatTheVehicleStandsOn) {

@@ -1,5 +1,6 @@
 #include "controllers/register.h"
 
+#include "controllers/dwa/dwa.h"
 #include "controllers/estimation/gps_pose.h"
 #include "controllers/estimation/odometry_filter.h"
 #include "controllers/four_wheel_steering/four_wheel_steering.h"
@@ -17,6 +18,7 @@ void register_controllers(Registry& registry) {
   registry.add_planner(coverage_spec(), make_coverage);
   registry.add_planner(rrt_quartile_spec(), make_rrt_quartile);
   registry.add_planner(waypoints_spec(), make_waypoints);
+  registry.add_guidance(dwa_spec(), make_dwa);
   registry.add_controller(pure_pursuit_spec(), make_pure_pursuit);
   registry.add_controller(path_follower_spec(), make_path_follower);
   registry.add_controller(four_wheel_steering_spec(), make_four_wheel_steering);

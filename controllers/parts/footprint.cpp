@@ -11,15 +11,7 @@ namespace vinerow {
 namespace {
 
 constexpr int kCoverCircles = 3;
-constexpr double kInsideSpacing_m = 0.25;
-
-bool is_inside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d& a = polygon[i];
-    if (cross(polygon[(i + 1) % polygon.size()] - a, p - a) < 0.0) return false;
-  }
-  return !polygon.empty();
-}
+constexpr double kEdgeSpacing_m = 0.25;  // without a grid
 
 }  // namespace
 
@@ -56,25 +48,35 @@ Footprint::Footprint(const DistanceField& field, std::vector<Eigen::Vector2d> ou
     cover_.push_back({{box.min().x() + (i + 0.5) * slice_m, box.center().y()},
                       std::hypot(0.5 * slice_m, 0.5 * box.sizes().y())});
   }
-  const double spacing_m = field.empty() ? kInsideSpacing_m : field.cell_m();
+  const double spacing_m = field.empty() ? kEdgeSpacing_m : field.cell_m();
   for (std::size_t i = 0; i < outline_B_.size(); ++i) {
     const Eigen::Vector2d &a = outline_B_[i], &b = outline_B_[(i + 1) % outline_B_.size()];
     const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing_m)));
     for (int k = 0; k < parts; ++k) edge_B_.push_back(a + (b - a) * k / parts);
   }
   edge_reach_m_ = 0.5 * spacing_m;
-  // What lies wholly inside the outline touches none of its edges; points inside see it.
-  const std::vector<Eigen::Vector2d> core = inset_polygon(outline_B_, kInsideSpacing_m);
-  const int nx = static_cast<int>(std::ceil(box.sizes().x() / kInsideSpacing_m));
-  const int ny = static_cast<int>(std::ceil(box.sizes().y() / kInsideSpacing_m));
-  for (int i = 0; i <= nx; ++i) {
-    for (int j = 0; j <= ny; ++j) {
-      const Eigen::Vector2d p =
-          box.min() + box.sizes().cwiseProduct(Eigen::Vector2d(double(i) / nx, double(j) / ny));
-      if (is_inside(core, p)) inside_B_.push_back(p);
-    }
+  // What lies wholly inside the outline touches none of its edges. Points inside see it: discs
+  // around them, as large as the outline has room for, cover the inside but for a thin rim. Rings
+  // of discs that touch the edges, each ring's three times as large as those of the one before, and
+  // one more along the middle.
+  double deepest_m = 0.0;
+  for (double step_m = box.sizes().norm(); step_m > 1e-6; step_m *= 0.5) {
+    if (!inset_polygon(outline_B_, deepest_m + step_m).empty()) deepest_m += step_m;
   }
-  inside_reach_m_ = kInsideSpacing_m / std::sqrt(2.0);
+  constexpr double kSmallestDisc_m = 0.1, kGrowth = 3.0, kMiddle = 0.98;
+  for (double depth_m = kSmallestDisc_m; depth_m < kMiddle * deepest_m; depth_m *= kGrowth) {
+    add_ring(depth_m);
+  }
+  add_ring(kMiddle * deepest_m);
+}
+
+void Footprint::add_ring(double depth_m) {
+  const std::vector<Eigen::Vector2d> ring = inset_polygon(outline_B_, depth_m);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / depth_m)));
+    for (int k = 0; k < parts; ++k) inside_B_.push_back({a + (b - a) * k / parts, depth_m});
+  }
 }
 
 double Footprint::clearance_m(const Pose2& pose) const {
@@ -85,8 +87,8 @@ double Footprint::clearance_m(const Pose2& pose) const {
   double least_m = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector2d& p_B : edge_B_) least_m = std::min(least_m, at(p_B));
   if (least_m < edge_reach_m_) return 0.0;
-  for (const Eigen::Vector2d& p_B : inside_B_) {
-    if (at(p_B) < inside_reach_m_) return 0.0;
+  for (const Circle& disc : inside_B_) {
+    if (at(disc.centre_B) < disc.radius_m) return 0.0;
   }
   return least_m;
 }

@@ -45,14 +45,15 @@ class Footprint {
     Eigen::Vector2d centre_B;
     double radius_m;
   };
+  void add_ring(double depth_m);
+
   const DistanceField* field_;
   std::vector<Eigen::Vector2d> outline_B_;
   double margin_m_;
-  std::vector<Circle> cover_;              // together they hold the outline
-  std::vector<Eigen::Vector2d> edge_B_;    // samples of the outline
-  std::vector<Eigen::Vector2d> inside_B_;  // samples well inside
-  double edge_reach_m_ = 0.0;              // half the distance between samples
-  double inside_reach_m_ = 0.0;
+  std::vector<Circle> cover_;            // together they hold the outline
+  std::vector<Eigen::Vector2d> edge_B_;  // samples of the outline
+  double edge_reach_m_ = 0.0;            // half the distance between samples
+  std::vector<Circle> inside_B_;         // discs that touch the outline from inside
 };
 
 }  // namespace vinerow

@@ -5,18 +5,20 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace vinerow {
 
 /// A plain list. The distance from an element to the query is worked out only where the bound does
 /// not already exceed the worst that would be kept. Exact; of equals the one added first.
+/// nearestK() leaves out elements farther away than `longest`: a tree has no edges to them anyway.
 template <typename T>
 class BoundedNearest final : public ompl::NearestNeighbors<T> {
  public:
   /// @param bound  bound(element, query) <= distance(element, query)
-  explicit BoundedNearest(std::function<double(const T&, const T&)> bound)
-      : bound_(std::move(bound)) {}
+  BoundedNearest(std::function<double(const T&, const T&)> bound, double longest)
+      : bound_(std::move(bound)), longest_(longest) {}
 
   bool reportsSortedResults() const override { return true; }
   void clear() override { elements_.clear(); }
@@ -28,12 +30,23 @@ class BoundedNearest final : public ompl::NearestNeighbors<T> {
     return true;
   }
   T nearest(const T& query) const override {
-    std::vector<T> found;
-    nearestK(query, 1, found);
-    return found.front();
+    // The element of the least bound first: it leaves few others to look at.
+    bounds_.clear();
+    std::size_t least = 0;
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+      bounds_.push_back({bound_(elements_[i], query), i});
+      if (bounds_[i] < bounds_[least]) least = i;
+    }
+    Place best{this->distFun_(elements_[least], query), least};
+    for (const Place& candidate : bounds_) {
+      if (candidate.index == least || candidate.distance > best.distance) continue;
+      const Place place{this->distFun_(elements_[candidate.index], query), candidate.index};
+      if (place < best) best = place;
+    }
+    return elements_[best.index];
   }
   void nearestK(const T& query, std::size_t k, std::vector<T>& found) const override {
-    search(query, std::min(k, elements_.size()), std::numeric_limits<double>::infinity(), found);
+    search(query, std::min(k, elements_.size()), longest_, found);
   }
   void nearestR(const T& query, double radius, std::vector<T>& found) const override {
     search(query, elements_.size(), radius, found);
@@ -82,6 +95,7 @@ class BoundedNearest final : public ompl::NearestNeighbors<T> {
   }
 
   std::function<double(const T&, const T&)> bound_;
+  double longest_;
   std::vector<T> elements_;
   mutable std::vector<Place> bounds_;
   mutable std::vector<Place> kept_;

@@ -21,8 +21,8 @@ struct CarProblem {
 struct CarTree {
   std::vector<Pose2>
       way;  ///< poses to join by Dubins paths, from `from` to `to`; empty: none found
-  double cost = 0.0;
   std::int64_t nodes = 0;
+  std::int64_t iterations = 0;
   std::vector<std::pair<Pose2, Pose2>> edges;
 };
 
@@ -31,8 +31,11 @@ struct CarTree {
 /// @throws ompl::Exception
 CarTree run_rrt_star(const CarProblem& problem, CarSampling sampling, RandomStream random);
 
-/// RRT-Connect (Kuffner and LaValle, ICRA 2000), for a first way where closed forms fail.
+/// RRT (LaValle and Kuffner, "Randomized kinodynamic planning", Int. J. Robotics Research 20,
+/// 2001), for a first way where closed forms fail; stops at the first found. A tree from the goal
+/// as in RRT-Connect would have to be grown backwards, which OMPL does not do where ways have a
+/// direction.
 /// @throws ompl::Exception
-CarTree run_rrt_connect(const CarProblem& problem, CarSampling sampling, RandomStream random);
+CarTree run_rrt(const CarProblem& problem, CarSampling sampling, RandomStream random);
 
 }  // namespace vinerow

@@ -5,7 +5,7 @@
 namespace vinerow {
 namespace {
 namespace ob = ompl::base;
-constexpr int kMostTries = 100;  // until a sample that cannot improve anything is let through
+constexpr int kMostTries = 50;  // until a sample that cannot improve anything is let through
 }  // namespace
 
 CarSampler::CarSampler(const CarSpace* space, const CarSampling& sampling, RandomStream& random)
@@ -32,6 +32,7 @@ bool CarSampler::is_worth(const Pose2& pose) const {
     return false;
   }
   const double best = sampling_.best_cost();
+  if ((pose.p - sampling_.from.p).norm() + (sampling_.to.p - pose.p).norm() >= best) return false;
   const double there_m = calc_dubins(sampling_.from, pose, car_.radius_m()).length_m();
   if (there_m >= best) return false;
   return there_m + calc_dubins(pose, sampling_.to, car_.radius_m()).length_m() < best;

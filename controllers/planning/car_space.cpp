@@ -52,12 +52,13 @@ void CarSpace::interpolate(const ob::State* from, const ob::State* to, double sh
 }
 
 CarMotionValidator::CarMotionValidator(const ob::SpaceInformationPtr& si,
-                                       const Footprint& footprint, double step_m)
-    : MotionValidator(si), footprint_(footprint), step_m_(step_m) {}
+                                       const Footprint& footprint, double step_m, double longest_m)
+    : MotionValidator(si), footprint_(footprint), step_m_(step_m), longest_m_(longest_m) {}
 
 bool CarMotionValidator::checkMotion(const ob::State* from, const ob::State* to) const {
   const auto* space = si_->getStateSpace()->as<CarSpace>();
   const DubinsPath path = space->path_between(from, to);
+  if (path.length_m() > longest_m_) return false;
   Pose2 pose = CarSpace::pose_of(from);
   for (const DubinsPath::Piece& piece : path.pieces) {
     if (piece.length_m > 0.0 &&
@@ -77,8 +78,8 @@ bool CarMotionValidator::checkMotion(const ob::State* from, const ob::State* to,
   return false;
 }
 
-CarObjective::CarObjective(const ob::SpaceInformationPtr& si, const WayCost& cost)
-    : OptimizationObjective(si), cost_(cost) {
+CarObjective::CarObjective(const ob::SpaceInformationPtr& si, const WayCost& cost, double longest_m)
+    : OptimizationObjective(si), cost_(cost), longest_m_(longest_m) {
   description_ = "length and clearance";
 }
 
@@ -88,6 +89,7 @@ ob::Cost CarObjective::stateCost(const ob::State*) const {
 
 ob::Cost CarObjective::motionCost(const ob::State* from, const ob::State* to) const {
   const DubinsPath path = si_->getStateSpace()->as<CarSpace>()->path_between(from, to);
+  if (path.length_m() > longest_m_) return ob::Cost(cost_.most_of(path.length_m()));
   return ob::Cost(cost_.of(CarSpace::pose_of(from), path));
 }
 

@@ -35,12 +35,13 @@ class CarSpace final : public ompl::base::SE2StateSpace {
   double radius_m_;
 };
 
-/// Is the Dubins path between two states free for the whole outline?
+/// Is the Dubins path between two states free for the whole outline, and short enough for an edge?
+/// Between poses side by side it is a loop of several radii, and trees hold none of those.
 class CarMotionValidator final : public ompl::base::MotionValidator {
  public:
   /// @param footprint  must outlive this
   CarMotionValidator(const ompl::base::SpaceInformationPtr& si, const Footprint& footprint,
-                     double step_m);
+                     double step_m, double longest_m);
 
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
   /// Asked by no planner used here. The last valid state is the first.
@@ -50,13 +51,15 @@ class CarMotionValidator final : public ompl::base::MotionValidator {
  private:
   const Footprint& footprint_;
   double step_m_;
+  double longest_m_;
 };
 
-/// WayCost as OMPL wants it.
+/// WayCost as OMPL wants it. Motions too long for an edge cost the most that their length can,
+/// which is quickly worked out.
 class CarObjective final : public ompl::base::OptimizationObjective {
  public:
   /// @param cost  must outlive this
-  CarObjective(const ompl::base::SpaceInformationPtr& si, const WayCost& cost);
+  CarObjective(const ompl::base::SpaceInformationPtr& si, const WayCost& cost, double longest_m);
 
   ompl::base::Cost stateCost(const ompl::base::State* state) const override;
   ompl::base::Cost motionCost(const ompl::base::State* from,
@@ -65,6 +68,7 @@ class CarObjective final : public ompl::base::OptimizationObjective {
 
  private:
   const WayCost& cost_;
+  double longest_m_;
 };
 
 }  // namespace vinerow

@@ -1,7 +1,6 @@
 #include "controllers/planning/first_way.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,14 +14,18 @@ struct Found {
   double cost = std::numeric_limits<double>::infinity();
 };
 
-Found find_cheapest(const Pose2& from, const Pose2& to, double radius_m, const Footprint& footprint,
-                    const WayCost& cost, double check_step_m) {
+/// @param dearest  candidates that cost this much or more are left out
+Found find_cheapest(const Pose2& from, const Pose2& to, double radius_m, double dearest,
+                    const Footprint& footprint, const WayCost& cost, double check_step_m) {
+  constexpr int kCoarser = 5;  // a few poses first: most candidates fail at one of them
   Found best;
+  best.cost = dearest;
   AnalyticTurnParams params;
   params.radius_m = radius_m;
   for (const AnalyticTurn& turn : make_analytic_turns(from, to, params)) {
     if (turn.length_m >= best.cost) break;  // no cost is below its length
     std::vector<PathPiece> pieces = make_pieces(from, to, turn);
+    if (!is_free(pieces, footprint, kCoarser * check_step_m)) continue;
     const double its_cost = cost.of(pieces);
     if (its_cost >= best.cost || !is_free(pieces, footprint, check_step_m)) continue;
     best = {std::move(pieces), its_cost};
@@ -35,25 +38,19 @@ Found find_cheapest(const Pose2& from, const Pose2& to, double radius_m, const F
 std::optional<FirstWay> find_first_way(const Pose2& from, const Pose2& to, double radius_m,
                                        double reserve, const Footprint& footprint,
                                        const WayCost& cost, double check_step_m) {
-  constexpr double kDearer = 1.1;
-  std::vector<double> radii = {radius_m};
-  if (reserve > 0.0) {
-    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
-      radii.push_back(radius_m * (1.0 + share * reserve));
-    }
+  // Of a loop between alleys the length grows about 1.4 times as fast as the radius.
+  constexpr double kDearer = 2.0;
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  const Found tightest = find_cheapest(from, to, radius_m, kNoLimit, footprint, cost, check_step_m);
+  if (tightest.pieces.empty()) return std::nullopt;
+  for (const double share : {1.0, 0.75, 0.5, 0.25}) {
+    if (reserve <= 0.0) break;
+    const double wider_m = radius_m * (1.0 + share * reserve);
+    const Found wider =
+        find_cheapest(from, to, wider_m, kDearer * tightest.cost, footprint, cost, check_step_m);
+    if (!wider.pieces.empty()) return FirstWay{wider.pieces, wider_m};
   }
-  std::vector<Found> found;
-  double cheapest = std::numeric_limits<double>::infinity();
-  for (const double radius : radii) {
-    found.push_back(find_cheapest(from, to, radius, footprint, cost, check_step_m));
-    cheapest = std::min(cheapest, found.back().cost);
-  }
-  for (std::size_t i = radii.size(); i-- > 0;) {
-    if (!found[i].pieces.empty() && found[i].cost <= kDearer * cheapest) {
-      return FirstWay{found[i].pieces, radii[i]};
-    }
-  }
-  return std::nullopt;
+  return FirstWay{tightest.pieces, radius_m};
 }
 
 bool is_free(const std::vector<PathPiece>& pieces, const Footprint& footprint, double step_m) {

@@ -13,9 +13,9 @@ struct FirstWay {
   double radius_m = 0.0;  ///< of its arcs
 };
 
-/// The cheapest free analytic turn. Tried with radii up to (1 + reserve) times the least one; the
-/// widest whose turn costs no more than a tenth above the cheapest is taken, so that a follower has
-/// curvature to spare.
+/// The cheapest free analytic turn. Then radii up to (1 + reserve) times the least one are tried,
+/// widest first; the first whose turn costs at most twice that share more is taken instead, so that
+/// a follower has curvature to spare.
 std::optional<FirstWay> find_first_way(const Pose2& from, const Pose2& to, double radius_m,
                                        double reserve, const Footprint& footprint,
                                        const WayCost& cost, double check_step_m);

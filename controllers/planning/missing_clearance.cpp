@@ -75,9 +75,11 @@ std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& t
   double least_m = std::numeric_limits<double>::infinity();
   AnalyticTurnParams turn;
   turn.radius_m = radius_m;
+  turn.lead_step_m = 0.5;
   for (const AnalyticTurn& candidate : make_analytic_turns(from, to, turn)) {
     double missing_m = 0.0;
     for (const PathPiece& piece : make_pieces(from, to, candidate)) {
+      if (missing_m >= least_m) break;
       const int parts = static_cast<int>(std::ceil(piece.length_m / kStep_m));
       for (int k = 0; k <= parts && missing_m < least_m; ++k) {
         const Pose2 pose = piece.at(piece.length_m * k / parts);

@@ -7,6 +7,7 @@
 
 #include "controllers/planning/analytic_turn.h"
 #include "controllers/planning/lift.h"
+#include "controllers/planning/route_room.h"
 #include "controllers/planning/row_check.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -25,24 +26,6 @@ Eigen::Vector2d calc_size(const std::vector<Eigen::Vector2d>& outline) {
   return box.sizes();
 }
 
-std::string describe(const Pose2& pose) {
-  return fmt::format("({:.2f}, {:.2f}) heading {:.1f} deg", pose.p.x(), pose.p.y(),
-                     deg_from_rad(wrap_angle(pose.yaw_rad)));
-}
-
-/// The row whose canopy covers a point, or nullptr.
-const PlantRow* find_row_at(const RowMap& map, const Eigen::Vector2d& p, double& distance_m) {
-  for (const PlantRow& row : map.rows) {
-    for (std::size_t i = 0; i + 1 < row.line_W.size(); ++i) {
-      const Eigen::Vector2d a = row.line_W[i].head<2>(), ab = row.line_W[i + 1].head<2>() - a;
-      const double share = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-      distance_m = (p - a - share * ab).norm();
-      if (distance_m < 0.5 * row.canopy_width_m) return &row;
-    }
-  }
-  return nullptr;
-}
-
 class RoutePlanner final : public Planner {
  public:
   RoutePlanner(const RoutePlannerParams& params, std::unique_ptr<PoseSearch> search,
@@ -52,7 +35,8 @@ class RoutePlanner final : public Planner {
         map_(*context.map),
         scene_(context.scene),
         field_(map_.occupancy),
-        footprint_(field_, context.vehicle_description->outline_B(), params.margin_m) {}
+        footprint_(field_, context.vehicle_description->outline_B(), params.margin_m),
+        room_(map_, footprint_, params.check_step_m) {}
 
   const PlanReport* report() const override { return &report_; }
 
@@ -71,9 +55,9 @@ class RoutePlanner final : public Planner {
     auto legs = make_row_route(map_, params_.route, pose.p);
     if (!legs) return Failure{legs.reason()};
     std::vector<RouteLeg> route = *legs;
-    if (!footprint_.is_free(pose)) return Failure{"start in collision: " + tell_room(pose)};
+    if (!footprint_.is_free(pose)) return Failure{"start in collision: " + room_.tell(pose)};
     for (const RouteLeg& leg : route) {
-      if (const auto fault = find_blocked(leg)) return Failure{*fault};
+      if (const auto fault = room_.find_blocked(leg)) return Failure{*fault};
     }
 
     Pieces pieces;
@@ -85,50 +69,10 @@ class RoutePlanner final : public Planner {
       }
       append_leg(route[i], params_.speed_mps, pieces);
     }
-    count(pieces);
+    measure(pieces);
     PlannedPath path = make_planned_path(pieces, params_.pitch_m);
     if (const auto fault = find_path_into_row(path, map_, 0.0)) return Failure{*fault};
     return path;
-  }
-
-  std::string tell_room(const Pose2& pose) const {
-    if (!field_.covers(pose.p)) {
-      return fmt::format("{} lies outside the map's occupancy grid", describe(pose));
-    }
-    double distance_m = 0.0;
-    if (const PlantRow* row = find_row_at(map_, pose.p, distance_m)) {
-      return fmt::format(
-          "{} lies in a row: {:.2f} m from the centre line of row {}, whose canopy is {:.2f} m "
-          "wide",
-          describe(pose), distance_m, row->id, row->canopy_width_m);
-    }
-    return fmt::format("at {} the footprint has {:.3f} m of room, the margin is {:.3f} m",
-                       describe(pose), footprint_.clearance_m(pose), params_.margin_m);
-  }
-
-  std::optional<std::string> find_blocked(const RouteLeg& leg) const {
-    for (const auto& [end, name] : {std::pair(leg.entry(), "entrance"), {leg.exit(), "exit"}}) {
-      if (footprint_.is_free(end)) continue;
-      return fmt::format("{} of alley {} blocked: {}", name, leg.alley, tell_room(end));
-    }
-    Pieces pieces;
-    append_leg(leg, 0.0, pieces);
-    for (const PathPiece& piece : pieces) {
-      const int parts = static_cast<int>(std::ceil(piece.length_m / params_.check_step_m));
-      for (int i = 0; i <= parts; ++i) {
-        const Pose2 pose = piece.at(piece.length_m * i / parts);
-        if (footprint_.is_free(pose)) continue;
-        return fmt::format("the leg in alley {} is blocked: {}", leg.alley, tell_room(pose));
-      }
-    }
-    return std::nullopt;
-  }
-
-  bool is_free(const Pieces& pieces) const {
-    return std::all_of(pieces.begin(), pieces.end(), [&](const PathPiece& piece) {
-      return footprint_.is_free_along(piece.start, piece.length_m, piece.curvature_per_m,
-                                      params_.check_step_m);
-    });
   }
 
   /// From where the vehicle stands to the first leg: straight on; or a short merge into the leg
@@ -151,7 +95,7 @@ class RoutePlanner final : public Planner {
     if (is_aligned && ahead_m > 0.0 && std::abs(cross(along, way)) < kAlongTheLine_rad * ahead_m) {
       const PathPiece straight =
           make_straight(pose.p, entry.p, PathKind::kTransit, -1, params_.speed_mps);
-      if (is_free({straight})) {
+      if (room_.is_free({straight})) {
         pieces.push_back(straight);
         return std::nullopt;
       }
@@ -160,10 +104,10 @@ class RoutePlanner final : public Planner {
 
     SearchReport done;
     const auto found = search_->find(pose, entry, footprint_, 0, done);
-    count(done);
+    add_work(done);
     if (!found) {
       return fmt::format("no way from the start at {} to the entrance of alley {} at {}: {}",
-                         describe(pose), leg.alley, describe(entry), found.reason());
+                         to_string(pose), leg.alley, to_string(entry), found.reason());
     }
     append_labelled(*found, PathKind::kTransit, pieces);
     return std::nullopt;
@@ -179,7 +123,7 @@ class RoutePlanner final : public Planner {
       if (dubins.length_m() > (1.0 + kShareLonger) * (joint.p - pose.p).norm()) continue;
       Pieces merge;
       append_dubins(pose, dubins, PathKind::kTransit, params_.turn_speed_mps, merge);
-      if (!is_free(merge)) continue;
+      if (!room_.is_free(merge)) continue;
       pieces.insert(pieces.end(), merge.begin(), merge.end());
       leg.line_W.front() = joint.p;
       return true;
@@ -191,7 +135,7 @@ class RoutePlanner final : public Planner {
                                          Pieces& pieces) {
     SearchReport done;
     const auto found = search_->find(from.exit(), to.entry(), footprint_, problem, done);
-    count(done);
+    add_work(done);
     if (found) {
       append_labelled(*found, PathKind::kTurn, pieces);
       ++report_.numbers["turns"];
@@ -203,9 +147,14 @@ class RoutePlanner final : public Planner {
     const auto missing_m =
         calc_missing_clearance_m(from.exit(), to.entry(), params_.turning_radius_m, field_,
                                  footprint_.outline_B(), params_.margin_m);
+    constexpr double kFits_m = 0.005;
+    if (missing_m && *missing_m < kFits_m) {
+      return fmt::format("no turn from alley {} to alley {} found: {}", from.alley, to.alley,
+                         found.reason());
+    }
     if (!missing_m) {
       return fmt::format("no free ground joins alley {} at {} and alley {} at {}: {}", from.alley,
-                         describe(from.exit()), to.alley, describe(to.entry()), found.reason());
+                         to_string(from.exit()), to.alley, to_string(to.entry()), found.reason());
     }
     const Eigen::Vector2d size = calc_size(footprint_.outline_B());
     return fmt::format(
@@ -223,7 +172,7 @@ class RoutePlanner final : public Planner {
     }
   }
 
-  void count(const SearchReport& done) {
+  void add_work(const SearchReport& done) {
     report_.numbers["nodes"] += static_cast<double>(done.nodes);
     report_.numbers["iterations"] += static_cast<double>(done.iterations);
     for (const Eigen::Vector2d& p : done.tree_W) {
@@ -231,11 +180,10 @@ class RoutePlanner final : public Planner {
     }
   }
 
-  void count(const Pieces& pieces) {
+  void measure(const Pieces& pieces) {
     double least_m = std::numeric_limits<double>::infinity(), least_in_turns_m = least_m;
     for (const PathPiece& piece : pieces) {
-      const double room_m = footprint_.clearance_along_m(
-          piece.start, piece.length_m, piece.curvature_per_m, params_.check_step_m);
+      const double room_m = room_.clearance_m(piece);
       least_m = std::min(least_m, room_m);
       if (piece.kind != PathKind::kTurn) continue;
       least_in_turns_m = std::min(least_in_turns_m, room_m);
@@ -268,6 +216,7 @@ class RoutePlanner final : public Planner {
   const SceneQuery* scene_;
   DistanceField field_;
   Footprint footprint_;
+  RouteRoom room_;
   PlanReport report_;
 };
 
@@ -294,6 +243,29 @@ std::vector<ParameterSpec> route_planner_parameters() {
   return specs;
 }
 
+namespace {
+
+double read_turning_radius_m(const ParameterSet& parameters, const VehicleDescription& vehicle,
+                             const std::string& who) {
+  const auto own = vehicle.numbers.find("min_turning_radius_m");
+  if (!parameters.has("turning_radius_m")) {
+    const double radius_m = vehicle.number("min_turning_radius_m", who);
+    if (radius_m > 0.0) return radius_m;
+    throw ConfigError(fmt::format("{}: vehicle type '{}' turns on the spot: give turning_radius_m",
+                                  who, vehicle.type));
+  }
+  const double radius_m = parameters.number("turning_radius_m");
+  if (own != vehicle.numbers.end() && radius_m < own->second) {
+    throw ConfigError(
+        fmt::format("{}: turning_radius_m = {:.3f} m is less than the {:.3f} m that vehicle type "
+                    "'{}' can turn",
+                    who, radius_m, own->second, vehicle.type));
+  }
+  return radius_m;
+}
+
+}  // namespace
+
 RoutePlannerParams read_route_planner_params(const ParameterSet& parameters,
                                              const PlannerContext& context,
                                              const std::string& who) {
@@ -302,9 +274,7 @@ RoutePlannerParams read_route_planner_params(const ParameterSet& parameters,
   if (alley_count == 0) throw ConfigError(who + ": the map has no alleys to drive");
   params.route = read_row_route_params(parameters, alley_count, who);
   params.route.beyond_m = parameters.number("beyond_m");
-  params.turning_radius_m = parameters.has("turning_radius_m")
-                                ? parameters.number("turning_radius_m")
-                                : context.vehicle_description->number("min_turning_radius_m", who);
+  params.turning_radius_m = read_turning_radius_m(parameters, *context.vehicle_description, who);
   params.margin_m = parameters.number("margin_m");
   params.pitch_m = parameters.number("waypoint_pitch_m");
   params.speed_mps = parameters.number("speed_mps");
@@ -319,8 +289,7 @@ std::unique_ptr<Planner> make_route_planner(const RoutePlannerParams& params,
     throw ConfigError(context.part + ": the map has no alleys to drive");
   }
   if (context.map->occupancy.empty()) {
-    throw ConfigError(context.part +
-                      ": the map has no occupancy grid: set occupancy_cell_m");
+    throw ConfigError(context.part + ": the map has no occupancy grid: set occupancy_cell_m");
   }
   return std::make_unique<RoutePlanner>(params, std::move(search), context);
 }

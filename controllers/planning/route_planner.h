@@ -24,7 +24,8 @@ struct RoutePlannerParams {
 /// margin_m, waypoint_pitch_m, speed_mps, turn_speed_mps.
 std::vector<ParameterSpec> route_planner_parameters();
 /// The turning radius is the parameter's, else the vehicle's min_turning_radius_m.
-/// @throws ConfigError for alleys the map does not have, or a vehicle without turning radius
+/// @throws ConfigError for alleys the map does not have, a vehicle without turning radius, or one
+/// that cannot turn so tightly
 RoutePlannerParams read_route_planner_params(const ParameterSet& parameters,
                                              const PlannerContext& context, const std::string& who);
 

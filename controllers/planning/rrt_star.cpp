@@ -15,17 +15,18 @@ PartSpec rrt_star_spec() {
       "improved by RRT* (Karaman, Frazzoli 2011) in OMPL for a car-like vehicle (paper A, 4.1).";
   spec.parameters = route_planner_parameters();
   for (ParameterSpec parameter : {
-           integer_parameter("iterations", 1000, 0, 1e7,
+           integer_parameter("iterations", 500, 0, 1e7,
                              "of RRT*, for every turn that a shorter way is possible for; 0: the "
                              "first way stands"),
-           integer_parameter("connect_iterations", 20'000, 1, 1e7,
-                             "of RRT-Connect, where no turn in closed form fits"),
+           integer_parameter(
+               "first_iterations", 10'000, 1, 1e7,
+               "of RRT, where no turn in closed form fits; it stops at the first way"),
            positive_parameter("range_m", "m", 3.0, "longest edge of the tree"),
            positive_parameter("reach_m", "m", 8.0, "how far around both ends ways are looked for"),
            number_parameter("curvature_reserve", "", 0.05, 0.0, 1.0,
                             "turns are wider than the least radius by up to this share where "
                             "there is room, so that the follower can steer in"),
-           number_parameter("clearance_weight", "", 0.0, 0.0, 100.0,
+           number_parameter("clearance_weight", "", 0.5, 0.0, 100.0,
                             "a metre driven at no clearance costs 1 + this"),
            positive_parameter("wanted_clearance_m", "m", 0.3,
                               "from here on clearance costs nothing more"),
@@ -45,7 +46,7 @@ std::unique_ptr<Planner> make_rrt_star(const ParameterSet& parameters,
   params.radius_m = route.turning_radius_m;
   params.check_step_m = route.check_step_m;
   params.iterations = parameters.integer("iterations");
-  params.connect_iterations = parameters.integer("connect_iterations");
+  params.first_iterations = parameters.integer("first_iterations");
   params.range_m = parameters.number("range_m");
   params.reach_m = parameters.number("reach_m");
   params.curvature_reserve = parameters.number("curvature_reserve");

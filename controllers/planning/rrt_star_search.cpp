@@ -10,7 +10,7 @@
 #include "controllers/planning/analytic_turn.h"
 #include "controllers/planning/car_planners.h"
 #include "controllers/planning/first_way.h"
-#include "engine/math/angles.h"
+#include "controllers/planning/route_room.h"
 
 namespace vinerow {
 namespace {
@@ -21,23 +21,23 @@ std::optional<std::string> find_taken(const Pose2& pose, const char* name,
                                       const Footprint& footprint) {
   if (footprint.is_free(pose)) return std::nullopt;
   return fmt::format(
-      "{} in collision: at ({:.2f}, {:.2f}) heading {:.1f} deg the footprint has {:.3f} m of room, "
-      "the margin is {:.3f} m",
-      name, pose.p.x(), pose.p.y(), deg_from_rad(wrap_angle(pose.yaw_rad)),
-      footprint.clearance_m(pose), footprint.margin_m());
+      "{} in collision: at {} the footprint has {:.3f} m of room, the margin is {:.3f} m", name,
+      to_string(pose), footprint.clearance_m(pose), footprint.margin_m());
 }
 
-/// Edges as straight strokes.
-void draw(const CarTree& tree, double radius_m, std::vector<Eigen::Vector2d>& strokes_W) {
+/// Adds what a tree holds, its edges as straight strokes.
+void tell(const CarTree& tree, double radius_m, SearchReport& report) {
   constexpr double kStroke_m = 0.4;
+  report.nodes += tree.nodes;
+  report.iterations += tree.iterations;
   for (const auto& [from, to] : tree.edges) {
     const DubinsPath path = calc_dubins(from, to, radius_m);
     const int parts = std::max(1, static_cast<int>(std::ceil(path.length_m() / kStroke_m)));
     Eigen::Vector2d last = from.p;
     for (int i = 1; i <= parts; ++i) {
       const Eigen::Vector2d next = pose_on_dubins(from, path, path.length_m() * i / parts).p;
-      strokes_W.push_back(last);
-      strokes_W.push_back(next);
+      report.tree_W.push_back(last);
+      report.tree_W.push_back(next);
       last = next;
     }
   }
@@ -76,41 +76,41 @@ Result<Pieces> RrtStarSearch::find(const Pose2& from, const Pose2& to, const Foo
     best = first->pieces;
     car.radius_m = first->radius_m;
   } else {
-    car.iterations = params_.connect_iterations;
-    const CarTree tree = run_rrt_connect(car, sampling, random_of_(2 * problem));
-    report.nodes += tree.nodes;
-    report.iterations += car.iterations;
+    car.iterations = params_.first_iterations;
+    const CarTree tree = run_rrt(car, sampling, random_of_(2 * problem));
+    tell(tree, car.radius_m, report);
     best = join_poses(tree.way, car.radius_m);
     if (best.empty() || !is_free(best, footprint, params_.check_step_m)) {
       return Failure{fmt::format(
-          "no way in closed form at the turning radius of {:.2f} m, and none found in {} "
-          "iterations within {:.1f} m",
-          params_.radius_m, car.iterations, params_.reach_m)};
+          "no closed form fits the turning radius of {:.2f} m, and a tree of {} nodes found no way "
+          "in {} iterations within {:.1f} m",
+          params_.radius_m, tree.nodes, tree.iterations, params_.reach_m)};
     }
-    best = shorten(best, car.radius_m, footprint, cost, params_.check_step_m);
   }
   report.first_length_m = calc_length_m(best);
+  const auto improve = [&](const Pieces& way) {
+    // A hundredth is not worth the bends that it takes.
+    constexpr double kWorthwhile = 0.99;
+    const Pieces shorter = shorten(way, car.radius_m, footprint, cost, params_.check_step_m);
+    if (cost.of(shorter) < kWorthwhile * cost.of(best) &&
+        is_free(shorter, footprint, params_.check_step_m)) {
+      best = shorter;
+    }
+  };
+  improve(best);
 
   const double known = cost.of(best);
   const double least_m = calc_dubins(from, to, car.radius_m).length_m();
   // Where the first way is the shortest that any vehicle of this radius has, there is no better.
   if (params_.iterations == 0 || known <= least_m * (1.0 + 1e-6)) return best;
-
   constexpr double kSeedPitch_m = 0.75;
   car.iterations = params_.iterations;
-  sampling.first_way = sample_poses(best, kSeedPitch_m);
+  sampling.first_way = sample_poses(best, std::min(kSeedPitch_m, 0.5 * params_.range_m));
   sampling.first_way.erase(sampling.first_way.begin());  // the root of the tree
   sampling.best_cost = [known] { return known; };
   const CarTree tree = run_rrt_star(car, sampling, random_of_(2 * problem + 1));
-  report.nodes += tree.nodes;
-  report.iterations += car.iterations;
-  draw(tree, car.radius_m, report.tree_W);
-  if (tree.way.size() < 2) return best;
-  const Pieces improved = shorten(join_poses(tree.way, car.radius_m), car.radius_m, footprint, cost,
-                                  params_.check_step_m);
-  if (cost.of(improved) < known && is_free(improved, footprint, params_.check_step_m)) {
-    best = improved;
-  }
+  tell(tree, car.radius_m, report);
+  if (tree.way.size() > 1) improve(join_poses(tree.way, car.radius_m));
   return best;
 } catch (const ompl::Exception& fault) {
   return Failure{fmt::format("OMPL gave up: {}", fault.what())};

@@ -23,6 +23,8 @@ class WayCost {
   double of(const PathPiece& piece) const;
   double of(const std::vector<PathPiece>& pieces) const;
   double of(const Pose2& start, const DubinsPath& path) const;
+  /// Of a way of this length with no clearance anywhere.
+  double most_of(double length_m) const { return length_m * (1.0 + params_.clearance_weight); }
 
  private:
   double of_arc(const Pose2& start, double length_m, double curvature_per_m) const;

@@ -18,8 +18,12 @@ void mark(OccupancyGrid& grid, const Vec& a, const Vec& b, double half_width_m) 
   const double half_length_m = 0.5 * (b - a).norm(), half_cell_m = 0.5 * grid.cell_m;
   const double reach_m = half_cell_m * (std::abs(along.x()) + std::abs(along.y()));
   const Vec extent = half_length_m * along.cwiseAbs() + half_width_m * across.cwiseAbs();
-  for (int j = 0; j < grid.rows; ++j) {
-    for (int i = 0; i < grid.columns; ++i) {
+  const Vec low = (middle - extent - grid.corner_W) / grid.cell_m;
+  const Vec high = (middle + extent - grid.corner_W) / grid.cell_m;
+  const int last_j = std::min(grid.rows - 1, static_cast<int>(high.y()) + 1);
+  const int last_i = std::min(grid.columns - 1, static_cast<int>(high.x()) + 1);
+  for (int j = std::max(0, static_cast<int>(low.y()) - 1); j <= last_j; ++j) {
+    for (int i = std::max(0, static_cast<int>(low.x()) - 1); i <= last_i; ++i) {
       const Vec away = grid.corner_W + grid.cell_m * Vec(i + 0.5, j + 0.5) - middle;
       if (std::abs(away.x()) > extent.x() + half_cell_m ||
           std::abs(away.y()) > extent.y() + half_cell_m ||

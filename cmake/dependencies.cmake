@@ -29,3 +29,9 @@ target_include_directories(bullet_float64 SYSTEM INTERFACE ${BULLET_INCLUDE_DIR}
 target_compile_definitions(bullet_float64 INTERFACE BT_USE_DOUBLE_PRECISION)
 target_link_libraries(bullet_float64 INTERFACE ${BULLET_DYNAMICS_FLOAT64} ${BULLET_COLLISION_FLOAT64}
                                                ${BULLET_MATH_FLOAT64})
+
+# OMPL's own variables bring in libraries that its planners do not need.
+find_library(OMPL_LIBRARY NAMES ompl PATHS ${OMPL_LIBRARY_DIRS} REQUIRED)
+add_library(ompl_planners INTERFACE)
+target_include_directories(ompl_planners SYSTEM INTERFACE ${OMPL_INCLUDE_DIRS})
+target_link_libraries(ompl_planners INTERFACE ${OMPL_LIBRARY})

@@ -7,6 +7,7 @@
 #include "controllers/path_follower/path_follower.h"
 #include "controllers/planning/coverage.h"
 #include "controllers/planning/rrt_quartile.h"
+#include "controllers/planning/rrt_star.h"
 #include "controllers/planning/waypoints.h"
 #include "controllers/pure_pursuit/pure_pursuit.h"
 
@@ -17,6 +18,7 @@ void register_controllers(Registry& registry) {
   registry.add_estimator(odometry_filter_spec(), make_odometry_filter);
   registry.add_planner(coverage_spec(), make_coverage);
   registry.add_planner(rrt_quartile_spec(), make_rrt_quartile);
+  registry.add_planner(rrt_star_spec(), make_rrt_star);
   registry.add_planner(waypoints_spec(), make_waypoints);
   registry.add_guidance(dwa_spec(), make_dwa);
   registry.add_controller(pure_pursuit_spec(), make_pure_pursuit);

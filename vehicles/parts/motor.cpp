@@ -22,6 +22,7 @@ void MotorParams::validate(const std::string& who) const {
   demand_not_negative(who, "speed_integral_gain_Nm", speed_integral_gain_Nm);
   demand_not_negative(who, "brake_torque_Nm", brake_torque_Nm);
   demand_not_negative(who, "brake_below_radps", brake_below_radps);
+  demand_not_negative(who, "brake_release_s", brake_release_s);
   demand_range(who, "motor_efficiency", efficiency, 0.01, 1.0);
   demand_range(who, "regeneration", regeneration, 0.0, 1.0);
   demand_not_negative(who, "loss_W_per_Nm2", loss_W_per_Nm2);
@@ -85,8 +86,11 @@ void Motor::finish(const MotorStep& step, double spin_radps, double torque_Nm, d
   state.power_W = electric_power_W(torque_Nm, spin_radps);
 }
 
-void Motor::release_brake(const MotorStep& step, double net_torque_Nm, MotorState& state) const {
-  if (net_torque_Nm * step.command_radps > 0.0) state.braked = false;
+void Motor::release_brake(const MotorStep& step, double net_torque_Nm, double dt_s,
+                          MotorState& state) const {
+  const bool carries = net_torque_Nm * step.command_radps > 0.0;
+  state.carried_s = carries ? state.carried_s + dt_s : 0.0;
+  if (carries && state.carried_s >= params_.brake_release_s) state.braked = false;
 }
 
 }  // namespace vinerow::vehicles

@@ -7,7 +7,7 @@
 ///   electric power P = tau omega / eta (driving), tau omega eta_r (braking), + r tau^2
 ///
 /// The parking brake closes when zero is commanded near standstill. It holds the hill: it opens
-/// again only when motor and ground together turn the wheel the way that is commanded, so that a
+/// again only when motor and ground together have pushed the commanded way for a moment, so that a
 /// start on a slope does not begin by rolling back.
 ///
 /// The torque is linear in the new spin until it meets a limit, so a wheel solves both together
@@ -26,6 +26,7 @@ struct MotorParams {
   double speed_integral_gain_Nm = 200.0;  ///< ki, Nm per rad, >= 0
   double brake_torque_Nm = 150.0;         ///< parking brake, >= 0
   double brake_below_radps = 0.3;         ///< it closes below this spin when zero is commanded
+  double brake_release_s = 0.1;           ///< how long the motor must carry before it opens, >= 0
   double efficiency = 0.85;               ///< eta of motor and gear, (0, 1]
   double regeneration = 0.5;              ///< eta_r, share of braking power won back, [0, 1]
   double loss_W_per_Nm2 = 0.02;           ///< r, copper loss, >= 0
@@ -37,6 +38,7 @@ struct MotorState {
   double torque_Nm = 0.0;    ///< on the wheel, after lag and limits
   double integral_Nm = 0.0;  ///< of the speed controller
   bool braked = false;       ///< the parking brake is closed
+  double carried_s = 0.0;    ///< how long motor and ground have pushed the commanded way against it
   double power_W = 0.0;      ///< electric, positive when drawn
 };
 
@@ -61,7 +63,8 @@ class Motor {
 
   /// Opens the brake where motor and ground together turn the wheel the commanded way.
   /// @param net_torque_Nm  of motor and ground on the wheel, what the brake holds
-  void release_brake(const MotorStep& step, double net_torque_Nm, MotorState& state) const;
+  void release_brake(const MotorStep& step, double net_torque_Nm, double dt_s,
+                     MotorState& state) const;
 
   /// Largest torque in the direction of rotation at this spin, Nm >= 0.
   double driving_limit_Nm(double spin_radps) const;

@@ -139,7 +139,7 @@ WheelOutput Wheel::step(const WheelDisc& disc, const WheelContact& contact,
   }
   const double brake_Nm = state.motor.braked ? params_.motor.brake_torque_Nm : 0.0;
   motor_.finish(motor_step, new_spin, torque, dt_s, state.motor);
-  motor_.release_brake(motor_step, torque - r * force.x(), state.motor);
+  motor_.release_brake(motor_step, torque - r * force.x(), dt_s, state.motor);
   state.spin_radps = new_spin;
   state.angle_rad += 0.5 * (spin + new_spin) * dt_s;
   if (std::abs(state.angle_rad) > kPi) state.angle_rad = wrap_angle(state.angle_rad);

@@ -21,6 +21,8 @@ std::vector<ParameterSpec> drive_parameter_specs(const MotorParams& motor, const
                        "parking brake of one wheel; 0 = none"),
       number_parameter("brake_below_radps", "rad/s", motor.brake_below_radps, 0.0, 10.0,
                        "the brake closes below this spin when zero is commanded"),
+      number_parameter("brake_release_s", "s", motor.brake_release_s, 0.0, 10.0,
+                       "the motor must carry the load this long before the brake opens"),
       number_parameter("motor_efficiency", "", motor.efficiency, 0.01, 1.0,
                        "mechanical over electric power when driving"),
       number_parameter("regeneration", "", motor.regeneration, 0.0, 1.0,
@@ -51,6 +53,7 @@ MotorParams read_motor_params(const ParameterSet& parameters) {
   motor.speed_integral_gain_Nm = parameters.number("speed_integral_gain_Nm");
   motor.brake_torque_Nm = parameters.number("brake_torque_Nm");
   motor.brake_below_radps = parameters.number("brake_below_radps");
+  motor.brake_release_s = parameters.number("brake_release_s");
   motor.efficiency = parameters.number("motor_efficiency");
   motor.regeneration = parameters.number("regeneration");
   motor.loss_W_per_Nm2 = parameters.number("loss_W_per_Nm2");

@@ -63,6 +63,10 @@ void WheeledPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   state_.body = world.state(body_);
   state_.specific_force_B =
       X_WB.q.conjugate() * Eigen::Vector3d(0.0, 0.0, world.settings().gravity_mps2);
+  // It was parked there.
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    state_.wheels[i].motor.braked = params_.wheels[i].motor.brake_torque_Nm > 0.0;
+  }
 }
 
 void WheeledPlatform::set_forward_speed(double v_mps) {
@@ -70,6 +74,7 @@ void WheeledPlatform::set_forward_speed(double v_mps) {
   world_->set_state(body_, state_.body);
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     state_.wheels[i].spin_radps = v_mps / params_.wheels[i].radius_m;
+    if (v_mps != 0.0) state_.wheels[i].motor.braked = false;
   }
 }
 

@@ -26,7 +26,7 @@ class PathDeviation final : public Metric {
     const Eigen::Vector2d p = truth.X_WB.p.head<2>();
     const PolylineDistance::Nearest nearest = meter_->add(p);
     if (!plan_.is_leg(nearest.segment)) {
-      turns_.add(plan_.curve_distance_m(nearest, p));
+      if (plan_.is_turn(nearest.segment)) turns_.add(plan_.curve_distance_m(nearest, p));
       return;
     }
     legs_.add(nearest.distance_m);

@@ -2,7 +2,7 @@
 /// Which stretch of its plan a vehicle is on: what metrics share that judge legs and turns apart.
 ///
 /// A point belongs to the nearest segment of the plan's polyline; a segment's kind is that of its
-/// first point. What is no leg (turns, ways to and from the rows) counts as turn.
+/// first point. Ways to and from the rows are neither leg nor turn.
 
 #include <Eigen/Core>
 #include <optional>
@@ -29,6 +29,7 @@ class PlanStretch {
   /// Nearest place; looks first where the last call found one. @pre has_plan()
   PolylineDistance::Nearest find(const Eigen::Vector2d& p);
   bool is_leg(int segment) const { return points_[segment].kind == PathKind::kLeg; }
+  bool is_turn(int segment) const { return points_[segment].kind == PathKind::kTurn; }
 
   /// Distance from the planned curve, m: from the arc through the segment's ends with the curvature
   /// that the plan tells of it, because a chord of 0.25 m lies 4.4 mm inside an arc of radius 1.77

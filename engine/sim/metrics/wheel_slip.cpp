@@ -49,7 +49,7 @@ class WheelSlip final : public Metric {
     const Odometry& truth = truth_.value();
     const bool moves = truth.v_WB_B.norm() >= kStanding_mps;
     const bool turns =
-        plan_.has_plan() && !plan_.is_leg(plan_.find(truth.X_WB.p.head<2>()).segment);
+        plan_.has_plan() && plan_.is_turn(plan_.find(truth.X_WB.p.head<2>()).segment);
     const std::vector<double>& values = values_.value().values;
     const auto value = [&](int index) { return index == kAbsent ? 0.0 : values[index]; };
     for (Wheel& wheel : wheels_) {

@@ -4,7 +4,7 @@
 /// Reads "wheels", the diagnostics of a wheeled vehicle: wheel_<n>_slip = (R omega - v_x) /
 /// max(|R omega|, |v_x|) and wheel_<n>_slip_angle_rad (vehicles/parts/wheel.h). Every sample of it
 /// counts once, so their rate is the scenario's record.truth_rate_Hz. In turns means: the vehicle
-/// is nearest to a stretch of its plan that is no leg (PlanStretch).
+/// is nearest to a turn of its plan (PlanStretch).
 ///
 /// Left out are samples that mean nothing: a wheel without load, and one that is nearly standing,
 /// that is |R omega| < 0.05 m/s (R: the vehicle's "wheel_radius_m") while the vehicle moves slower

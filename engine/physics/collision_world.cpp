@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/physics/bullet_convert.h"
+#include "engine/physics/terrain_gate.h"
 
 namespace vinerow::physics {
 namespace {
@@ -50,10 +51,11 @@ class CheckedResult : public btManifoldResult {
 class CollisionWorld::Dispatcher : public btCollisionDispatcher {
  public:
   Dispatcher(btCollisionConfiguration* configuration, double breaking_threshold_m,
-             const ContactNormals& normals)
+             const ContactNormals& normals, const HeightField* terrain)
       : btCollisionDispatcher(configuration),
         breaking_threshold_m_(breaking_threshold_m),
-        normals_(normals) {
+        normals_(normals),
+        terrain_(terrain) {
     setNearCallback(&Dispatcher::find_pair_contacts);
   }
 
@@ -73,6 +75,14 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
     auto* a = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
     auto* b = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
     if (!dispatcher.needsCollision(a, b)) return;
+    if (dispatcher.is_clear(*a, *b)) {
+      if (pair.m_algorithm) {  // with the contacts it may still hold
+        pair.m_algorithm->~btCollisionAlgorithm();
+        dispatcher.freeCollisionAlgorithm(pair.m_algorithm);
+        pair.m_algorithm = nullptr;
+      }
+      return;
+    }
     const btCollisionObjectWrapper wrap_a(nullptr, a->getCollisionShape(), a,
                                           a->getWorldTransform(), -1, -1);
     const btCollisionObjectWrapper wrap_b(nullptr, b->getCollisionShape(), b,
@@ -86,14 +96,27 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
     pair.m_algorithm->processCollision(&wrap_a, &wrap_b, info, &result);
   }
 
+  /// One is the height field, and the other surely does not touch it.
+  bool is_clear(const btCollisionObject& a, const btCollisionObject& b) const {
+    if (!terrain_) return false;
+    const auto is_terrain = [](const btCollisionObject& object) {
+      return object.getCollisionShape()->getShapeType() == TERRAIN_SHAPE_PROXYTYPE;
+    };
+    const double margin_m = 2.0 * breaking_threshold_m_;
+    if (is_terrain(a)) return is_clear_of_terrain(*terrain_, b, margin_m);
+    return is_terrain(b) && is_clear_of_terrain(*terrain_, a, margin_m);
+  }
+
   double breaking_threshold_m_;
   const ContactNormals& normals_;
+  const HeightField* terrain_;
 };
 
 CollisionWorld::CollisionWorld(const PhysicsSettings& settings, const WorldModel& world)
     : normals_(world),
       dispatcher_(std::make_unique<Dispatcher>(&configuration_,
-                                               settings.contact_breaking_threshold_m, normals_)),
+                                               settings.contact_breaking_threshold_m, normals_,
+                                               world.terrain ? &*world.terrain : nullptr)),
       statics_(world),
       world_(std::make_unique<btCollisionWorld>(dispatcher_.get(), &broadphase_, &configuration_)) {
   solver_info_.m_numIterations = settings.solver_iterations;

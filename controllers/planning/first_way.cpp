@@ -46,8 +46,8 @@ std::optional<FirstWay> find_first_way(const Pose2& from, const Pose2& to, doubl
   for (const double share : {1.0, 0.75, 0.5, 0.25}) {
     if (reserve <= 0.0) break;
     const double wider_m = radius_m * (1.0 + share * reserve);
-    const Found wider =
-        find_cheapest(from, to, wider_m, kDearer * tightest.cost, footprint, cost, check_step_m);
+    const double dearest = (1.0 + kDearer * share * reserve) * tightest.cost;
+    const Found wider = find_cheapest(from, to, wider_m, dearest, footprint, cost, check_step_m);
     if (!wider.pieces.empty()) return FirstWay{wider.pieces, wider_m};
   }
   return FirstWay{tightest.pieces, radius_m};

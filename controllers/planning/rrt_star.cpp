@@ -30,6 +30,8 @@ PartSpec rrt_star_spec() {
                             "a metre driven at no clearance costs 1 + this"),
            positive_parameter("wanted_clearance_m", "m", 0.3,
                               "from here on clearance costs nothing more"),
+           number_parameter("bend_cost_m", "m", 0.2, 0.0, 10.0,
+                            "every change of curvature costs as much as this length"),
        }) {
     spec.parameters.push_back(std::move(parameter));
   }
@@ -52,6 +54,7 @@ std::unique_ptr<Planner> make_rrt_star(const ParameterSet& parameters,
   params.curvature_reserve = parameters.number("curvature_reserve");
   params.cost.clearance_weight = parameters.number("clearance_weight");
   params.cost.wanted_clearance_m = parameters.number("wanted_clearance_m");
+  params.cost.bend_m = parameters.number("bend_cost_m");
   const PartContext own = context;
   const auto random_of = [own](int stream) { return own.random(fmt::format("turn_{}", stream)); };
   return make_route_planner(route, std::make_unique<RrtStarSearch>(params, random_of), context);

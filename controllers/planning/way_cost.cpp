@@ -41,18 +41,24 @@ double WayCost::of(const PathPiece& piece) const {
 
 double WayCost::of(const std::vector<PathPiece>& pieces) const {
   double sum = 0.0;
-  for (const PathPiece& piece : pieces) sum += of(piece);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    sum += of(pieces[i]);
+    const bool is_bend = i > 0 && pieces[i].curvature_per_m != pieces[i - 1].curvature_per_m;
+    if (is_bend) sum += params_.bend_m;
+  }
   return sum;
 }
 
 double WayCost::of(const Pose2& start, const DubinsPath& path) const {
-  double sum = 0.0;
+  constexpr double kShortest_m = 1e-6;  // as append_dubins
+  double sum = -params_.bend_m;         // the first piece is none
   Pose2 pose = start;
   for (const DubinsPath::Piece& piece : path.pieces) {
-    sum += of_arc(pose, piece.length_m, piece.curvature_per_m);
+    if (piece.length_m < kShortest_m) continue;
+    sum += of_arc(pose, piece.length_m, piece.curvature_per_m) + params_.bend_m;
     pose = advance(pose, piece.length_m, piece.length_m * piece.curvature_per_m);
   }
-  return sum;
+  return std::max(sum, 0.0);
 }
 
 }  // namespace vinerow

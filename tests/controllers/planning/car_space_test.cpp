@@ -107,12 +107,19 @@ TEST(WayCost, IsTheIntegralOfLackingClearance) {
   // Along the middle the hull has half a metre, less cells, to either side.
   const double clearance_m = footprint.clearance_m({{0, 0}, 0.0});
   EXPECT_NEAR(clearance_m, 0.5, 0.051);
-  const WayCost cost({0.5, 1.0, 0.25}, footprint);
+  const WayCost cost({0.5, 1.0, 0.1, 0.25}, footprint);
   const PathPiece along{{{-5, 0}, 0.0}, 8.0, 0.0, PathKind::kTurn, -1, 0.0};
   EXPECT_NEAR(cost.of(along), 8.0 * (1.0 + 0.5 * (1.0 - clearance_m)), 1e-6);
-  EXPECT_EQ(WayCost({0.0, 1.0, 0.25}, footprint).of(along), 8.0);
-  EXPECT_EQ(WayCost({0.5, 0.3, 0.25}, footprint).of(along), 8.0);  // all that is wanted
-  EXPECT_EQ(cost.most_of(8.0), 12.0);
+  EXPECT_EQ(WayCost({0.0, 1.0, 0.1, 0.25}, footprint).of(along), 8.0);
+  EXPECT_EQ(WayCost({0.5, 0.3, 0.1, 0.25}, footprint).of(along), 8.0);  // all that is wanted
+  EXPECT_NEAR(cost.most_of(8.0), 12.2, 1e-12);
+  // Every change of curvature counts once, also between pieces of a Dubins path.
+  const DubinsPath loop = calc_dubins({{0, 0}, 0.5 * kPi}, {{2.5, 0}, -0.5 * kPi}, 1.767);
+  std::vector<PathPiece> pieces;
+  append_dubins({{0, 0}, 0.5 * kPi}, loop, PathKind::kTurn, 0.0, pieces);
+  const WayCost bends({0.0, 1.0, 0.1, 0.25}, footprint);
+  EXPECT_NEAR(bends.of(pieces), loop.length_m() + 0.2, 1e-9);
+  EXPECT_NEAR(bends.of({{0, 0}, 0.5 * kPi}, loop), loop.length_m() + 0.2, 1e-9);
   RandomStream random(3, "a", "b");
   for (int n = 0; n < 200; ++n) {
     const PathPiece piece{draw_pose(random),
@@ -130,7 +137,7 @@ TEST(Shorten, KeepsEndsAndNeverCostsMore) {
   const OccupancyGrid grid = make_block({.row_length_m = 8.0, .has_walls = false}).occupancy;
   const DistanceField field(grid);
   const Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
-  const WayCost cost({0.5, 0.3, 0.25}, footprint);
+  const WayCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
   // A detour over a pose far out in the headland.
   const std::vector<Pose2> poses = {
       {{1.25, 8.0}, 0.5 * kPi}, {{2.5, 15.0}, 0.0}, {{3.75, 8.0}, -0.5 * kPi}};
@@ -147,7 +154,7 @@ TEST(CarPlanners, SameSeedSameTreeWhateverRunsBetween) {
   const RowMap map = make_block({.row_length_m = 8.0, .has_walls = false});
   const DistanceField field(map.occupancy);
   const Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
-  const WayCost cost({0.5, 0.3, 0.25}, footprint);
+  const WayCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
   CarProblem problem{1.767, {-4, 4}, {9, 18}, &footprint, &cost, 0.1, 3.0, 400};
   CarSampling sampling;
   sampling.from = {{1.25, 8.0}, 0.5 * kPi};

@@ -123,11 +123,14 @@ TEST(RrtStar, TakesWiderTurnsWhereThereIsRoom) {
   const SweptVerdict tightest =
       check_swept(*tight.path, bench.vehicle.footprint_B, bench.map.occupancy, 0.5);
   EXPECT_NEAR(tightest.sharpest_per_m, 1.0 / kRadius_m, 1e-9);
+  // Length pays for the wider turn, within the share that is granted.
+  EXPECT_GT(run.path->length_m, tight.path->length_m);
+  EXPECT_LT(run.report.numbers.at("turn_length_m"), 1.1 * tight.report.numbers.at("turn_length_m"));
 }
 
 TEST(RrtStar, ImprovesTurnsBetweenRowsThatEndAtASlant) {
   const Bench bench({.row_length_m = 8.0, .slant = 0.8});
-  const Planned run = bench.plan(1, {{"clearance_weight", 0.0}});
+  const Planned run = bench.plan(1, {{"clearance_weight", 0.0}, {"bend_cost_m", 0.0}});
   bench.expect_drivable(run);
   EXPECT_LT(run.report.numbers.at("turn_length_m"),
             0.99 * run.report.numbers.at("first_turn_length_m"));

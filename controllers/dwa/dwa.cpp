@@ -24,7 +24,7 @@ class SteeringReader {
   void connect(Ports& ports, const std::string& signal) {
     values_ = ports.read_optional<NamedValues>(signal);
   }
-  bool read(AxleSteering* steering) {
+  bool read(AxleAngles* steering) {
     if (!values_.has_value()) return false;
     const NamedValues& now = values_.value();
     if (front_ < 0 || rear_ < 0) {
@@ -139,7 +139,7 @@ class Dwa final : public Guidance {
   std::vector<SensorMounting> rangers_;
   ObstacleMemory memory_;
   DwaGuide guide_;
-  AxleSteering last_;
+  AxleAngles last_;
   std::uint64_t seen_plan_ = 0;
   std::vector<std::uint64_t> seen_ranges_;
   SignalReader<Odometry> estimate_;

@@ -37,15 +37,15 @@ double calc_score(const DwaTerms& terms, const DwaCost& cost) {
          cost.path_weight * terms.path_m;
 }
 
-void calc_sweep(const AxleSteering& steering, const AxleSteering& target,
+void calc_sweep(const AxleAngles& steering, const AxleAngles& target,
                 const FourWheelGeometry& geometry, double step_s, SteeringSweep* out) {
   const double most_rad = geometry.steer_rate_radps * step_s;
-  AxleSteering now = steering;
+  AxleAngles now = steering;
   out->count = 0;
   bool is_moving = true;
   while (is_moving && out->count < Rollout::kMost) {
     // The mean angles of the step; once the axles stand, the arc is exact.
-    const AxleSteering next = turn_axles(now, target, most_rad);
+    const AxleAngles next = turn_axles(now, target, most_rad);
     const RollingMotion motion = calc_motion({mean_angle(now.front_rad, next.front_rad, most_rad),
                                               mean_angle(now.rear_rad, next.rear_rad, most_rad)},
                                              geometry);
@@ -82,8 +82,8 @@ void roll_out(const Pose2& start, double v_mps, const SteeringSweep& sweep, doub
   out->count = steps;
 }
 
-void roll_out(const Pose2& start, double v_mps, const AxleSteering& steering,
-              const AxleSteering& target, const FourWheelGeometry& geometry, double horizon_s,
+void roll_out(const Pose2& start, double v_mps, const AxleAngles& steering,
+              const AxleAngles& target, const FourWheelGeometry& geometry, double horizon_s,
               double step_s, Rollout* out) {
   SteeringSweep sweep;
   calc_sweep(steering, target, geometry, step_s, &sweep);
@@ -134,8 +134,8 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
   SteeringSweep sweep;
   for (int i = 0; i < params_.steers; ++i) {
     for (int j = 0; j < params_.steers; ++j) {
-      const AxleSteering target{spread(front_low, front_high, i, params_.steers),
-                                spread(rear_low, rear_high, j, params_.steers)};
+      const AxleAngles target{spread(front_low, front_high, i, params_.steers),
+                              spread(rear_low, rear_high, j, params_.steers)};
       calc_sweep(state.steering, target, params_.geometry, params_.step_s, &sweep);
       for (int k = 0; k < params_.speeds; ++k) {
         const double v = spread(v_low, v_high, k, params_.speeds);

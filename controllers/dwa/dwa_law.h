@@ -73,21 +73,21 @@ struct SteeringSweep {
   int count = 0;  ///< the last one lasts
   std::array<Step, Rollout::kMost> steps;
 };
-void calc_sweep(const AxleSteering& steering, const AxleSteering& target,
+void calc_sweep(const AxleAngles& steering, const AxleAngles& target,
                 const FourWheelGeometry& geometry, double step_s, SteeringSweep* out);
 
 /// Drives `v_mps` through a sweep.
 void roll_out(const Pose2& start, double v_mps, const SteeringSweep& sweep, double horizon_s,
               double step_s, Rollout* out);
 /// Drives `v_mps` (negative: backwards) while the axles turn to `target` at their rate.
-void roll_out(const Pose2& start, double v_mps, const AxleSteering& steering,
-              const AxleSteering& target, const FourWheelGeometry& geometry, double horizon_s,
+void roll_out(const Pose2& start, double v_mps, const AxleAngles& steering,
+              const AxleAngles& target, const FourWheelGeometry& geometry, double horizon_s,
               double step_s, Rollout* out);
 
 /// A command and what it is worth.
 struct DwaChoice {
   double v_mps = 0.0;
-  AxleSteering steering;
+  AxleAngles steering;
   bool is_admissible = false;
   double score = 0.0;
   Room room;              ///< least along the way
@@ -98,7 +98,7 @@ struct DwaChoice {
 struct DwaState {
   Pose2 pose;
   double v_mps = 0.0;  ///< of the centre, negative backwards
-  AxleSteering steering;
+  AxleAngles steering;
 };
 
 /// What rollouts are compared with.

@@ -1,25 +1,17 @@
 #pragma once
 /// How a vehicle with two steered axles rolls: crab and curve at once.
 ///
-/// Paper A, section 3, as corrected: with axle angles d_F, d_R (bicycle model, positive to the
-/// left), front axle at x = +a and rear axle at x = -b,
-///   k = (tan d_F - tan d_R) / (a + b),   s = (b tan d_F + a tan d_R) / (a + b),
-/// the velocity of the centre is v_x (1, s) and the yaw rate k v_x. Per metre that the centre
-/// travels it turns by k / sqrt(1 + s^2), in the direction atan(s) off the nose. Both axles then
-/// have v_F cos d_F = v_R cos d_R = v_x.
+/// With k and s of parts/axle_angles.h the velocity of the centre is v_x (1, s) and the yaw rate
+/// k v_x. Per metre that the centre travels it turns by k / sqrt(1 + s^2), in the direction atan(s)
+/// off the nose.
 
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/parts/axle_angles.h"
 #include "controllers/parts/pose2.h"
 
 namespace vinerow {
-
-/// Angles of both axles, rad, positive to the left.
-struct AxleSteering {
-  double front_rad = 0.0;
-  double rear_rad = 0.0;
-};
 
 /// Where the axles are and how they steer.
 struct FourWheelGeometry {
@@ -34,11 +26,9 @@ struct RollingMotion {
   double curvature_per_m = 0.0;  ///< heading change per metre that the centre travels
 };
 
-inline RollingMotion calc_motion(const AxleSteering& steering, const FourWheelGeometry& geometry) {
-  const double a = geometry.front_axle_m, b = geometry.rear_axle_m;
-  const double front = std::tan(steering.front_rad), rear = std::tan(steering.rear_rad);
-  const double s = (b * front + a * rear) / (a + b);
-  return {std::atan(s), (front - rear) / (a + b) / std::sqrt(1.0 + s * s)};
+inline RollingMotion calc_motion(const AxleAngles& steering, const FourWheelGeometry& geometry) {
+  const AxleRoll roll = calc_axle_roll(geometry.front_axle_m, geometry.rear_axle_m, steering);
+  return {std::atan(roll.drift), roll.curvature_per_m / std::sqrt(1.0 + roll.drift * roll.drift)};
 }
 
 /// Pose after the centre travelled `length_m` (negative: backwards) with steering at rest: exact.
@@ -49,8 +39,7 @@ inline Pose2 roll(const Pose2& pose, const RollingMotion& motion, double length_
 }
 
 /// Both axles move towards their targets, each by at most `most_rad`.
-inline AxleSteering turn_axles(const AxleSteering& now, const AxleSteering& target,
-                               double most_rad) {
+inline AxleAngles turn_axles(const AxleAngles& now, const AxleAngles& target, double most_rad) {
   return {now.front_rad + std::clamp(target.front_rad - now.front_rad, -most_rad, most_rad),
           now.rear_rad + std::clamp(target.rear_rad - now.rear_rad, -most_rad, most_rad)};
 }

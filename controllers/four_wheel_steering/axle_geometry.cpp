@@ -25,11 +25,10 @@ Eigen::Vector2d Rolling::icr_B() const {
 }
 
 Rolling calc_rolling(const AxleGeometry& geometry, const AxleAngles& axles) {
-  const double tan_front = std::tan(axles.front_rad), tan_rear = std::tan(axles.rear_rad);
-  const double base_m = geometry.wheel_base_m();
+  const AxleRoll roll = calc_axle_roll(geometry.front_m, geometry.rear_m, axles);
   Rolling rolling;
-  rolling.curvature_per_m = (tan_front - tan_rear) / base_m;
-  rolling.drift = (geometry.rear_m * tan_front + geometry.front_m * tan_rear) / base_m;
+  rolling.curvature_per_m = roll.curvature_per_m;
+  rolling.drift = roll.drift;
   for (int i = 0; i < kWheels; ++i) {
     // Velocity of the wheel's centre per forward speed of the origin.
     const Eigen::Vector2d p = geometry.wheel_B(i);

@@ -5,8 +5,7 @@
 /// of a wheel in its middle ("bicycle" angle); a linkage turns the left and right wheel so that all
 /// axes meet in one instantaneous centre of rotation (ICR). With x forward, y left, the front axle
 /// at x = a, the rear one at x = -b:
-///   k = (tan dF - tan dR) / (a + b)           yaw rate per forward speed, 1/m
-///   s = (b tan dF + a tan dR) / (a + b)       lateral per forward speed of the origin
+///   k, s                                      of parts/axle_angles.h
 ///   ICR = (-s / k, 1 / k)
 ///   tan d_ij = (s + k x_ij) / (1 - k y_ij)    wheel at (x_ij, y_ij)
 /// Nothing is divided by k: the distance of a wheel from the ICR is r_ij = reach_ij / k, and what
@@ -14,6 +13,8 @@
 /// crab and nearly parallel axles are no special cases.
 
 #include <Eigen/Core>
+
+#include "controllers/parts/axle_angles.h"
 
 namespace vinerow {
 
@@ -29,12 +30,6 @@ struct AxleGeometry {
   double wheel_base_m() const { return front_m + rear_m; }
   /// Where a wheel stands in B, m.
   Eigen::Vector2d wheel_B(int wheel) const;
-};
-
-/// Angles of the middles of both axles, positive to the left.
-struct AxleAngles {
-  double front_rad = 0.0;
-  double rear_rad = 0.0;
 };
 
 /// The one rolling motion that two axle angles allow, whatever the speed.

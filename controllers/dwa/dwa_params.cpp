@@ -53,6 +53,10 @@ std::vector<ParameterSpec> dwa_parameters() {
       positive_parameter("clearance_saturation_m", "m", 0.6, "d_sat: more room is worth no more"),
       number_parameter("lookahead_m", "m", 1.4, 0.2, 4.0, "how far ahead on the plan the goal is"),
       number_parameter("margin_m", "m", 0.05, 0.0, 1.0, "room to keep to what the map knows"),
+      number_parameter("follow_margin_m", "m", 0.02, -1.0, 1.0,
+                       "the same while following the plan, which was checked with a margin of its "
+                       "own; negative: following may cut so far into what the map has, for walls "
+                       "that are virtual"),
       number_parameter("obstacle_margin_m", "m", 0.15, 0.0, 1.0,
                        "room to keep to what only the sensors saw"),
       number_parameter("pass_m", "m", 0.7, 0.0, 2.0,
@@ -122,6 +126,7 @@ DwaGuideParams read_dwa_params(const ParameterSet& parameters, const ControllerC
   cost.as_printed = parameters.text("cost") == "printed";
   params.lookahead_m = parameters.number("lookahead_m");
   params.plan.margin_m = parameters.number("margin_m");
+  params.plan.follow_margin_m = parameters.number("follow_margin_m");
   params.plan.obstacle_margin_m = parameters.number("obstacle_margin_m");
   params.plan.lane_most_m = parameters.number("pass_m");
   params.plan.fade_m = parameters.number("fade_m");

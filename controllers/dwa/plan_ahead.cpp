@@ -16,8 +16,6 @@ constexpr double kSearchAhead_m = 2.0;
 constexpr double kSearchFirst_m = 5.0;
 // Rounding of distances between cell centres.
 constexpr double kRounding_m = 1e-3;
-// Against the map, following may come this near: the plan was checked with its own margin.
-constexpr double kFollowMargin_m = 0.02;
 
 }  // namespace
 
@@ -64,13 +62,14 @@ double PlanAhead::calc_free_m(const RoomFinder& rooms, const DiscOutline& outlin
     if (ahead_m > end_m) break;
     const Pose2 follow = follow_pose(ahead_m);
     const Eigen::Vector2d ahead = direction(follow.yaw_rad);
-    const Room cheap{kFollowMargin_m, params_.obstacle_margin_m};
+    const Room cheap{params_.follow_margin_m, params_.obstacle_margin_m};
     if (!rooms.meets(outline, follow.p, ahead, cheap)) {
       const Room there = rooms.measure(outline, follow.p, ahead);
       const Room plan = rooms.measure(outline, window_[i].p, window_[i].ahead);
-      const Room need{std::min({kFollowMargin_m, plan.known_m, now.known_m}) - kRounding_m,
+      const Room need{std::min({params_.follow_margin_m, plan.known_m, now.known_m}) - kRounding_m,
                       std::min(params_.obstacle_margin_m, now.unknown_m - kRounding_m)};
-      const bool hits_map = there.known_m <= 0.0 && now.known_m > 0.0;
+      const double touches_m = std::min(params_.follow_margin_m, 0.0);
+      const bool hits_map = there.known_m <= touches_m && now.known_m > touches_m;
       if (hits_map || !there.meets(need)) return free_m;
     }
     free_m = ahead_m;

@@ -10,6 +10,7 @@ namespace vinerow {
 struct PlanAheadParams {
   double fade_m = 1.2;              ///< a tracking error dies out over this length
   double margin_m = 0.05;           ///< to what the map knows
+  double follow_margin_m = 0.02;    ///< to what the map knows, while following
   double obstacle_margin_m = 0.15;  ///< to what was seen
   double lane_most_m = 0.7;         ///< farthest way beside the plan
   double lane_step_m = 0.05;

@@ -42,11 +42,11 @@ bool record_killed(const std::filesystem::path& file, const std::string& compres
     record_until(file, compression, Time{std::numeric_limits<std::int64_t>::max() / 2});
     _exit(0);
   }
-  // A file that holds several chunks, at most 20 s from now.
+  // A file that holds several chunks behind the map's, at most 20 s from now.
   for (int i = 0; i < 20'000; ++i) {
     std::error_code error;
     const auto size = std::filesystem::file_size(file, error);
-    if (!error && size > 500'000) break;
+    if (!error && size > 3'000'000) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   kill(child, SIGKILL);

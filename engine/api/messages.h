@@ -150,7 +150,13 @@ struct LinkPoses {
 };
 
 /// What a stretch of path is for. Metrics judge legs and turns apart.
-enum class PathKind : std::uint8_t { kLeg = 0, kTurn = 1, kTransit = 2 };
+enum class PathKind : std::uint8_t {
+  kLeg = 0,
+  kTurn = 1,
+  kTransit = 2,
+  kVertical = 3,  ///< straight up or down: a take-off, a landing
+  kReturn = 4     ///< the way home after the last leg
+};
 
 /// One point of a path; the stretch from this point to the next has `kind`.
 struct PathPoint {
@@ -192,6 +198,46 @@ struct FollowerState {
   void fields(F&& f) {
     f(lateral_error_m), f(heading_error_rad), f(distance_m), f(remaining_m), f(waypoint),
         f(finished);
+  }
+};
+
+/// Where a flying vehicle should be at one moment.
+struct TrajectoryPoint {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< of B's origin, m
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< m/s
+  Eigen::Vector3d a_W = Eigen::Vector3d::Zero();  ///< m/s2
+  double yaw_rad = 0.0;                           ///< continuous, not wrapped
+  double yaw_rate_radps = 0.0;
+};
+
+/// Where a flying vehicle should be now and in the coming moments: points[i] holds at the signal's
+/// stamp + i dt_s. ROS 2: trajectory_msgs/msg/MultiDOFJointTrajectory.
+struct ReferenceTrajectory {
+  static constexpr const char* kType = "ReferenceTrajectory";
+  enum class Phase : std::uint8_t {
+    kWait = 0,     ///< on the ground, rotors off
+    kTakeOff = 1,  ///< straight up
+    kTransit = 2,  ///< to the first row
+    kRow = 3,
+    kTurn = 4,
+    kReturn = 5,  ///< home, above the canopy
+    kLand = 6,    ///< straight down, until the ground is felt
+    kDone = 7,    ///< landed: rotors off, nothing left to do
+    kHover = 8    ///< holds a place
+  };
+  double dt_s = 0.05;
+  std::vector<TrajectoryPoint> points;  ///< constant in number from the first to the last tick
+  Phase phase = Phase::kWait;
+  double distance_m = 0.0;  ///< flown along the plan
+  double remaining_m = 0.0;
+
+  template <class F>
+  void fields(F&& f) {
+    f(dt_s);
+    for (TrajectoryPoint& point : points) {
+      f(point.p_W), f(point.v_W), f(point.a_W), f(point.yaw_rad), f(point.yaw_rate_radps);
+    }
+    f(phase), f(distance_m), f(remaining_m);
   }
 };
 
@@ -238,6 +284,7 @@ void for_each_message_type(F&& f) {
   f(static_cast<LinkPoses*>(nullptr));
   f(static_cast<PlannedPath*>(nullptr));
   f(static_cast<FollowerState*>(nullptr));
+  f(static_cast<ReferenceTrajectory*>(nullptr));
   f(static_cast<BatteryState*>(nullptr));
   f(static_cast<Event*>(nullptr));
 }

@@ -5,7 +5,8 @@
 /// Order inside an instant: sensors, estimators, planners and guidance, controllers, actuators,
 /// physics, metrics. Local signal names (see Ports): "truth" (kernel), "<sensor name>" (sensors),
 /// "estimate" (estimator), "plan" and "plan_tree" (planner), "local_command" (guidance), "command"
-/// VelocityCommand or "actuators" NamedValues (controller), "follower" (controller). A part tells
+/// VelocityCommand or "actuators" NamedValues (controller), "follower" (controller), "reference"
+/// (guidance of flying vehicles). A part tells
 /// people what happened by writing an Event of its own, "<part>_event"; the kernel passes it on to
 /// "run/events".
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/api/mesh.h"
@@ -89,6 +90,9 @@ class Vehicle {
   /// What encoders on the actuators would tell: the true value of each, same order and units as
   /// description().actuators. Empty where the vehicle does not know.
   virtual std::span<const double> actuator_states() const { return {}; }
+  /// Why the vehicle is wrecked, "hit the ground at 2.3 m/s"; empty while it is not. Once told it
+  /// stays. The kernel tells people, and ends or fails the run as the scenario's `on_crash` says.
+  virtual std::string_view crash() const { return {}; }
   /// Fills poses, same order as links(); the vectors have their size already.
   virtual void read_links(std::vector<Pose>& X_WL) const = 0;
   /// Writes own signals; called at the rate of the sense stage's truth.

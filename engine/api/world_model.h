@@ -10,6 +10,7 @@
 
 #include "engine/api/map.h"
 #include "engine/api/mesh.h"
+#include "engine/api/wind.h"
 
 namespace vinerow {
 
@@ -73,6 +74,7 @@ struct WorldModel {
   Soil soil;
   std::vector<SpawnPoint> spawn_points;
   Daylight daylight;
+  Wind wind;
   std::vector<std::string>
       notes;  ///< what the loader wants the user to know (missing textures, ...)
 };

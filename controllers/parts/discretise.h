@@ -1,0 +1,18 @@
+#pragma once
+/// From continuous to sampled linear models.
+
+#include <Eigen/Core>
+
+namespace vinerow {
+
+struct SampledModel {
+  Eigen::MatrixXd A;
+  Eigen::MatrixXd B;
+};
+
+/// Zero-order hold: x+ = A x + B u for inputs held over `period_s`, by the matrix exponential of
+/// [A_c B_c; 0 0]. Source: Van Loan, "Computing integrals involving the matrix exponential", IEEE
+/// TAC 23(3), 1978.
+SampledModel discretise(const Eigen::MatrixXd& A_c, const Eigen::MatrixXd& B_c, double period_s);
+
+}  // namespace vinerow

@@ -1,0 +1,54 @@
+#pragma once
+/// What every controller of a flying vehicle reads and writes: "estimate" and "reference" in,
+/// "actuators" (rotor speeds), "wrench" (NamedValues: wanted and reachable thrust and torques) and
+/// "follower" out.
+
+#include <vector>
+
+#include "controllers/parts/rotor_mixer.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+class FlightPorts {
+ public:
+  /// @throws ConfigError if the vehicle has no rotors: "vehicle type 'x' does not tell ..."
+  FlightPorts(const ControllerContext& context, const std::string& type);
+
+  void connect(Ports& ports);
+
+  const Rotorcraft& craft() const { return craft_; }
+  RotorMixer& mixer() { return mixer_; }
+  bool has_estimate() const { return estimate_.has_value(); }
+  const Odometry& estimate() const { return estimate_.value(); }
+  bool has_reference() const {
+    return reference_.has_value() && !reference_.value().points.empty();
+  }
+  const ReferenceTrajectory& reference() const { return reference_.value(); }
+  /// The reference asks for turning rotors (neither waiting nor done).
+  bool is_flying() const;
+  bool is_done() const {
+    return has_reference() && reference().phase == ReferenceTrajectory::Phase::kDone;
+  }
+
+  /// Mixes and writes. No heap. @returns what the rotors can make of it
+  Wrench write(Time now, const Wrench& wanted);
+  /// Rotors off.
+  void write_off(Time now);
+
+ private:
+  void write_follower(Time now);
+
+  Rotorcraft craft_;
+  RotorMixer mixer_;
+  std::vector<double> speeds_radps_;
+  NamedValues actuator_values_;
+  NamedValues wrench_values_;
+  SignalReader<Odometry> estimate_;
+  SignalReader<ReferenceTrajectory> reference_;
+  SignalWriter<NamedValues> actuators_;
+  SignalWriter<NamedValues> wrench_;
+  SignalWriter<FollowerState> follower_;
+};
+
+}  // namespace vinerow

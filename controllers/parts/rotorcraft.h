@@ -1,0 +1,60 @@
+#pragma once
+/// What a controller knows of a vehicle that flies on rotors, all told by its VehicleDescription,
+/// and the linear model about hover that comes of it.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "engine/api/vehicle.h"
+
+namespace vinerow {
+
+/// One rotor; its thrust is along +z of B.
+struct RotorPlace {
+  Eigen::Vector2d p_B = {0, 0};  ///< hub, m
+  double torque_sign = 1.0;      ///< +1: its drag torque turns the body to the left (+z)
+};
+
+struct Rotorcraft {
+  double mass_kg = 1.0;
+  Eigen::Vector3d inertia_kgm2 = {1, 1, 1};  ///< about B's axes
+  std::vector<RotorPlace> rotors;
+  double thrust_coefficient = 0.0;  ///< k_F, thrust = k_F w^2, N s2
+  double torque_coefficient = 0.0;  ///< k_M, drag torque = k_M w^2, N m s2
+  double min_rotor_radps = 0.0;
+  double max_rotor_radps = 0.0;
+  double rotor_lag_s = 0.05;         ///< first-order lag of the rotor's speed
+  double rotor_drag_Ns_per_m = 0.0;  ///< all rotors together: force = - this * air velocity
+  double gravity_mps2 = 9.80665;
+
+  double max_thrust_N() const {
+    return static_cast<double>(rotors.size()) * thrust_coefficient * max_rotor_radps *
+           max_rotor_radps;
+  }
+  double hover_rotor_radps() const;
+};
+
+/// Reads the numbers `rotor_count`, `rotor_<i>_x_m`, `rotor_<i>_y_m`, `rotor_<i>_torque_sign`
+/// (i from 1), `rotor_thrust_coefficient`, `rotor_torque_coefficient`, `rotor_min_radps`,
+/// `rotor_max_radps`, `rotor_lag_s`, `rotor_drag_Ns_per_m`, `inertia_xx_kgm2`, `inertia_yy_kgm2`,
+/// `inertia_zz_kgm2`.
+/// @throws ConfigError "vehicle type 'x' does not tell 'rotor_count', which drone.controller needs"
+Rotorcraft read_rotorcraft(const VehicleDescription& description, double gravity_mps2,
+                           const std::string& who);
+
+/// x' = A x + B u about hover, in the frame that is turned about z with the wanted yaw.
+/// State: position (3, m), velocity (3, m/s), roll, pitch, yaw error (rad), body rates p, q, r
+/// (rad/s); with lag four more, the wrench that acts: thrust less weight (N), torques (N m).
+/// Input: the wanted wrench, thrust less weight (N) and torques about x, y, z (N m).
+/// Source: paper A, section 4.2; reference: 16 states.
+struct HoverModel {
+  static constexpr int kStates = 12;
+  static constexpr int kStatesWithLag = 16;
+  static constexpr int kInputs = 4;
+  Eigen::MatrixXd A;
+  Eigen::MatrixXd B;
+};
+HoverModel make_hover_model(const Rotorcraft& craft, bool with_lag);
+
+}  // namespace vinerow

@@ -1,0 +1,53 @@
+#pragma once
+/// The wind of a world, as plain data. What a vehicle feels of it, vehicles/parts/wind_probe.h
+/// works out: mean wind by a height law, Dryden turbulence, 1-cosine gusts, shelter between the
+/// vines.
+
+#include <vector>
+
+namespace vinerow {
+
+/// How the mean wind grows with height.
+enum class WindHeightLaw {
+  kUniform,      ///< the same everywhere
+  kLogarithmic,  ///< u(z) = u_ref ln(z / z0) / ln(z_ref / z0)
+  kPower         ///< u(z) = u_ref (z / z_ref)^exponent
+};
+
+/// A single pulse 1/2 amplitude (1 - cos(2 pi t / duration)).
+struct WindGust {
+  double start_s = 0.0;
+  double duration_s = 2.0;
+  double amplitude_mps = 0.0;     ///< at the middle of the pulse; horizontal
+  double from_azimuth_rad = 0.0;  ///< where it comes from, clockwise from north
+  double vertical_mps = 0.0;      ///< its part along +z
+};
+
+struct Wind {
+  double air_density_kgm3 = 1.225;
+  double mean_speed_mps = 0.0;    ///< at reference_height_m above the ground
+  double from_azimuth_rad = 0.0;  ///< where it comes from, clockwise from north
+  double reference_height_m = 10.0;
+  WindHeightLaw height_law = WindHeightLaw::kLogarithmic;
+  double roughness_length_m = 0.1;
+  double power_exponent = 0.2;
+  /// Scales the standard deviations of the Dryden turbulence (MIL-F-8785C, low altitude); 0: none.
+  double turbulence = 0.0;
+  /// Wind at 20 ft that sets them, m/s; < 0: what the mean wind has at that height.
+  double turbulence_wind_mps = -1.0;
+  std::vector<WindGust> gusts;
+  /// Gusts that come by chance: one per this time on average, s, from any side; 0: none.
+  double random_gust_interval_s = 0.0;
+  double random_gust_amplitude_mps = 1.0;
+  double random_gust_duration_s = 2.0;
+  /// Between the rows and below the canopy's top the mean wind falls off like
+  /// exp(-attenuation (1 - z / top)); 0: no shelter.
+  double shelter_attenuation = 0.0;
+
+  bool calm() const {
+    return mean_speed_mps == 0.0 && (turbulence == 0.0 || turbulence_wind_mps <= 0.0) &&
+           gusts.empty() && random_gust_interval_s == 0.0;
+  }
+};
+
+}  // namespace vinerow

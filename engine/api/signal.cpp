@@ -86,6 +86,7 @@ template class Signal<NamedValues>;
 template class Signal<LinkPoses>;
 template class Signal<PlannedPath>;
 template class Signal<FollowerState>;
+template class Signal<ReferenceTrajectory>;
 template class Signal<BatteryState>;
 template class Signal<Event>;
 

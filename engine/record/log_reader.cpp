@@ -152,6 +152,7 @@ VINEROW_READ(NamedValues)
 VINEROW_READ(LinkPoses)
 VINEROW_READ(PlannedPath)
 VINEROW_READ(FollowerState)
+VINEROW_READ(ReferenceTrajectory)
 VINEROW_READ(BatteryState)
 VINEROW_READ(Event)
 #undef VINEROW_READ

@@ -136,6 +136,27 @@ constexpr std::array kDefinitions = {
                "std_msgs/Header header\n# m, positive left of the path\nfloat64 lateral_error\n"
                "# rad\nfloat64 heading_error\n# m along the path, done and to go\n"
                "float64 distance\nfloat64 remaining\nint32 waypoint\nbool finished\n"},
+    Definition{"trajectory_msgs/MultiDOFJointTrajectory",
+               "std_msgs/Header header\nstring[] joint_names\n"
+               "trajectory_msgs/MultiDOFJointTrajectoryPoint[] points\n"},
+    Definition{"trajectory_msgs/MultiDOFJointTrajectoryPoint",
+               "# one of each per joint, in header.frame_id\n"
+               "geometry_msgs/Transform[] transforms\ngeometry_msgs/Twist[] velocities\n"
+               "geometry_msgs/Twist[] accelerations\n"
+               "builtin_interfaces/Duration time_from_start\n"},
+    Definition{"vinerow_msgs/TrajectoryPoint",
+               "# of the body's origin in header.frame_id: m, m/s, m/s^2\n"
+               "geometry_msgs/Point position\ngeometry_msgs/Vector3 velocity\n"
+               "geometry_msgs/Vector3 acceleration\n"
+               "# rad, continuous; rad/s\nfloat64 yaw\nfloat64 yaw_rate\n"},
+    Definition{"vinerow_msgs/ReferenceTrajectory",
+               "# where a flying vehicle should be now and in the coming moments\n"
+               "uint8 WAIT=0\nuint8 TAKE_OFF=1\nuint8 TRANSIT=2\nuint8 ROW=3\nuint8 TURN=4\n"
+               "uint8 RETURN=5\nuint8 LAND=6\nuint8 DONE=7\nuint8 HOVER=8\n"
+               "std_msgs/Header header\nuint8 phase\n"
+               "# m along the plan, flown and to go\nfloat64 distance\nfloat64 remaining\n"
+               "# s from one point to the next; the first holds at the stamp\nfloat64 step\n"
+               "vinerow_msgs/TrajectoryPoint[] points\n"},
     Definition{"vinerow_msgs/RangeRay",
                "# m; +inf: nothing seen\nstd_msgs/Header header\nfloat64 range\n"
                "float64 min_range\nfloat64 max_range\n# rad, half of the cone\n"
@@ -150,7 +171,7 @@ constexpr std::array kDefinitions = {
                "geometry_msgs/Point position\ngeometry_msgs/Vector3 velocity\n"
                "geometry_msgs/Vector3 position_std\n"},
     Definition{"vinerow_msgs/PathPoint",
-               "uint8 LEG=0\nuint8 TURN=1\nuint8 TRANSIT=2\n"
+               "uint8 LEG=0\nuint8 TURN=1\nuint8 TRANSIT=2\nuint8 VERTICAL=3\nuint8 RETURN=4\n"
                "geometry_msgs/Point position\n# rad, direction of travel\nfloat64 yaw\n"
                "# 1/m, positive to the left, of the stretch that starts here\nfloat64 curvature\n"
                "# m/s, 0 = the follower's own\nfloat64 speed\nuint8 kind\n"

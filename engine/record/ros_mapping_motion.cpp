@@ -170,7 +170,7 @@ bool RosMapping<PlannedPath>::read(CdrReader& in, const FrameNames&, PlannedPath
     point.curvature_per_m = in.read<double>();
     point.speed_mps = in.read<double>();
     const auto kind = in.read<std::uint8_t>();
-    if (kind > static_cast<std::uint8_t>(PathKind::kTransit)) return false;
+    if (kind > static_cast<std::uint8_t>(PathKind::kReturn)) return false;
     point.kind = static_cast<PathKind>(kind);
     point.alley = in.read<std::int32_t>();
   }

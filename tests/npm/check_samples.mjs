@@ -28,7 +28,8 @@ const wantedCounts = {
   "/rover/ultrasound_right": 200, "/rover/ultrasound_right/exact": 200,
   "/rover/command": 400, "/rover/actuators": 400, "/rover/follower": 400,
   "/rover/plan": 1, "/rover/plan/exact": 1, "/run/events": 1,
-  "/rover/plan_tree": 1, "/rover/local_command": 50, "/run/map": 1, "/run/map/exact": 1,
+  "/rover/plan_tree": 1, "/rover/local_command": 50, "/rover/reference": 50, "/rover/reference/exact": 50,
+  "/run/map": 1, "/run/map/exact": 1,
 };
 const wantedTypes = {
   "/rover/truth": "nav_msgs/msg/Odometry", "/rover/links": "tf2_msgs/msg/TFMessage",
@@ -43,6 +44,8 @@ const wantedTypes = {
   "/run/events": "rcl_interfaces/msg/Log",
   "/rover/plan_tree": "visualization_msgs/msg/Marker",
   "/rover/local_command": "vinerow_msgs/msg/LocalCommand",
+  "/rover/reference": "trajectory_msgs/msg/MultiDOFJointTrajectory",
+  "/rover/reference/exact": "vinerow_msgs/msg/ReferenceTrajectory",
   "/run/map": "nav_msgs/msg/OccupancyGrid", "/run/map/exact": "vinerow_msgs/msg/OccupancyGrid",
 };
 
@@ -94,6 +97,20 @@ function checkValues({ first, last }) {
   const local = last["/rover/local_command"];
   assert.deepEqual([local.mode, local.speed, local.front_axle, local.rear_axle, local.clearance],
     [1, 0.8, 0.1, -0.1, 0.35]);
+  const reference = last["/rover/reference"];
+  assert.deepEqual([reference.header.frame_id, reference.joint_names, reference.points.length],
+    ["map", ["base_link"], 21]);
+  const point = reference.points[20];
+  assert.deepEqual([point.transforms.length, point.velocities.length, point.accelerations.length], [1, 1, 1]);
+  assert.deepEqual(point.time_from_start, { sec: 1, nsec: 0 });
+  assert.ok(Math.abs(point.transforms[0].translation.x - 3) < 1e-12);
+  assert.ok(Math.abs(Math.abs(point.transforms[0].rotation.z) - Math.SQRT1_2) < 1e-12);
+  assert.deepEqual([point.velocities[0].linear.x, point.velocities[0].angular.z, point.accelerations[0].linear.z],
+    [3, 0.25, 0.5]);
+  const exactReference = last["/rover/reference/exact"];
+  assert.deepEqual([exactReference.phase, exactReference.distance, exactReference.remaining, exactReference.step],
+    [3, 12.5, 37.5, 0.05]);
+  assert.equal(exactReference.points[20].yaw, 0.5 * Math.PI + 2 * Math.PI);
   const event = first["/run/events"];
   assert.deepEqual([event.level, event.name, event.msg], [20, "rover.mission", "leg begins"]);
 }

@@ -206,6 +206,37 @@ TEST(RosMapping, LocalCommandBytes) {
                   "00 00 00 00 00 00 f0 bf 00 00 00 00 00 00 00 40"));
 }
 
+// "map" ends at 16; the joint's name, with its count, at 34, then 2 bytes of padding and the count
+// of the points at 36 to 40. A point: count 1 and 4 bytes of padding, pose (yaw 0: the quaternion
+// 0 0 0 1), count and padding, velocity, count and padding, acceleration, 0.5 s as two integers.
+TEST(RosMapping, MultiDOFJointTrajectoryBytes) {
+  ReferenceTrajectory reference;
+  reference.dt_s = 0.5;
+  reference.points.resize(2);
+  reference.points[1].p_W = {1.0, 2.0, 0.0};
+  reference.points[1].v_W = {0.0, -2.0, 0.0};
+  reference.points[1].a_W = {0.0, 0.0, 1.0};
+  reference.points[1].yaw_rate_radps = 2.0;
+  const auto message = message_bytes("r/reference", Time{0}, reference);
+  constexpr std::ptrdiff_t kBegin = 4 + 40, kPoint = 8 + 56 + 8 + 48 + 8 + 48 + 8;
+  ASSERT_EQ(std::ssize(message), kBegin + 2 * kPoint);
+  EXPECT_EQ(std::vector<std::uint8_t>(message.begin() + 4, message.begin() + kBegin),
+            bytes("00 00 00 00 00 00 00 00 04 00 00 00 'map' 00 "
+                  "01 00 00 00 0a 00 00 00 'base_link' 00 00 00 02 00 00 00"));
+  EXPECT_EQ(std::vector<std::uint8_t>(message.begin() + kBegin + kPoint, message.end()),
+            bytes("01 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 00 f0 3f 00 00 00 00 00 00 00 40 00 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 00 f0 3f "
+                  "01 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 c0 00 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 40 "
+                  "01 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 f0 3f "
+                  "00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 "
+                  "00 00 00 00 00 65 cd 1d"));
+}
+
 // A grid whose sides do not agree with its cells is no grid.
 TEST(RosMapping, RefusesGridsWhoseSidesDoNotFit) {
   OccupancyGrid grid;

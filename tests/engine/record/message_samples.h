@@ -64,10 +64,14 @@ void fill(RandomStream& random, T& value) {
     value.X_WL.resize(size);
   }
   if constexpr (std::is_same_v<T, PlannedPath>) value.points.resize(size);
+  if constexpr (std::is_same_v<T, ReferenceTrajectory>) value.points.resize(size);
   if constexpr (std::is_same_v<T, LineList>) value.points_W.resize(2 * size);
   value.fields(FillField{random});
   if constexpr (std::is_same_v<T, PlannedPath>) {
-    for (PathPoint& point : value.points) point.kind = static_cast<PathKind>(random.next_u64() % 3);
+    for (PathPoint& point : value.points) point.kind = static_cast<PathKind>(random.next_u64() % 5);
+  }
+  if constexpr (std::is_same_v<T, ReferenceTrajectory>) {
+    value.phase = static_cast<ReferenceTrajectory::Phase>(random.next_u64() % 9);
   }
   if constexpr (std::is_same_v<T, LocalCommand>) {
     value.mode = static_cast<LocalCommand::Mode>(random.next_u64() % 3);

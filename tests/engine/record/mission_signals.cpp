@@ -36,9 +36,20 @@ MissionSignals::MissionSignals(int path_points) : path_points_(path_points) {
   plan_out_ = rover.write<PlannedPath>("plan");
   tree_out_ = rover.write<LineList>("plan_tree");
   local_command_out_ = rover.write<LocalCommand>("local_command");
+  reference_out_ = rover.write<ReferenceTrajectory>("reference");
   map_out_ = Ports(bus_, "run", "test").write<OccupancyGrid>("map");
   event_out_ = Ports(bus_, "run", "test").write<Event>("events");
 
+  reference_.phase = ReferenceTrajectory::Phase::kRow;
+  reference_.distance_m = 12.5;
+  reference_.remaining_m = 37.5;
+  for (int i = 0; i < 21; ++i) {
+    reference_.points.push_back({.p_W = {3 * 0.05 * i, 1, 1.5},
+                                 .v_W = {3, 0, 0},
+                                 .a_W = {0, 0, 0.5},
+                                 .yaw_rad = 0.5 * kPi + 2 * kPi,
+                                 .yaw_rate_radps = 0.25});
+  }
   links_.names = {"body"};
   for (const char* wheel : kWheel) {
     links_.names.push_back(std::string("wheel_") + wheel);
@@ -171,6 +182,7 @@ void MissionSignals::write(Time now) {
                                    .front_axle_rad = 0.1,
                                    .rear_axle_rad = -0.1,
                                    .clearance_m = 0.35});
+    reference_out_.write(now, reference_);
     GnssFix fix;
     fix.valid = true;
     fix.p_W = truth_.X_WB.p + noise(0.02);

@@ -11,8 +11,8 @@
 namespace vinerow::test {
 
 /// Truth, links, wheels, contacts and battery 20 Hz, GPS 5 Hz, IMU 100 Hz, four ultrasounds 20 Hz,
-/// follower, command and actuators 40 Hz, local command 5 Hz, once a map, a path and its planner's
-/// tree, an event every ten seconds.
+/// follower, command and actuators 40 Hz, local command and a flyer's reference 5 Hz, once a map, a
+/// path and its planner's tree, an event every ten seconds.
 class MissionSignals {
  public:
   /// Divides every period.
@@ -40,6 +40,7 @@ class MissionSignals {
   NamedValues wheels_, actuators_, contacts_;
   FollowerState follower_;
   BatteryState battery_;
+  ReferenceTrajectory reference_;
   SignalWriter<Odometry> truth_out_;
   SignalWriter<LinkPoses> links_out_;
   SignalWriter<NamedValues> wheels_out_, actuators_out_, contacts_out_;
@@ -52,6 +53,7 @@ class MissionSignals {
   SignalWriter<PlannedPath> plan_out_;
   SignalWriter<LineList> tree_out_;
   SignalWriter<LocalCommand> local_command_out_;
+  SignalWriter<ReferenceTrajectory> reference_out_;
   SignalWriter<OccupancyGrid> map_out_;
   SignalWriter<Event> event_out_;
 };

@@ -3,6 +3,7 @@
 /// works out: mean wind by a height law, Dryden turbulence, 1-cosine gusts, shelter between the
 /// vines.
 
+#include <cstdint>
 #include <vector>
 
 namespace vinerow {
@@ -20,7 +21,10 @@ struct WindGust {
   double duration_s = 2.0;
   double amplitude_mps = 0.0;     ///< at the middle of the pulse; horizontal
   double from_azimuth_rad = 0.0;  ///< where it comes from, clockwise from north
-  double vertical_mps = 0.0;      ///< its part along +z
+  double vertical_mps = 0.0;      ///< its part along +z, with the same pulse
+  /// Speed of the front in the gust's direction: it is at W's origin at start_s, earlier upwind
+  /// and later downwind. 0: everywhere at once.
+  double front_speed_mps = 0.0;
 };
 
 struct Wind {
@@ -40,8 +44,9 @@ struct Wind {
   double random_gust_interval_s = 0.0;
   double random_gust_amplitude_mps = 1.0;
   double random_gust_duration_s = 2.0;
-  /// Between the rows and below the canopy's top the mean wind falls off like
-  /// exp(-attenuation (1 - z / top)); 0: no shelter.
+  std::uint64_t random_gust_seed = 0;  ///< of their schedule: the run's
+  /// Between the rows and below the canopy's top the wind is that at the top times
+  /// exp(-attenuation (1 - z / top)) across the rows, less attenuated along them; 0: no shelter.
   double shelter_attenuation = 0.0;
 
   bool calm() const {

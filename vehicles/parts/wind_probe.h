@@ -1,0 +1,86 @@
+#pragma once
+/// The wind that one vehicle feels: mean wind by the world's height law, Dryden turbulence,
+/// 1-cosine gusts, shelter between the rows. Formulae, sources and figures: docs/wind.md.
+///
+/// Every part that wants the wind has a probe of its own: turbulence is drawn along the way of
+/// that vehicle through the air (frozen field), so neighbours do not share it. The mean wind and
+/// all gusts are the world's: every probe sees the same.
+///
+/// Outside the terrain its edge's height continues; above a mesh ground without anything below,
+/// the last height known counts (0 at first).
+///
+/// Cost: below 0.3 us a step on a height field; a mesh ground adds one ray every
+/// kTurbulenceTick. No heap after building, no wall clock, no global state: same world, stream and
+/// calls, same bits.
+
+#include <Eigen/Core>
+
+#include "engine/api/scene_query.h"
+#include "engine/api/world_model.h"
+#include "engine/core/random.h"
+#include "engine/core/time.h"
+#include "vehicles/parts/dryden.h"
+#include "vehicles/parts/wind_gusts.h"
+#include "vehicles/parts/wind_shelter.h"
+
+namespace vinerow::vehicles {
+
+/// Mean wind at a height above the ground without shelter, m/s, >= 0. Continues as 0 below the
+/// roughness length (logarithmic) or the ground (power); uniform has no ground.
+double mean_wind_mps(const Wind& wind, double height_m);
+
+/// Wind at 20 ft that sets the turbulence: the given one, else the mean wind there.
+double turbulence_wind_mps(const Wind& wind);
+
+class WindProbe {
+ public:
+  /// Knots of the turbulence, between which it runs straight: the same for every physics step.
+  static constexpr Duration kTurbulenceTick{5'000'000};
+
+  /// @param world,scene  outlive the probe
+  /// @param random  of this vehicle alone: VehicleContext.random("wind")
+  WindProbe(const WorldModel& world, const SceneQuery& scene, RandomStream random);
+
+  /// Wind at the vehicle's place now; turbulence moves on by the way through the air since the
+  /// last call. Call it once a physics step, time never running back.
+  /// @param p_W  place, m  @param v_W  velocity of the vehicle, m/s
+  /// @param dt  time since the last call (the physics step)
+  /// @returns in W, m/s; exactly zero where calm(). Valid until the next call
+  const Eigen::Vector3d& sample(Time now, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
+                                Duration dt);
+
+  /// No wind at all, ever: sample() need not be called.
+  bool calm() const { return calm_; }
+  double air_density_kgm3() const { return wind_->air_density_kgm3; }
+
+  /// Parts of the last sample, in W, m/s, after shelter: they sum up to it.
+  const Eigen::Vector3d& mean_W() const { return mean_W_; }
+  const Eigen::Vector3d& gust_W() const { return gust_W_; }
+  const Eigen::Vector3d& turbulence_W() const { return turbulence_W_; }
+
+ private:
+  void find_ground(const Eigen::Vector3d& p_W, bool tick);
+  void advance_turbulence(Time now, double height_m, double airspeed_mps, Duration dt);
+
+  const Wind* wind_;
+  const HeightField* terrain_ = nullptr;
+  const SceneQuery* scene_;
+  bool calm_;
+  Eigen::Vector2d downwind_;  // unit, where the mean wind blows to
+  WindShelter shelter_;
+  RandomGusts random_gusts_;
+  DrydenTurbulence turbulence_;
+  double turbulence_wind_mps_ = 0.0;  // at 20 ft, times Wind::turbulence
+  double ground_m_ = 0.0;
+
+  // Turbulence between two knots, along, left of and above the mean wind, m/s.
+  Eigen::Vector3d knot_ = Eigen::Vector3d::Zero(), next_knot_ = Eigen::Vector3d::Zero();
+  Time knot_time_, next_time_;
+  bool started_ = false;
+  double way_m_ = 0.0;  // through the air since the last knot
+
+  Eigen::Vector3d mean_W_ = Eigen::Vector3d::Zero(), gust_W_ = Eigen::Vector3d::Zero(),
+                  turbulence_W_ = Eigen::Vector3d::Zero(), wind_W_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace vinerow::vehicles

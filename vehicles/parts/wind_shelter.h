@@ -1,0 +1,64 @@
+#pragma once
+/// How much of the wind is left between the rows of a block.
+///
+/// Inside, below the canopy's top h, wind falls off like exp(-a (1 - z / h)) from what it is at the
+/// top (Cionco, "A mathematical model for air flow in a vegetative canopy", J. Appl. Meteorol. 4,
+/// 1965). Across the rows a is the world's attenuation; along them kAlongShare of it: the air is
+/// channelled into the rows' direction, where the block acts like a sparse canopy (Miller, Stoll,
+/// Mahaffee, Neill, "Mean and turbulent flow statistics in a trellised agricultural canopy",
+/// Boundary-Layer Meteorol. 165, 2017; the share is chosen).
+///
+/// Inside means within an alley or a row's strip. Beyond their outline the shelter fades over
+/// one canopy height (chosen) along a smooth step. Held on a grid, so that a question costs the
+/// same in any world.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/api/map.h"
+
+namespace vinerow::vehicles {
+
+/// Shelter above a point of the ground.
+struct ShelterSpot {
+  double inside = 0.0;                               ///< 0 outside to 1 inside the block
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< unit, direction of the rows, either sense
+  double top_m = 0.0;                                ///< of the canopy above the ground
+};
+
+/// What is left of the wind at a height.
+struct ShelterFactors {
+  double along = 1.0;
+  double across = 1.0;  ///< also of the vertical wind
+};
+
+class WindShelter {
+ public:
+  static constexpr double kAlongShare = 0.5;
+
+  /// @param attenuation  0: none
+  WindShelter(const RowMap& rows, double attenuation);
+
+  bool none() const { return spots_.empty(); }
+  /// inside == 0 where there is none.
+  ShelterSpot spot(const Eigen::Vector2d& p_W) const;
+  ShelterFactors factors(const ShelterSpot& spot, double height_m) const;
+
+ private:
+  struct Node {
+    float inside, top_m;
+    float axis_x, axis_y;  // direction of the rows at twice its angle, so that senses agree
+  };
+  const Node& node(int i, int j) const {
+    return spots_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                  static_cast<std::size_t>(i)];
+  }
+
+  double attenuation_;
+  int columns_ = 0, rows_ = 0;
+  double cell_m_ = 0.5;
+  Eigen::Vector2d corner_W_ = {0, 0};
+  std::vector<Node> spots_;  // columns * rows, x fastest
+};
+
+}  // namespace vinerow::vehicles

@@ -55,4 +55,8 @@ struct Wind {
   }
 };
 
+/// @throws ConfigError "wind.roughness_length_m = 12 m, must be < wind.reference_height_m = 10 m"
+/// and the like: one sentence with key, value and what is allowed.
+void validate(const Wind& wind);
+
 }  // namespace vinerow

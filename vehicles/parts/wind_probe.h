@@ -37,12 +37,14 @@ class WindProbe {
   /// Knots of the turbulence, between which it runs straight: the same for every physics step.
   static constexpr Duration kTurbulenceTick{5'000'000};
 
+  /// @throws ConfigError as validate(Wind)
   /// @param world,scene  outlive the probe
   /// @param random  of this vehicle alone: VehicleContext.random("wind")
   WindProbe(const WorldModel& world, const SceneQuery& scene, RandomStream random);
 
   /// Wind at the vehicle's place now; turbulence moves on by the way through the air since the
-  /// last call. Call it once a physics step, time never running back.
+  /// last call. Call it once a physics step, time never running back. A vehicle that drifts with
+  /// the mean wind still meets new eddies at the speed sigma_u (an eddy lives about L / sigma).
   /// @param p_W  place, m  @param v_W  velocity of the vehicle, m/s
   /// @param dt  time since the last call (the physics step)
   /// @returns in W, m/s; exactly zero where calm(). Valid until the next call
@@ -60,24 +62,25 @@ class WindProbe {
 
  private:
   void find_ground(const Eigen::Vector3d& p_W, bool tick);
-  void advance_turbulence(Time now, double height_m, double airspeed_mps, Duration dt);
+  void move_knots(Time now, double height_m, double airspeed_mps);
 
   const Wind* wind_;
-  const HeightField* terrain_ = nullptr;
+  const HeightField* terrain_;
   const SceneQuery* scene_;
   bool calm_;
   Eigen::Vector2d downwind_;  // unit, where the mean wind blows to
   WindShelter shelter_;
   RandomGusts random_gusts_;
   DrydenTurbulence turbulence_;
-  double turbulence_wind_mps_ = 0.0;  // at 20 ft, times Wind::turbulence
+  double wind_20ft_mps_;  // times Wind::turbulence; 0: no turbulence
   double ground_m_ = 0.0;
 
-  // Turbulence between two knots, along, left of and above the mean wind, m/s.
+  // Turbulence along, left of and above the mean wind at two knots, m/s.
   Eigen::Vector3d knot_ = Eigen::Vector3d::Zero(), next_knot_ = Eigen::Vector3d::Zero();
   Time knot_time_, next_time_;
   bool started_ = false;
   double way_m_ = 0.0;  // through the air since the last knot
+  double slowest_mps_ = 0.0;
 
   Eigen::Vector3d mean_W_ = Eigen::Vector3d::Zero(), gust_W_ = Eigen::Vector3d::Zero(),
                   turbulence_W_ = Eigen::Vector3d::Zero(), wind_W_ = Eigen::Vector3d::Zero();

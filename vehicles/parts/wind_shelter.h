@@ -21,15 +21,19 @@ namespace vinerow::vehicles {
 
 /// Shelter above a point of the ground.
 struct ShelterSpot {
-  double inside = 0.0;                               ///< 0 outside to 1 inside the block
-  Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< unit, direction of the rows, either sense
-  double top_m = 0.0;                                ///< of the canopy above the ground
+  double inside = 0.0;  ///< 0 outside to 1 inside the block
+  /// Direction of the rows at twice its angle from x, so that both senses agree; unit inside.
+  Eigen::Vector2d axis = Eigen::Vector2d::Zero();
+  double top_m = 0.0;  ///< of the canopy above the ground
 };
 
 /// What is left of the wind at a height.
 struct ShelterFactors {
-  double along = 1.0;
+  double along = 1.0;   ///< the rows
   double across = 1.0;  ///< also of the vertical wind
+
+  /// @param axis  of the spot
+  Eigen::Vector3d apply(const Eigen::Vector3d& wind_W, const Eigen::Vector2d& axis) const;
 };
 
 class WindShelter {
@@ -42,12 +46,12 @@ class WindShelter {
   bool none() const { return spots_.empty(); }
   /// inside == 0 where there is none.
   ShelterSpot spot(const Eigen::Vector2d& p_W) const;
+  /// @param height_m  above the ground
   ShelterFactors factors(const ShelterSpot& spot, double height_m) const;
 
  private:
   struct Node {
-    float inside, top_m;
-    float axis_x, axis_y;  // direction of the rows at twice its angle, so that senses agree
+    float inside, axis_x, axis_y, top_m;
   };
   const Node& node(int i, int j) const {
     return spots_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
@@ -56,7 +60,7 @@ class WindShelter {
 
   double attenuation_;
   int columns_ = 0, rows_ = 0;
-  double cell_m_ = 0.5;
+  double cell_m_ = 1.0;
   Eigen::Vector2d corner_W_ = {0, 0};
   std::vector<Node> spots_;  // columns * rows, x fastest
 };

@@ -31,17 +31,25 @@ class FlightPorts {
     return has_reference() && reference().phase == ReferenceTrajectory::Phase::kDone;
   }
 
+  /// The reference at a moment between its points: position by cubic Hermite pieces, the rest
+  /// linear. After the last point it stays there, at rest. @pre has_reference()
+  TrajectoryPoint reference_at(Time now) const;
+  /// False while a take-off has not left the ground, where integrators and observers would learn
+  /// what the ground carries. As of the last write().
+  bool has_lifted_off() const { return has_lifted_off_; }
+
   /// Mixes and writes. No heap. @returns what the rotors can make of it
   Wrench write(Time now, const Wrench& wanted);
   /// Rotors off.
   void write_off(Time now);
 
  private:
+  void write_values(Time now, const Wrench& wanted, const Wrench& reached);
   void write_follower(Time now);
 
   Rotorcraft craft_;
   RotorMixer mixer_;
-  std::vector<double> speeds_radps_;
+  bool has_lifted_off_ = false;
   NamedValues actuator_values_;
   NamedValues wrench_values_;
   SignalReader<Odometry> estimate_;

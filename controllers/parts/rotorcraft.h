@@ -39,7 +39,9 @@ struct Rotorcraft {
 /// (i from 1), `rotor_thrust_coefficient`, `rotor_torque_coefficient`, `rotor_min_radps`,
 /// `rotor_max_radps`, `rotor_lag_s`, `rotor_drag_Ns_per_m`, `inertia_xx_kgm2`, `inertia_yy_kgm2`,
 /// `inertia_zz_kgm2`.
-/// @throws ConfigError "vehicle type 'x' does not tell 'rotor_count', which drone.controller needs"
+/// @throws ConfigError "drone.controller needs 'rotor_count', which vehicle type 'x' does not
+/// tell"; numbers that no rotorcraft has; "the rotors lift 15.2 N at most, less than the weight
+/// of 19.6 N"
 Rotorcraft read_rotorcraft(const VehicleDescription& description, double gravity_mps2,
                            const std::string& who);
 
@@ -47,7 +49,9 @@ Rotorcraft read_rotorcraft(const VehicleDescription& description, double gravity
 /// State: position (3, m), velocity (3, m/s), roll, pitch, yaw error (rad), body rates p, q, r
 /// (rad/s); with lag four more, the wrench that acts: thrust less weight (N), torques (N m).
 /// Input: the wanted wrench, thrust less weight (N) and torques about x, y, z (N m).
-/// Source: paper A, section 4.2; reference: 16 states.
+/// No wind, no rotor inertia: x' = v, v' = g (pitch, -roll, 0) + (0, 0, thrust) / m - drag / m v,
+/// angles' = rates, rates' = torques / J, wrench' = (wanted - wrench) / lag.
+/// Source: paper A, section 4.2, with z up and the rotors' lag and drag added.
 struct HoverModel {
   static constexpr int kStates = 12;
   static constexpr int kStatesWithLag = 16;
@@ -55,6 +59,7 @@ struct HoverModel {
   Eigen::MatrixXd A;
   Eigen::MatrixXd B;
 };
+/// @throws ConfigError if with_lag and the craft's rotors have none
 HoverModel make_hover_model(const Rotorcraft& craft, bool with_lag);
 
 }  // namespace vinerow

@@ -118,6 +118,7 @@ struct MetricContext : PartContext {
   const VehicleDescription* vehicle_description = nullptr;
   const SceneQuery* scene = nullptr;
   const WorldModel* world = nullptr;
+  const Vehicle* vehicle_truth = nullptr;  ///< for what no signal tells: crash()
 };
 
 /// Builds the true world. Everything is decided here; a WorldModel does not change afterwards.

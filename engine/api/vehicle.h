@@ -45,6 +45,8 @@ struct VehicleDescription {
 
   /// @throws ConfigError "vehicle type 'x' does not tell 'track_m', which rover.controller needs"
   double number(const std::string& name, const std::string& who) const;
+  /// Whether it flies: tells "rotor_count" or "wing_span_m".
+  bool flies() const { return numbers.contains("rotor_count") || numbers.contains("wing_span_m"); }
   /// The footprint; the collision box's where none is given.
   std::vector<Eigen::Vector2d> outline_B() const;
   /// Index of an actuator. @throws ConfigError naming the actuators the vehicle has and the

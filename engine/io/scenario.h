@@ -43,10 +43,17 @@ struct NamedPart {
   PartConfig part;
 };
 
+/// What becomes of a run in which a vehicle crashes. Its verdict is failed either way.
+enum class OnCrash {
+  kEnd,  ///< the run ends at that instant
+  kFail  ///< it goes on for the others
+};
+
 struct VehicleConfig {
   std::string name;
   PartConfig vehicle;
   SpawnConfig spawn;
+  OnCrash on_crash = OnCrash::kEnd;
   std::vector<NamedPart> sensors;       ///< in file order
   std::optional<PartConfig> estimator;  ///< absent: estimate = truth
   std::optional<PartConfig> planner;

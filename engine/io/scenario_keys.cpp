@@ -102,6 +102,9 @@ const std::vector<StructuralKey>& scenario_keys() {
 const std::vector<StructuralKey>& vehicle_keys() {
   static const std::vector<StructuralKey> keys = {
       required_key(shaped("spawn", KeyShape::kSpawn, "where the vehicle starts")),
+      parameter(choice_parameter("on_crash", "end", {"end", "fail"},
+                                 "what a crash of the vehicle does beside failing the run: it ends "
+                                 "there, or goes on for the others")),
       part("sensors", KeyShape::kNamedParts, PartKind::kSensor, true, "the sensors by name"),
       part("estimator", KeyShape::kPart, PartKind::kEstimator, true,
            "makes the estimate from sensors; absent: the estimate is the truth"),

@@ -188,6 +188,14 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
   vehicle.where = entry.mark;
   for (const StructuralKey& key : vehicle_keys()) {
     const std::string key_path = join_path(path, key.spec.name);
+    if (key.shape == KeyShape::kParameter) {
+      ReadParameters read = read_parameters(entry.value, entry.mark, path, {key.spec}, path);
+      vehicle.on_crash = read.values.text("on_crash") == "end" ? OnCrash::kEnd : OnCrash::kFail;
+      for (YamlEntry& written : read.resolved.entries) {
+        resolved.put(written.key, std::move(written.value));
+      }
+      continue;
+    }
     const YamlEntry* given = entry.value.find_entry(key.spec.name);
     if (!given || (key.removable && given->value.is_null())) {
       if (key.spec.required) {

@@ -11,7 +11,8 @@ constexpr int kBlock = 32;      // segments per bounding box
 constexpr int kHintWindow = 4;  // segments tried first on either side of the hint
 }  // namespace
 
-PolylineDistance::PolylineDistance(std::vector<Eigen::Vector2d> points)
+template <int kDimension>
+PolylineDistanceIn<kDimension>::PolylineDistanceIn(std::vector<Point> points)
     : points_(std::move(points)) {
   VINEROW_DEMAND(!points_.empty());
   if (points_.size() == 1) points_.push_back(points_.front());
@@ -23,21 +24,23 @@ PolylineDistance::PolylineDistance(std::vector<Eigen::Vector2d> points)
   }
 }
 
-void PolylineDistance::try_segment(int segment, const Eigen::Vector2d& p, Nearest& best) const {
-  const Eigen::Vector2d& a = points_[segment];
-  const Eigen::Vector2d ab = points_[segment + 1] - a;
-  const Eigen::Vector2d ap = p - a;
+template <int kDimension>
+void PolylineDistanceIn<kDimension>::try_segment(int segment, const Point& p, Nearest& best) const {
+  const Point& a = points_[segment];
+  const Point ab = points_[segment + 1] - a;
+  const Point ap = p - a;
   const double length2 = ab.squaredNorm();
   const double fraction = length2 > 0.0 ? std::clamp(ap.dot(ab) / length2, 0.0, 1.0) : 0.0;
-  const Eigen::Vector2d point = a + fraction * ab;
+  const Point point = a + fraction * ab;
   const double distance = (p - point).norm();
   if (distance >= best.distance_m) return;
   const double cross = ab.x() * ap.y() - ab.y() * ap.x();
   best = {distance, std::copysign(distance, cross), segment, fraction, point};
 }
 
-PolylineDistance::Nearest PolylineDistance::nearest_within(const Eigen::Vector2d& p, int first,
-                                                           int last) const {
+template <int kDimension>
+typename PolylineDistanceIn<kDimension>::Nearest PolylineDistanceIn<kDimension>::nearest_within(
+    const Point& p, int first, int last) const {
   Nearest best;
   first = std::clamp(first, 0, segments() - 1);
   last = std::clamp(last, first, segments() - 1);
@@ -45,8 +48,9 @@ PolylineDistance::Nearest PolylineDistance::nearest_within(const Eigen::Vector2d
   return best;
 }
 
-PolylineDistance::Nearest PolylineDistance::nearest(const Eigen::Vector2d& p,
-                                                    int hint_segment) const {
+template <int kDimension>
+typename PolylineDistanceIn<kDimension>::Nearest PolylineDistanceIn<kDimension>::nearest(
+    const Point& p, int hint_segment) const {
   // A good first guess, then only those blocks whose box is nearer than the best so far.
   Nearest best = nearest_within(p, hint_segment - kHintWindow, hint_segment + kHintWindow);
   for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
@@ -57,6 +61,9 @@ PolylineDistance::Nearest PolylineDistance::nearest(const Eigen::Vector2d& p,
   }
   return best;
 }
+
+template class PolylineDistanceIn<2>;
+template class PolylineDistanceIn<3>;
 
 void PeakCounter::add(double value) {
   const auto is_step = [this](double change) {
@@ -78,24 +85,28 @@ void PeakCounter::add(double value) {
   }
 }
 
-PolylineDistance::Nearest DeviationMeter::add(const Eigen::Vector2d& p) {
-  const PolylineDistance::Nearest nearest = path_.nearest(p, segment_);
-  segment_ = nearest.segment;
+void DeviationStatistics::add(double distance_m) {
   ++samples_;
-  sum_m_ += nearest.distance_m;
-  max_m_ = std::max(max_m_, nearest.distance_m);
-  peaks_.add(nearest.distance_m);
-  return nearest;
+  sum_m_ += distance_m;
+  max_m_ = std::max(max_m_, distance_m);
+  peaks_.add(distance_m);
 }
 
-double DeviationMeter::average_m() const {
+double DeviationStatistics::average_m() const {
   return samples_ > 0 ? sum_m_ / static_cast<double>(samples_)
                       : std::numeric_limits<double>::quiet_NaN();
 }
 
-double DeviationMeter::relative_accuracy_per_m() const {
+double DeviationStatistics::relative_accuracy_per_m() const {
   const double product = average_m() * static_cast<double>(oscillations());
   return product > 0.0 ? 1.0 / product : std::numeric_limits<double>::quiet_NaN();
+}
+
+PolylineDistance::Nearest DeviationMeter::add(const Eigen::Vector2d& p) {
+  const PolylineDistance::Nearest nearest = path_.nearest(p, segment_);
+  segment_ = nearest.segment;
+  DeviationStatistics::add(nearest.distance_m);
+  return nearest;
 }
 
 }  // namespace vinerow

@@ -17,40 +17,50 @@
 
 namespace vinerow {
 
-/// A fixed polyline in the plane that answers "how far, and where" exactly.
-class PolylineDistance {
+/// A fixed polyline in the plane (kDimension 2) or in space (3) that answers "how far, and where"
+/// exactly.
+template <int kDimension>
+class PolylineDistanceIn {
  public:
+  using Point = Eigen::Matrix<double, kDimension, 1>;
+
   struct Nearest {
     double distance_m = std::numeric_limits<double>::infinity();
-    double signed_distance_m = 0.0;  ///< positive: left of the nearest segment
+    double signed_distance_m = 0.0;  ///< positive: left of the nearest segment, seen from above
     int segment = 0;                 ///< index of its first point
     double fraction = 0.0;           ///< 0..1 along the segment
-    Eigen::Vector2d point = Eigen::Vector2d::Zero();
+    Point point = Point::Zero();
   };
 
-  PolylineDistance() = default;
+  PolylineDistanceIn() = default;
   /// @param points  at least one, m; a single point is a polyline of length zero
-  explicit PolylineDistance(std::vector<Eigen::Vector2d> points);
+  explicit PolylineDistanceIn(std::vector<Point> points);
 
   /// Nearest point of the whole polyline. Of equals the one on the lowest segment that was tried
   /// first from the hint. Cost: a few segments and one box per 32 segments; no heap.
   /// @param hint_segment  where to look first; decides the cost, never the distance
-  Nearest nearest(const Eigen::Vector2d& p, int hint_segment = 0) const;
+  Nearest nearest(const Point& p, int hint_segment = 0) const;
 
   /// Nearest point among segments [first, last] only, clamped to the polyline.
-  Nearest nearest_within(const Eigen::Vector2d& p, int first, int last) const;
+  Nearest nearest_within(const Point& p, int first, int last) const;
 
-  const std::vector<Eigen::Vector2d>& points() const { return points_; }
+  const std::vector<Point>& points() const { return points_; }
   int segments() const { return static_cast<int>(points_.size()) - 1; }
   double length_m() const { return length_m_; }
 
  private:
-  void try_segment(int segment, const Eigen::Vector2d& p, Nearest& best) const;
+  void try_segment(int segment, const Point& p, Nearest& best) const;
 
-  std::vector<Eigen::Vector2d> points_;
-  std::vector<Eigen::AlignedBox2d> blocks_;  ///< of 32 segments each
+  std::vector<Point> points_;
+  std::vector<Eigen::AlignedBox<double, kDimension>> blocks_;  ///< of 32 segments each
   double length_m_ = 0.0;
 };
+
+extern template class PolylineDistanceIn<2>;
+extern template class PolylineDistanceIn<3>;
+
+using PolylineDistance = PolylineDistanceIn<2>;
+using SpacePolylineDistance = PolylineDistanceIn<3>;
 
 /// Counts the local maxima of a curve as it comes, without keeping it.
 ///
@@ -72,17 +82,16 @@ class PeakCounter {
   std::int64_t count_ = 0;
 };
 
-/// ATD, OF and RA of a mission, sample by sample. Memory does not grow with the mission.
-class DeviationMeter {
+/// ATD, OF and RA of distances as they come. Memory does not grow with the mission.
+class DeviationStatistics {
  public:
   static constexpr double kLeastProminence_m = 1e-6;
 
-  explicit DeviationMeter(std::vector<Eigen::Vector2d> path,
-                          double least_prominence_m = kLeastProminence_m)
-      : path_(std::move(path)), peaks_(least_prominence_m) {}
+  explicit DeviationStatistics(double least_prominence_m = kLeastProminence_m)
+      : peaks_(least_prominence_m) {}
 
-  /// @param p  true position in the plane, m. @returns where it is on the path
-  PolylineDistance::Nearest add(const Eigen::Vector2d& p);
+  /// @param distance_m  from the path, not negative
+  void add(double distance_m);
 
   std::int64_t samples() const { return samples_; }
   double average_m() const;  ///< ATD; NaN without samples
@@ -90,15 +99,29 @@ class DeviationMeter {
   std::int64_t oscillations() const { return peaks_.count(); }
   /// 1/(ATD OF), 1/m; NaN if either is zero.
   double relative_accuracy_per_m() const;
+
+ private:
+  PeakCounter peaks_;
+  std::int64_t samples_ = 0;
+  double sum_m_ = 0.0;
+  double max_m_ = 0.0;
+};
+
+/// The same of a track in the plane.
+class DeviationMeter : public DeviationStatistics {
+ public:
+  explicit DeviationMeter(std::vector<Eigen::Vector2d> path,
+                          double least_prominence_m = kLeastProminence_m)
+      : DeviationStatistics(least_prominence_m), path_(std::move(path)) {}
+
+  /// @param p  true position in the plane, m. @returns where it is on the path
+  PolylineDistance::Nearest add(const Eigen::Vector2d& p);
+
   const PolylineDistance& path() const { return path_; }
 
  private:
   PolylineDistance path_;
-  PeakCounter peaks_;
   int segment_ = 0;
-  std::int64_t samples_ = 0;
-  double sum_m_ = 0.0;
-  double max_m_ = 0.0;
 };
 
 }  // namespace vinerow

@@ -32,7 +32,7 @@ Camera chase_camera(const Pose& X_WB, const ChaseOptions& options) {
   // Up and down the slope with the body's x axis, but never with its roll.
   const Eigen::Vector3d forward = X_WB.q * Eigen::Vector3d::UnitX();
   const double level = std::max(forward.head<2>().norm(), 0.2);
-  const double slope = forward.z() / level;
+  const double slope = options.follows_slope ? forward.z() / level : 0.0;
   const double yaw = yaw_from_quaternion(X_WB.q);
   const double from = yaw + options.side_rad;
   const double back = options.distance_m;

@@ -20,6 +20,8 @@ struct ChaseOptions {
   double target_ahead_m = 1.5;
   double target_height_m = 0.3;
   double fov_rad = 0.96;
+  /// Goes up and down with the body's x axis. Not for what pitches to gain speed, as rotorcraft do.
+  bool follows_slope = true;
 };
 
 /// Follows a vehicle up and down hill, with the horizon level: roll does not reach the picture.

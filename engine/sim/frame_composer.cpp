@@ -18,6 +18,8 @@ const Eigen::Vector3f kTrailColours[] = {
     {1.0f, 0.72f, 0.05f}, {1.0f, 0.3f, 0.7f}, {0.3f, 0.95f, 0.9f}};
 /// Lines hover this much above what they follow, so that grass does not swallow them.
 constexpr double kHover_m = 0.06;
+/// A chasing eye comes no nearer to the ground behind what flies.
+constexpr double kLeastEyeHeight_m = 0.5;
 /// Points of a trail closer than this are left out.
 constexpr double kTrailPitch_m = 0.1;
 
@@ -52,6 +54,13 @@ const VehicleTrace& FrameComposer::trace_of(const std::string& vehicle) const {
   return trace_.vehicles.at(vehicle);
 }
 
+bool FrameComposer::flies(const std::string& vehicle) const {
+  for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
+    if (scenario_.vehicles[v].name == vehicle) return vehicles_[v]->description().flies();
+  }
+  return false;
+}
+
 double FrameComposer::ground_m(double x, double y) const {
   return world_.terrain ? world_.terrain->height_m(x, y) : 0.0;
 }
@@ -66,6 +75,13 @@ render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, doub
       options.height_m = camera.height_m;
       options.side_rad = camera.yaw_rad;
       options.fov_rad = camera.fov_rad;
+      options.follows_slope = !flies(camera.vehicle);
+      if (!options.follows_slope) {
+        // Behind what flies along a slope the ground may be higher than the eye.
+        const Eigen::Vector3d eye = render::chase_camera(X_WB, options).X_WC.p;
+        const double least_m = ground_m(eye.x(), eye.y()) + kLeastEyeHeight_m;
+        options.height_m += std::max(0.0, least_m - eye.z());
+      }
       return render::chase_camera(X_WB, options);
     }
     case io::CameraKind::kOnBoard:

@@ -26,6 +26,7 @@ class FrameComposer {
   void add_trees(Time t, render::Frame& frame) const;
   void add_rays(Time t, render::Frame& frame) const;
   double ground_m(double x, double y) const;
+  bool flies(const std::string& vehicle) const;
   const VehicleTrace& trace_of(const std::string& vehicle) const;
 
   const io::Scenario& scenario_;

@@ -69,6 +69,10 @@ class LogObserver final : public RunObserver {
     if (name.ends_with("/wheels")) return period_of_rate(config.truth_rate_Hz) * 2;
     // A charge changes slowly, and its message is a large one.
     if (name.ends_with("/battery")) return period_of_rate(std::min(1.0, config.truth_rate_Hz));
+    // The previews of one reference repeat each other.
+    if (std::string_view(signal.type()) == ReferenceTrajectory::kType) {
+      return period_of_rate(config.truth_rate_Hz) * 4;
+    }
     const bool is_event = std::string_view(signal.type()) == Event::kType;
     if (is_event || name.ends_with("/plan") || name.ends_with("/contacts")) return {};
     return period_of_rate(config.sensor_rate_limit_Hz);
@@ -146,7 +150,9 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
     simulation.emit(Event::Level::kInfo, "run", fmt::format("started '{}'", scenario.name));
     step_to_end(simulation, options, start);
     simulation.emit(Event::Level::kInfo, "run",
-                    simulation.finished() ? "mission finished" : "duration is over");
+                    simulation.finished()           ? "mission finished"
+                    : !simulation.crashes().empty() ? "ended after a crash"
+                                                    : "duration is over");
     if (log) log->on_instant(simulation.now());
   } catch (const SimulationError& error) {
     result.status = RunStatus::kBrokenOff;
@@ -161,7 +167,12 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   result.finished = simulation.finished();
   result.metrics = simulation.metrics();
   result.criteria = judge(scenario.criteria, result.metrics);
+  result.crashes = simulation.crashes();
   if (result.status == RunStatus::kAllMet) {
+    if (!result.crashes.empty()) result.status = RunStatus::kCriterionFailed;
+    for (const Crash& crash : result.crashes) {
+      result.error += (result.error.empty() ? "" : "; ") + crash.sentence();
+    }
     for (const CriterionResult& criterion : result.criteria) {
       if (!criterion.met) result.status = RunStatus::kCriterionFailed;
     }

@@ -9,6 +9,7 @@
 
 #include "engine/api/registry.h"
 #include "engine/io/scenario.h"
+#include "engine/sim/crash.h"
 
 namespace vinerow {
 
@@ -41,12 +42,13 @@ struct RunOptions {
 
 struct RunResult {
   RunStatus status = RunStatus::kAllMet;
-  std::string error;  ///< one sentence for kBrokenOff
+  std::string error;  ///< one sentence for kBrokenOff and for crashes
   std::string digest;
   double simulated_s = 0.0;
   double wall_s = 0.0;  ///< of stepping, without building the world and without pictures
   bool finished = false;
   std::vector<CriterionResult> criteria;
+  std::vector<Crash> crashes;  ///< any of them makes the status kCriterionFailed
   std::map<std::string, std::map<std::string, double>> metrics;
   std::vector<std::filesystem::path> pictures;
   std::string picture_note;  ///< why there are no pictures, if they were asked for

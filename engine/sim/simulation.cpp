@@ -72,11 +72,31 @@ void Simulation::emit(Event::Level level, const std::string& source, const std::
 bool Simulation::finished() const {
   bool any = false;
   for (const auto& vehicle : vehicles_) {
+    if (vehicle->crash()) return false;
     if (!vehicle->has_controller()) continue;
     any = true;
     if (!vehicle->finished()) return false;
   }
   return any;
+}
+
+std::vector<Crash> Simulation::crashes() const {
+  std::vector<Crash> all;
+  for (const auto& vehicle : vehicles_) {
+    if (vehicle->crash()) all.push_back(*vehicle->crash());
+  }
+  return all;
+}
+
+bool Simulation::is_done() const {
+  bool any = false, all = true;
+  for (const auto& vehicle : vehicles_) {
+    if (vehicle->crash() && vehicle->on_crash() == io::OnCrash::kEnd) return true;
+    if (!vehicle->has_controller()) continue;
+    any = true;
+    all = all && (vehicle->crash() || vehicle->finished());
+  }
+  return scenario_.stop_when_finished && any && all;
 }
 
 void Simulation::work_instant() {
@@ -120,7 +140,7 @@ void Simulation::run_until(Time end) {
                   scenario_.physics_step.ns};
   while (!over_ && now_ <= end) {
     work_instant();
-    over_ = now_ >= last || (scenario_.stop_when_finished && finished());
+    over_ = now_ >= last || is_done();
     if (!over_) step_physics();
   }
 }

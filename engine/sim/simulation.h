@@ -13,6 +13,7 @@
 #include "engine/core/hash.h"
 #include "engine/io/scenario.h"
 #include "engine/physics/physics_world.h"
+#include "engine/sim/crash.h"
 #include "engine/sim/scheduler.h"
 
 namespace vinerow {
@@ -50,10 +51,13 @@ class Simulation {
   void run_until(Time end);
   /// Runs to the scenario's end.
   void run();
-  /// No further step will be made: the duration is over or every controller has finished.
+  /// No further step will be made: the duration is over, every controller has finished or lost its
+  /// vehicle, or a vehicle crashed whose crash ends the run.
   bool over() const { return over_; }
-  /// Every controller said that it has finished.
+  /// Every controller said that it has finished, and no vehicle crashed.
   bool finished() const;
+  /// In the vehicles' order.
+  std::vector<Crash> crashes() const;
   /// The next instant to be worked on.
   Time now() const { return now_; }
   std::uint64_t steps() const { return steps_; }
@@ -75,6 +79,8 @@ class Simulation {
 
  private:
   void work_instant();
+  /// Nobody has anything left to do, or a crash ends the run.
+  bool is_done() const;
   /// Hands what parts wrote as events of their own to "run/events".
   void pass_on_events();
   void hash_new_signals();

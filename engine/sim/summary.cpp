@@ -22,6 +22,14 @@ Json criteria_json(const RunResult& result) {
   return list;
 }
 
+Json crashes_json(const RunResult& result) {
+  Json list = Json::array();
+  for (const Crash& crash : result.crashes) {
+    list.push_back({{"vehicle", crash.vehicle}, {"time_s", crash.time.s()}, {"text", crash.text}});
+  }
+  return list;
+}
+
 Json cost_json(Simulation& simulation) {
   Json list = Json::array();
   for (const Scheduler::TaskReport& task : simulation.scheduler().reports()) {
@@ -35,12 +43,12 @@ Json cost_json(Simulation& simulation) {
   return list;
 }
 
-const char* status_name(RunStatus status) {
-  switch (status) {
+const char* status_name(const RunResult& result) {
+  switch (result.status) {
     case RunStatus::kAllMet:
       return "all criteria met";
     case RunStatus::kCriterionFailed:
-      return "a criterion failed";
+      return result.crashes.empty() ? "a criterion failed" : "a vehicle crashed";
     case RunStatus::kBadInput:
       return "bad input";
     case RunStatus::kBrokenOff:
@@ -59,7 +67,7 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   const io::Scenario& scenario = simulation.scenario();
   Json summary;
   summary["scenario"] = scenario.name;
-  summary["status"] = status_name(result.status);
+  summary["status"] = status_name(result);
   summary["exit_status"] = static_cast<int>(result.status);
   if (!result.error.empty()) summary["error"] = result.error;
   summary["seed"] = scenario.seed;
@@ -71,6 +79,7 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   summary["physics_step_s"] = scenario.physics_step.s();
   summary["steps"] = simulation.steps();
   summary["criteria"] = criteria_json(result);
+  if (!result.crashes.empty()) summary["crashes"] = crashes_json(result);
   summary["metrics"] = Json::object();
   for (const auto& [vehicle, metrics] : result.metrics) {
     for (const auto& [name, value] : metrics) summary["metrics"][vehicle][name] = value;

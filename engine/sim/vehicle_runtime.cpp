@@ -222,12 +222,7 @@ void VehicleRuntime::add_controller() {
       run_.registry.make_controller(config_.controller->type, config_.controller->parameters,
                                     controller_context_of(part, control_rate_Hz()));
   add_stepped(Stage::kControl, part, config_.controller->type, control_rate_Hz(), *controller_);
-  const SignalBase* plan = run_.bus.find(config_.name + "/plan");
-  if (!planner_ && plan && plan->first_reader() == part) {
-    throw ConfigError(fmt::format("{}: {}: '{}' follows a plan, but the vehicle has no planner",
-                                  config_.controller->where.text(), part,
-                                  config_.controller->type));
-  }
+  refuse_a_missing_plan();
   Ports ports(run_.bus, config_.name, config_.name);
   actuators_ = ports.read<NamedValues>("actuators");
   actuator_values_.assign(vehicle_->description().actuators.size(), 0.0);
@@ -235,8 +230,20 @@ void VehicleRuntime::add_controller() {
                      period_of_rate(control_rate_Hz()), {}, [this](Time now) { actuate(now); });
 }
 
+void VehicleRuntime::refuse_a_missing_plan() const {
+  const SignalBase* plan = run_.bus.find(config_.name + "/plan");
+  if (planner_ || plan == nullptr) return;
+  const auto refuse = [&](const io::PartConfig& part, const std::string& name) {
+    if (plan->first_reader() != name) return;
+    throw ConfigError(fmt::format("{}: {}: '{}' follows a plan, but the vehicle has no planner",
+                                  part.where.text(), name, part.type));
+  };
+  if (config_.guidance) refuse(*config_.guidance, config_.name + ".guidance");
+  refuse(*config_.controller, config_.name + ".controller");
+}
+
 void VehicleRuntime::actuate(Time now) {
-  if (!said_finished_ && controller_->finished()) {
+  if (!said_finished_ && finished()) {
     said_finished_ = true;
     run_.emit(Event::Level::kInfo, config_.name + ".controller", "finished its path");
   }
@@ -271,6 +278,7 @@ void VehicleRuntime::add_metrics() {
     metric_context.vehicle_description = &vehicle_->description();
     metric_context.scene = &run_.physics.scene();
     metric_context.world = &run_.world;
+    metric_context.vehicle_truth = vehicle_.get();
     metrics_.push_back(
         {metric.name,
          run_.registry.make_metric(metric.part.type, metric.part.parameters, metric_context)});
@@ -315,6 +323,13 @@ void VehicleRuntime::after_physics(Time now, Duration step) {
         fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m", p.x(), p.y()));
   }
   watch_contacts(now);
+  watch_crash(now);
+}
+
+void VehicleRuntime::watch_crash(Time now) {
+  if (crash_ || vehicle_->crash().empty()) return;
+  crash_ = Crash{config_.name, now, std::string(vehicle_->crash())};
+  run_.emit(Event::Level::kError, config_.name, fmt::format("crashed: {}", crash_->text));
 }
 
 void VehicleRuntime::watch_contacts(Time now) {
@@ -344,6 +359,10 @@ void VehicleRuntime::watch_contacts(Time now) {
   if (is_touching != was_touching || contacts_.values[0] != touches_before) {
     contacts_writer_.write(now, contacts_);
   }
+}
+
+std::string Crash::sentence() const {
+  return fmt::format("{} crashed at {:.3f} s: {}", vehicle, time.s(), text);
 }
 
 std::map<std::string, double> VehicleRuntime::metric_results() const {

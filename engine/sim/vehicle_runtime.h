@@ -4,12 +4,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/api/registry.h"
 #include "engine/io/scenario.h"
 #include "engine/physics/physics_world.h"
+#include "engine/sim/crash.h"
 #include "engine/sim/scheduler.h"
 
 namespace vinerow {
@@ -34,8 +36,12 @@ class VehicleRuntime {
   const std::string& name() const { return config_.name; }
   const Vehicle& vehicle() const { return *vehicle_; }
   const Odometry& truth() const { return truth_; }
-  bool finished() const { return controller_ == nullptr || controller_->finished(); }
+  /// Its controller has nothing left to do; without a controller always. Never after a crash.
+  bool finished() const { return !crash_ && (controller_ == nullptr || controller_->finished()); }
   bool has_controller() const { return controller_ != nullptr; }
+  /// How it was wrecked, if it was.
+  const std::optional<Crash>& crash() const { return crash_; }
+  io::OnCrash on_crash() const { return config_.on_crash; }
 
   /// Reads the bodies and writes "truth". Called at every instant.
   void publish_truth(Time now);
@@ -64,11 +70,14 @@ class VehicleRuntime {
   void add_estimator();
   void add_planner();
   void add_controller();
+  /// @throws ConfigError naming who reads a plan that no planner writes
+  void refuse_a_missing_plan() const;
   void add_metrics();
   void publish_diagnostics(Time now);
   void try_to_plan(Time now);
   void actuate(Time now);
   void watch_contacts(Time now);
+  void watch_crash(Time now);
   double control_rate_Hz() const;
   /// Runs a part's tick; turns what it throws and the NaN it writes into a SimulationError with a
   /// name.
@@ -105,6 +114,7 @@ class VehicleRuntime {
   int end_body_ = 0;
   bool planned_ = false;
   bool said_finished_ = false;
+  std::optional<Crash> crash_;
   std::vector<std::string> diagnostic_signals_;
 };
 

@@ -71,7 +71,9 @@ void print_result(const RunResult& result, const std::filesystem::path& out, boo
                (out / "frames").string(), result.pictures.back().string());
   }
   if (!result.picture_note.empty()) fmt::print("pictures none: {}\n", result.picture_note);
-  if (!result.error.empty()) fmt::print(stderr, "vinerow: the run broke off: {}\n", result.error);
+  if (result.error.empty()) return;
+  const bool broke_off = result.status == RunStatus::kBrokenOff;
+  fmt::print(stderr, "vinerow: {}{}\n", broke_off ? "the run broke off: " : "", result.error);
 }
 
 }  // namespace

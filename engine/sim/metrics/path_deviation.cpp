@@ -23,13 +23,15 @@ class PathDeviation final : public Metric {
     if (plan_.take_over()) take_over_plan();
     if (!meter_) return;
     const Odometry& truth = truth_.value();
-    const Eigen::Vector2d p = truth.X_WB.p.head<2>();
-    const PolylineDistance::Nearest nearest = meter_->add(p);
+    const PlanStretch::Place nearest = plan_.find(truth.X_WB.p);
+    meter_->add(nearest.distance_m);
     if (!plan_.is_leg(nearest.segment)) {
-      if (plan_.is_turn(nearest.segment)) turns_.add(plan_.curve_distance_m(nearest, p));
+      if (plan_.is_turn(nearest.segment)) {
+        turns_.add(plan_.curve_distance_m(nearest, truth.X_WB.p.head<2>()));
+      }
       return;
     }
-    legs_.add(nearest.distance_m);
+    legs_.add(nearest.lateral_m);
     headings_.add(wrap_angle(yaw_from_quaternion(truth.X_WB.q) - segment_yaw_[nearest.segment]));
     const int alley = plan_.points()[nearest.segment].alley;
     if (alley >= 0 && leg_share_[nearest.segment] > 0.9) alleys_.insert(alley);
@@ -71,12 +73,12 @@ class PathDeviation final : public Metric {
       }
       begin = end;
     }
-    meter_.emplace(line);
+    meter_.emplace();
   }
 
   SignalReader<Odometry> truth_;
   PlanStretch plan_;
-  std::optional<DeviationMeter> meter_;
+  std::optional<DeviationStatistics> meter_;
   std::vector<double> segment_yaw_;
   std::vector<double> leg_share_;
   Spread legs_, turns_, headings_;

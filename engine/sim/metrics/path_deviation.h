@@ -5,7 +5,7 @@
 /// Results over the whole mission, samples at the metric's rate (default: the controller's) plus
 /// the start:
 ///   average_deviation_m (ATD), deviation_max_m, oscillation_count (OF), relative_accuracy_per_m =
-///   1/(ATD OF), all from the polyline of the plan's points
+///   1/(ATD OF), all from the polyline of the plan's points (in the plane, of a flight in space)
 /// and on the legs, where the plants are (stretches of kind kLeg):
 ///   cross_track_rms_m, cross_track_max_m, heading_error_rms_rad, leg_samples
 /// and in the turns, from the plan's arcs (PlanStretch::curve_distance_m):

@@ -1,5 +1,6 @@
 #include "engine/sim/metrics/plan_stretch.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vinerow {
@@ -17,25 +18,53 @@ bool PlanStretch::take_over() {
   line.reserve(points_.size());
   for (const PathPoint& point : points_) line.push_back(point.p_W.head<2>());
   line_ = PolylineDistance(std::move(line));
+  flight_.reset();
+  const bool flies = std::any_of(points_.begin(), points_.end(), [](const PathPoint& point) {
+    return point.kind == PathKind::kVertical || point.kind == PathKind::kReturn;
+  });
+  if (flies) {
+    std::vector<Eigen::Vector3d> in_space;
+    in_space.reserve(points_.size());
+    for (const PathPoint& point : points_) in_space.push_back(point.p_W);
+    flight_.emplace(std::move(in_space));
+  }
   segment_ = 0;
   return true;
 }
 
-PolylineDistance::Nearest PlanStretch::find(const Eigen::Vector2d& p) {
-  const PolylineDistance::Nearest nearest = line_.nearest(p, segment_);
-  segment_ = nearest.segment;
-  return nearest;
+PlanStretch::Place PlanStretch::find(const Eigen::Vector3d& p_W) {
+  const Eigen::Vector2d p = p_W.head<2>();
+  Place place;
+  PolylineDistance::Nearest in_plane;
+  if (flight_) {
+    const SpacePolylineDistance::Nearest in_space = flight_->nearest(p_W, segment_);
+    in_plane = line_.nearest_within(p, in_space.segment, in_space.segment);
+    place.distance_m = in_space.distance_m;
+  } else {
+    in_plane = line_.nearest(p, segment_);
+    place.distance_m = in_plane.distance_m;
+  }
+  segment_ = place.segment = in_plane.segment;
+  place.fraction = in_plane.fraction;
+  place.lateral_m = in_plane.distance_m;
+  const double from_m = points_[segment_].p_W.z(), to_m = points_[segment_ + 1].p_W.z();
+  place.plan_z_m = from_m + place.fraction * (to_m - from_m);
+  return place;
 }
 
-double PlanStretch::curve_distance_m(const PolylineDistance::Nearest& at,
-                                     const Eigen::Vector2d& p) const {
+bool PlanStretch::is_steep(int segment) const {
+  const Eigen::Vector3d way = points_[segment + 1].p_W - points_[segment].p_W;
+  return std::abs(way.z()) > way.head<2>().norm();
+}
+
+double PlanStretch::curve_distance_m(const Place& at, const Eigen::Vector2d& p) const {
   const double curvature = points_[at.segment].curvature_per_m;
   const Eigen::Vector2d& from = line_.points()[at.segment];
   const Eigen::Vector2d chord = line_.points()[at.segment + 1] - from;
   const double half_m = 0.5 * chord.norm();
   const bool inside = at.fraction > 0.0 && at.fraction < 1.0;
   if (!inside || std::abs(curvature) < 1e-9 || half_m * std::abs(curvature) >= 1.0) {
-    return at.distance_m;
+    return at.lateral_m;
   }
   // The centre lies on the chord's bisector, to the left of a left bend.
   const double radius_m = 1.0 / std::abs(curvature);

@@ -3,6 +3,10 @@
 ///
 /// A point belongs to the nearest segment of the plan's polyline; a segment's kind is that of its
 /// first point. Ways to and from the rows are neither leg nor turn.
+///
+/// Nearest means in the plane, because a plan on the ground and a body's origin differ in height.
+/// Of a flight (a plan with a stretch that is vertical or leads home) it means in space: its way
+/// home crosses above its legs, and take-off and landing are one point in the plane.
 
 #include <Eigen/Core>
 #include <optional>
@@ -15,6 +19,15 @@ namespace vinerow {
 
 class PlanStretch {
  public:
+  /// Where a point is on the plan.
+  struct Place {
+    int segment = 0;
+    double fraction = 0.0;    ///< 0..1 along the segment, in the plane
+    double distance_m = 0.0;  ///< from the polyline: in the plane, of a flight in space
+    double lateral_m = 0.0;   ///< from the segment in the plane, not negative
+    double plan_z_m = 0.0;    ///< height of the plan there, in W
+  };
+
   /// Reads "plan" where there is one.
   void connect(Ports& ports);
   /// Takes over a plan that was written since. Plans of fewer than two points are passed over.
@@ -22,20 +35,25 @@ class PlanStretch {
   bool take_over();
 
   bool has_plan() const { return !points_.empty(); }
+  /// It has a stretch that is vertical or leads home: its heights are those of a flight.
+  bool is_flight() const { return flight_.has_value(); }
   const std::vector<PathPoint>& points() const { return points_; }
   double length_m() const { return length_m_; }
   /// The points in the plane. @pre has_plan()
   const PolylineDistance& line() const { return line_; }
-  /// Nearest place; looks first where the last call found one. @pre has_plan()
-  PolylineDistance::Nearest find(const Eigen::Vector2d& p);
-  bool is_leg(int segment) const { return points_[segment].kind == PathKind::kLeg; }
-  bool is_turn(int segment) const { return points_[segment].kind == PathKind::kTurn; }
+  /// Nearest place; looks first where the last call found one. No heap. @pre has_plan()
+  Place find(const Eigen::Vector3d& p_W);
+  bool is(PathKind kind, int segment) const { return points_[segment].kind == kind; }
+  bool is_leg(int segment) const { return is(PathKind::kLeg, segment); }
+  bool is_turn(int segment) const { return is(PathKind::kTurn, segment); }
+  /// Rises or falls more than it leads on, as at both ends of a way home.
+  bool is_steep(int segment) const;
 
-  /// Distance from the planned curve, m: from the arc through the segment's ends with the curvature
-  /// that the plan tells of it, because a chord of 0.25 m lies 4.4 mm inside an arc of radius 1.77
-  /// m. From the polyline where the segment is straight, its curvature cannot be (chord longer than
-  /// the diameter), or the nearest place is a segment's end.
-  double curve_distance_m(const PolylineDistance::Nearest& at, const Eigen::Vector2d& p) const;
+  /// Distance from the planned curve in the plane, m: from the arc through the segment's ends with
+  /// the curvature that the plan tells of it, because a chord of 0.25 m lies 4.4 mm inside an arc
+  /// of radius 1.77 m. From the segment where it is straight, its curvature cannot be (chord longer
+  /// than the diameter), or the nearest place is one of its ends.
+  double curve_distance_m(const Place& at, const Eigen::Vector2d& p) const;
 
  private:
   SignalReader<PlannedPath> plan_;
@@ -43,6 +61,7 @@ class PlanStretch {
   std::vector<PathPoint> points_;
   double length_m_ = 0.0;
   PolylineDistance line_;
+  std::optional<SpacePolylineDistance> flight_;
   int segment_ = 0;  ///< found last
 };
 

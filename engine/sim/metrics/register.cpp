@@ -1,6 +1,7 @@
 #include "engine/sim/metrics/register.h"
 
 #include "engine/sim/metrics/clearance.h"
+#include "engine/sim/metrics/flight.h"
 #include "engine/sim/metrics/path_deviation.h"
 #include "engine/sim/metrics/travel.h"
 #include "engine/sim/metrics/wheel_slip.h"
@@ -13,6 +14,7 @@ void register_metrics(Registry& registry) {
   registry.add_metric(clearance_spec(), make_clearance);
   registry.add_metric(travel_spec(), make_travel);
   registry.add_metric(wheel_slip_spec(), make_wheel_slip);
+  registry.add_metric(flight_spec(), make_flight);
 
   PartSpec truth;
   truth.name = "truth";

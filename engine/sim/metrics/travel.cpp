@@ -9,7 +9,7 @@ namespace {
 
 class Travel final : public Metric {
  public:
-  explicit Travel(const MetricContext& context) {
+  explicit Travel(const MetricContext& context) : vehicle_(context.vehicle_truth) {
     const auto& numbers = context.vehicle_description->numbers;
     const auto capacity = numbers.find("battery_capacity_J");
     if (capacity != numbers.end()) capacity_J_ = capacity->second;
@@ -49,10 +49,15 @@ class Travel final : public Metric {
             {"energy_J", energy_J},
             {"mean_power_W", mean_power_W},
             {"battery_hours", battery_hours},
-            {"finished", follower_.has_value() && follower_.value().finished ? 1.0 : 0.0}};
+            {"finished", finished() ? 1.0 : 0.0}};
   }
 
  private:
+  bool finished() const {
+    const bool wrecked = vehicle_ != nullptr && !vehicle_->crash().empty();
+    return !wrecked && follower_.has_value() && follower_.value().finished;
+  }
+
   /// A stand begins where the vehicle has been slower than 5 mm/s for 2 s, its springs settled, and
   /// ends above 5 cm/s. A creeping vehicle stands, so that its creep is seen.
   void watch_standing(Time now, const Eigen::Vector3d& p_W, double speed_mps) {
@@ -67,6 +72,7 @@ class Travel final : public Metric {
     if (stands_) standing_drift_m_ = std::max(standing_drift_m_, (p_W - stand_p_W_).norm());
   }
 
+  const Vehicle* vehicle_;
   SignalReader<Odometry> truth_;
   SignalReader<BatteryState> battery_;
   SignalReader<FollowerState> follower_;

@@ -27,6 +27,7 @@ class WheelSlip final : public Metric {
  public:
   explicit WheelSlip(const MetricContext& context) {
     const VehicleDescription& vehicle = *context.vehicle_description;
+    flies_ = vehicle.flies();
     const auto radius = vehicle.numbers.find("wheel_radius_m");
     if (radius != vehicle.numbers.end()) radius_m_ = radius->second;
     // The names of the results are asked for before the wheels have said a word.
@@ -48,8 +49,7 @@ class WheelSlip final : public Metric {
     if (!found_) find_values();
     const Odometry& truth = truth_.value();
     const bool moves = truth.v_WB_B.norm() >= kStanding_mps;
-    const bool turns =
-        plan_.has_plan() && plan_.is_turn(plan_.find(truth.X_WB.p.head<2>()).segment);
+    const bool turns = plan_.has_plan() && plan_.is_turn(plan_.find(truth.X_WB.p).segment);
     const std::vector<double>& values = values_.value().values;
     const auto value = [&](int index) { return index == kAbsent ? 0.0 : values[index]; };
     for (Wheel& wheel : wheels_) {
@@ -66,6 +66,8 @@ class WheelSlip final : public Metric {
   }
 
   std::map<std::string, double> results() const override {
+    // What flies without wheels has no slip to be silent about.
+    if (flies_ && wheels_.empty()) return {};
     std::map<std::string, double> results{{"slip_rms", all_.rms()},
                                           {"slip_max", all_.max_or_nan()},
                                           {"slip_rms_turn", turns_.rms()},
@@ -111,6 +113,7 @@ class WheelSlip final : public Metric {
   }
 
   double radius_m_ = 0.0;
+  bool flies_ = false;
   SignalReader<Odometry> truth_;
   SignalReader<NamedValues> values_;
   std::uint64_t values_seen_ = 0;

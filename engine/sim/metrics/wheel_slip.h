@@ -11,7 +11,8 @@
 /// than 0.05 m/s. A vehicle that does not tell its wheels' radius is judged by its own speed alone.
 ///
 /// Results: slip_rms, slip_max, slip_rms_turn, slip_max_turn and slip_angle_rms_rad over all
-/// wheels, slip_rms_<n> and slip_max_<n> of each. NaN where there are no wheels, or no turns.
+/// wheels, slip_rms_<n> and slip_max_<n> of each. NaN where there are no wheels, or no turns;
+/// of a vehicle that flies and has no wheels there are none.
 
 #include <memory>
 

@@ -53,6 +53,7 @@ TEST(ResolvedScenario, WritesDefaultsSourcesAndAbsolutePaths) {
                 "    braked: false\n"
                 "    wheels: 6\n"
                 "    spawn: {alley: 2, offset_m: 0, reverse: false}\n"
+                "    on_crash: end\n"
                 "metrics:\n"
                 "  deviation:\n"
                 "    type: deviation\n"
@@ -88,6 +89,7 @@ void expect_same_again(const Scenario& first) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.spawn.yaw_rad, b.spawn.yaw_rad);
     EXPECT_EQ(a.spawn.offset_m, b.spawn.offset_m);
+    EXPECT_EQ(a.on_crash, b.on_crash);
     EXPECT_EQ(a.vehicle.parameters.number("mass_kg"), b.vehicle.parameters.number("mass_kg"));
     ASSERT_EQ(a.sensors.size(), b.sensors.size());
     for (std::size_t k = 0; k < a.sensors.size(); ++k) {

@@ -74,6 +74,51 @@ TEST_F(ComposedFrame, ATopCameraLooksAtTheGivenPlace) {
   EXPECT_LT((pixel - Eigen::Vector2d(100, 25)).norm(), 1e-9);
 }
 
+TEST_F(ComposedFrame, LinesOfAFlightAreDrawnAtItsHeight) {
+  VehicleTrace& trace = trace_.vehicles["rover"];
+  PlannedPath& plan = trace.plan.values[0];
+  plan.points[0].p_W = {0, 0, 8.5};
+  plan.points[1].p_W = {3, 0, 10.0};
+  for (int i = 0; i < 3; ++i) {
+    Odometry truth;
+    truth.X_WB.p = {1.0 * i, 0, 8.5 + 0.5 * i};
+    trace.truth.times.push_back(Time{} + duration_from_s(i));
+    trace.truth.values.push_back(truth);
+  }
+  const render::Frame frame = compose(top_camera());
+  ASSERT_EQ(frame.lines.size(), 2u);
+  EXPECT_NEAR(frame.lines[0].points_W[0].z(), 8.5, 0.1);
+  EXPECT_NEAR(frame.lines[0].points_W[1].z(), 10.0, 0.1);
+  ASSERT_EQ(frame.lines[1].points_W.size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(frame.lines[1].points_W[i].z(), 8.5 + 0.5 * i, 0.1) << "the trail";
+  }
+}
+
+// A rotorcraft pitches to gain speed; who chases it would nod with it, and dive into the ground.
+TEST_F(ComposedFrame, AChaseOfAFlyerDoesNotNodAndStaysAboveTheGround) {
+  io::CameraConfig camera;
+  camera.kind = io::CameraKind::kChase;
+  camera.vehicle = "rover";
+  camera.distance_m = 5.0;
+  camera.height_m = 1.0;
+  Trace<Odometry>& truth = trace_.vehicles["rover"].truth;
+  truth.times = {Time{}};
+  truth.values.resize(1);
+  const auto eye_at = [&](double pitch_rad, double z) {
+    truth.values[0].X_WB = {quaternion_from_rpy({0, pitch_rad, 0}), {1, 2, z}};
+    return Eigen::Vector3d(compose(camera).camera.X_WC.p);
+  };
+  // What drives: the eye goes down behind a vehicle that looks up, 5 tan(0.3).
+  EXPECT_NEAR(eye_at(-0.3, 20).z(), 21.0 - 5 * std::tan(0.3), 1e-9);
+  vehicles_[0] = std::make_unique<test::Statue>(0.0, true);
+  EXPECT_LT((eye_at(-0.3, 20) - Eigen::Vector3d(-4, 2, 21)).norm(), 1e-9);
+  EXPECT_LT((eye_at(0.3, 20) - Eigen::Vector3d(-4, 2, 21)).norm(), 1e-9);
+  camera.height_m = -3.0;
+  EXPECT_NEAR(eye_at(0, 20).z(), 17.0, 1e-9);
+  EXPECT_NEAR(eye_at(0, 8.5).z(), 7.5, 1e-9) << "half a metre above the ground at 7 m";
+}
+
 TEST_F(ComposedFrame, TheTreeIsDrawnOnTheGroundFromWhenItIsThere) {
   io::CameraConfig camera = top_camera();
   camera.show_plan = false;

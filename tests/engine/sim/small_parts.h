@@ -28,17 +28,25 @@ inline std::unique_ptr<WorldModel> make_plain(const ParameterSet& parameters, co
   return world;
 }
 
-/// Stands where it was put.
+/// Stands where it was put, and is wrecked from `crash_s` on where that is given.
 class Statue final : public Vehicle {
  public:
-  Statue() { description_.type = "statue"; }
+  explicit Statue(double crash_s = 0.0, bool flies = false) : crash_s_(crash_s) {
+    description_.type = "statue";
+    if (flies) description_.numbers["rotor_count"] = 4;
+  }
   const VehicleDescription& description() const override { return description_; }
   const std::vector<VehicleLink>& links() const override { return links_; }
   void spawn(physics::PhysicsWorld&, const Pose& X_WB) override { X_WB_ = X_WB; }
   void connect(Ports&) override {}
   void actuate(std::span<const double>) override {}
   void before_physics(Time, Duration) override {}
-  void after_physics(Time, Duration) override {}
+  void after_physics(Time now, Duration) override {
+    crashed_ = crashed_ || (crash_s_ > 0.0 && now.s() >= crash_s_);
+  }
+  std::string_view crash() const override {
+    return crashed_ ? "hit the ground at 2.3 m/s" : std::string_view();
+  }
   void read_truth(Odometry& truth) const override { truth.X_WB = X_WB_; }
   Eigen::Vector3d specific_force_B() const override { return {0, 0, 9.8}; }
   void read_links(std::vector<Pose>&) const override {}
@@ -48,6 +56,8 @@ class Statue final : public Vehicle {
   VehicleDescription description_;
   std::vector<VehicleLink> links_;
   Pose X_WB_;
+  double crash_s_;
+  bool crashed_ = false;
 };
 
 /// A straight path of 2 m, and a tree of one branch where `reports` says so.
@@ -73,15 +83,21 @@ class StraightAhead final : public Planner {
 };
 
 /// Writes an event of its own at 0.1 s and, with another source, at 0.3 s, where `tells` says so.
+/// Has finished from `finish_s` on where that is given, and then says so as a follower.
 class Teller final : public Controller {
  public:
-  explicit Teller(const ParameterSet& parameters) : tells_(parameters.boolean("tells")) {}
+  explicit Teller(const ParameterSet& parameters)
+      : tells_(parameters.boolean("tells")), finish_s_(parameters.number("finish_s")) {}
   void connect(Ports& ports) override {
     plan_ = ports.read_optional<PlannedPath>("plan");
     actuators_ = ports.write<NamedValues>("actuators");
     event_ = ports.write<Event>("controller_event");
+    if (finish_s_ > 0.0) follower_ = ports.write<FollowerState>("follower");
   }
+  bool finished() const override { return finished_; }
   void step(Time now) override {
+    finished_ = finish_s_ > 0.0 && now.s() >= finish_s_;
+    if (finished_) follower_.write(now, {.finished = true});
     if (!tells_) return;
     if (now.ns == 100'000'000) event_.write(now, {Event::Level::kWarning, "", "blocked"});
     if (now.ns == 300'000'000) event_.write(now, {Event::Level::kInfo, "rover.dwa", "goes on"});
@@ -89,9 +105,12 @@ class Teller final : public Controller {
 
  private:
   bool tells_;
+  double finish_s_;
+  bool finished_ = false;
   SignalReader<PlannedPath> plan_;
   SignalWriter<NamedValues> actuators_;
   SignalWriter<Event> event_;
+  SignalWriter<FollowerState> follower_;
 };
 
 inline Registry small_registry() {
@@ -106,16 +125,19 @@ inline Registry small_registry() {
   registry.add_world(
       spec("plain", {boolean_parameter("has_map", false, "whether it has an occupancy grid")}),
       make_plain);
-  registry.add_vehicle(spec("statue", {}), [](const ParameterSet&, const VehicleContext&) {
-    return std::make_unique<Statue>();
-  });
+  registry.add_vehicle(
+      spec("statue", {number_parameter("crash_s", "s", 0.0, 0.0, 1e3, "wrecked from then on")}),
+      [](const ParameterSet& parameters, const VehicleContext&) {
+        return std::make_unique<Statue>(parameters.number("crash_s"));
+      });
   registry.add_planner(
       spec("straight_ahead", {boolean_parameter("reports", true, "whether it keeps a report")}),
       [](const ParameterSet& parameters, const PlannerContext&) {
         return std::make_unique<StraightAhead>(parameters);
       });
   registry.add_controller(
-      spec("teller", {boolean_parameter("tells", true, "whether it writes events")}),
+      spec("teller", {boolean_parameter("tells", true, "whether it writes events"),
+                      number_parameter("finish_s", "s", 0.0, 0.0, 1e3, "finished from then on")}),
       [](const ParameterSet& parameters, const ControllerContext&) {
         return std::make_unique<Teller>(parameters);
       });

@@ -99,7 +99,13 @@ RosMap load_ros_map(const std::filesystem::path& yaml_file) {
     fail_at(mode->mark, fmt::format("mode = {}, must be 'trinary'", shown(*mode)));
   }
 
-  const GrayImage image = read_pgm(yaml_file.parent_path() / name.text);
+  const std::filesystem::path picture = yaml_file.parent_path() / name.text;
+  std::error_code error;
+  if (!std::filesystem::exists(picture, error)) {
+    fail_at(name.mark, fmt::format("image = {}: '{}' does not exist{}", shown(name),
+                                   picture.string(), nearest_file_hint(picture)));
+  }
+  const GrayImage image = read_pgm(picture);
   grid.columns = image.width;
   grid.rows = image.height;
   grid.cells.resize(image.values.size());

@@ -65,6 +65,44 @@ TEST(BadInput, AFollowerWithoutAPlannerIsTold) {
       {"s.yaml:6", "'path_follower' follows a plan, but the vehicle has no planner"});
 }
 
+std::string run_two_rows(const std::string& set) {
+  return "run " + scenario_file("vineyard_4ws_two_rows") + " --quiet --no-log --out " +
+         VINEROW_BINARY_DIR + "/scratch/refused --set '" + set + "'";
+}
+
+TEST(BadInput, TheFourWheelSteeringScenarioRefusesWhatItCannotDo) {
+  expect_refused(run_two_rows("rover.type=diff_drive_rover"),
+                 {"rover_paper_a.yaml:", "vehicle 'diff_drive_rover'", "unknown key"});
+  expect_refused(
+      run_two_rows("rover.planner=null"),
+      {"vineyard_4ws_two_rows.yaml:", "'dwa' follows a plan, but the vehicle has no planner"});
+  expect_refused(run_two_rows("rover.planner.alleys=[3, 99]"),
+                 {"rover.planner (rrt_star): alleys holds 99", "0 to 14"});
+  expect_refused(run_two_rows("rover.max_steer_deg=80"),
+                 {"rover.max_steer_deg = 80 deg", "<= 45 deg"});
+  expect_refused(run_two_rows("rover.sensors.sonar_left.rate_Hz=7"),
+                 {"sonar_left.rate_Hz = 7 Hz", "0.142857143 s", "0.001 s"});
+  expect_refused(run_two_rows("world.virtual_walls=perhaps"),
+                 {"world.virtual_walls = 'perhaps'", "true or false"});
+  expect_refused(run_two_rows("rover.on_crash=explode"),
+                 {"rover.on_crash = 'explode'", "end, fail"});
+}
+
+TEST(BadInput, MapsThatCannotServe) {
+  const ScratchFolder folder("maps");
+  const auto yaml = [](const std::string& image, const std::string& origin) {
+    return "image: " + image + "\nresolution: 0.1\norigin: " + origin +
+           "\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+  };
+  folder.file("map.pgm", "P2\n2 2\n255\n255 255 255 255\n");
+  const std::string missing = folder.file("missing.yaml", yaml("nowhere.pgm", "[0, 0, 0]"));
+  const std::string turned = folder.file("turned.yaml", yaml("map.pgm", "[0, 0, 0.3]"));
+  expect_refused(run_two_rows("world.occupancy_file=" + missing),
+                 {"missing.yaml:1", "nowhere.pgm", "does not exist"});
+  expect_refused(run_two_rows("world.occupancy_file=" + turned),
+                 {"turned.yaml:3", "yaw = 0.3 rad, must be 0"});
+}
+
 TEST(BadInput, CyclicIncludesAreNamed) {
   const ScratchFolder folder("cyclic");
   folder.file("a.yaml", "vinerow: 1\ninclude: b.yaml\n");

@@ -146,7 +146,8 @@ TEST_F(RosMapFiles, FaultsInTheYamlAreNamed) {
   EXPECT_EQ(with("free_thresh", "0.7"),
             "ROS map 'map.yaml': free_thresh = 0.7 must not be above occupied_thresh = 0.65");
   EXPECT_EQ(with("image", "[]"), "map.yaml:1: image = a list, must be the name of a PGM file");
-  EXPECT_EQ(with("image", "mop.pgm"), "image 'mop.pgm' does not exist; did you mean 'map.pgm'?");
+  EXPECT_EQ(with("image", "mop.pgm"),
+            "map.yaml:1: image = 'mop.pgm': 'mop.pgm' does not exist; did you mean 'map.pgm'?");
   EXPECT_EQ(error_of(kPicture, kYaml + "negate: 2\n"), "map.yaml:6: negate = 2, must be 0 or 1");
   EXPECT_EQ(error_of(kPicture, kYaml + "mode: scale\n"),
             "map.yaml:6: mode = 'scale', must be 'trinary'");

@@ -87,9 +87,9 @@ std::vector<Pose2> sample_poses(const std::vector<PathPiece>& pieces, double ste
   return poses;
 }
 
-std::vector<PathPiece> shorten(const std::vector<PathPiece>& pieces, double radius_m,
-                               const Footprint& footprint, const WayCost& cost,
-                               double check_step_m) {
+std::vector<PathPiece> shorten_by_cost(const std::vector<PathPiece>& pieces, double radius_m,
+                                       const Footprint& footprint, const WayCost& cost,
+                                       double check_step_m) {
   constexpr int kMostRounds = 4;
   constexpr double kStep_m = 0.5, kGain = 1e-3;
   std::vector<PathPiece> way = pieces;

@@ -29,8 +29,8 @@ std::vector<PathPiece> join_poses(const std::vector<Pose2>& poses, double radius
 std::vector<Pose2> sample_poses(const std::vector<PathPiece>& pieces, double step_m);
 
 /// The way with stretches replaced by single Dubins paths where those cost less and are free.
-std::vector<PathPiece> shorten(const std::vector<PathPiece>& pieces, double radius_m,
-                               const Footprint& footprint, const WayCost& cost,
-                               double check_step_m);
+std::vector<PathPiece> shorten_by_cost(const std::vector<PathPiece>& pieces, double radius_m,
+                                       const Footprint& footprint, const WayCost& cost,
+                                       double check_step_m);
 
 }  // namespace vinerow

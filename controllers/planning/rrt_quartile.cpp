@@ -88,7 +88,7 @@ Result<std::vector<PathPiece>> RrtQuartile::find(const Pose2& from, const Pose2&
       ShortcutParams shortcut;
       shortcut.radius_m = 1.0 / tree_params.curvature_per_m;
       shortcut.check_step_m = tree_params.check_step_m;
-      return shorten(std::move(pieces), shortcut, footprint, random);
+      return shorten_at_random(std::move(pieces), shortcut, footprint, random);
     }
     if (status == TreeStatus::kIterationLimit) {
       return Failure{

@@ -91,7 +91,8 @@ Result<Pieces> RrtStarSearch::find(const Pose2& from, const Pose2& to, const Foo
   const auto improve = [&](const Pieces& way) {
     // A hundredth is not worth the bends that it takes.
     constexpr double kWorthwhile = 0.99;
-    const Pieces shorter = shorten(way, car.radius_m, footprint, cost, params_.check_step_m);
+    const Pieces shorter =
+        shorten_by_cost(way, car.radius_m, footprint, cost, params_.check_step_m);
     if (cost.of(shorter) < kWorthwhile * cost.of(best) &&
         is_free(shorter, footprint, params_.check_step_m)) {
       best = shorter;

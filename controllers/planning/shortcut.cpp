@@ -68,8 +68,9 @@ std::vector<PathPiece> find_shortcut(const Pose2& from, const Pose2& to, double 
 
 }  // namespace
 
-std::vector<PathPiece> shorten(std::vector<PathPiece> pieces, const ShortcutParams& params,
-                               const Footprint& footprint, RandomStream& random) {
+std::vector<PathPiece> shorten_at_random(std::vector<PathPiece> pieces,
+                                         const ShortcutParams& params, const Footprint& footprint,
+                                         RandomStream& random) {
   double length_m = calc_length_m(pieces);
   const int tries = static_cast<int>(std::ceil(params.tries_per_m * length_m));
   for (int i = 0; i <= tries; ++i) {

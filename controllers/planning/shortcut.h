@@ -19,7 +19,8 @@ struct ShortcutParams {
 /// Tries the whole path, then parts drawn at random; a part is
 /// replaced where that is free and saves a centimetre. Ends stay where they are.
 /// @param pieces  free, each starting where the one before ends; not empty
-std::vector<PathPiece> shorten(std::vector<PathPiece> pieces, const ShortcutParams& params,
-                               const Footprint& footprint, RandomStream& random);
+std::vector<PathPiece> shorten_at_random(std::vector<PathPiece> pieces,
+                                         const ShortcutParams& params, const Footprint& footprint,
+                                         RandomStream& random);
 
 }  // namespace vinerow

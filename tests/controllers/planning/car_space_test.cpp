@@ -142,7 +142,7 @@ TEST(Shorten, KeepsEndsAndNeverCostsMore) {
   const std::vector<Pose2> poses = {
       {{1.25, 8.0}, 0.5 * kPi}, {{2.5, 15.0}, 0.0}, {{3.75, 8.0}, -0.5 * kPi}};
   const auto way = join_poses(poses, 1.767);
-  const auto shorter = shorten(way, 1.767, footprint, cost, 0.1);
+  const auto shorter = shorten_by_cost(way, 1.767, footprint, cost, 0.1);
   EXPECT_LT(cost.of(shorter), 0.9 * cost.of(way));
   EXPECT_TRUE(is_free(shorter, footprint, 0.1));
   EXPECT_NEAR((shorter.front().start.p - poses[0].p).norm(), 0.0, 1e-9);

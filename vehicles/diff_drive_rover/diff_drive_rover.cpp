@@ -156,8 +156,10 @@ void DiffDriveRover::publish(Time now) {
 
 std::unique_ptr<Vehicle> make_diff_drive_rover(const ParameterSet& parameters,
                                                const VehicleContext& context) {
-  return std::make_unique<DiffDriveRover>(read_diff_drive_rover_params(parameters, context.vehicle),
-                                          context.gravity_mps2);
+  auto rover = std::make_unique<DiffDriveRover>(
+      read_diff_drive_rover_params(parameters, context.vehicle), context.gravity_mps2);
+  rover->feel_wind(context.random("wind"));
+  return rover;
 }
 
 }  // namespace vinerow::vehicles

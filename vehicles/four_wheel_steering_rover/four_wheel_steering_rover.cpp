@@ -146,8 +146,10 @@ void FourWheelSteeringRover::read_links(std::vector<Pose>& X_WL) const {
 
 std::unique_ptr<Vehicle> make_four_wheel_steering_rover(const ParameterSet& parameters,
                                                         const VehicleContext& context) {
-  return std::make_unique<FourWheelSteeringRover>(
+  auto rover = std::make_unique<FourWheelSteeringRover>(
       read_four_wheel_steering_rover_params(parameters, context.vehicle), context.gravity_mps2);
+  rover->feel_wind(context.random("wind"));
+  return rover;
 }
 
 }  // namespace vinerow::vehicles

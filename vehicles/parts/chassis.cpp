@@ -48,6 +48,7 @@ std::vector<ParameterSpec> chassis_parameter_specs(const ChassisParams& d) {
   for (ParameterSpec& drive : drive_parameter_specs(d.motor, d.tyre, d.battery)) {
     specs.push_back(std::move(drive));
   }
+  for (ParameterSpec& air : air_drag_parameter_specs()) specs.push_back(std::move(air));
   return specs;
 }
 
@@ -70,6 +71,7 @@ void read_chassis_params(const ParameterSet& parameters, const std::string& name
   p.motor = read_motor_params(parameters);
   p.tyre = read_tyre_params(parameters);
   p.battery = read_battery_params(parameters);
+  p.air = read_air_drag_params(parameters);
 }
 
 WheeledPlatformParams chassis_platform_params(const ChassisParams& p, double gravity_mps2) {
@@ -78,6 +80,8 @@ WheeledPlatformParams chassis_platform_params(const ChassisParams& p, double gra
   platform.mass_kg = p.mass_kg;
   platform.inertia_B = p.inertia_kgm2.asDiagonal();
   platform.battery = p.battery;
+  platform.air = p.air;
+  platform.com_height_m = p.com_height_m;
   for (const Corner& corner : kCorners) {
     WheelParams wheel;
     wheel.name = corner.name;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/api/vehicle.h"
+#include "vehicles/parts/air_drag.h"
 #include "vehicles/parts/wheel_mesh.h"
 #include "vehicles/parts/wheeled_platform.h"
 
@@ -40,6 +41,7 @@ struct ChassisParams {
   MotorParams motor{.max_power_W = 1200.0};
   TyreParams tyre;
   BatteryParams battery;
+  AirDragParams air;  ///< none: set it to feel the wind
 
   /// @throws ConfigError
   void validate_chassis() const;
@@ -47,7 +49,7 @@ struct ChassisParams {
   Eigen::Vector3d hub_B(const Corner& corner) const;
 };
 
-/// Sizes, masses, springs, then motor, tyre and battery. @param defaults  of the vehicle
+/// Sizes, masses, springs, then motor, tyre, battery and air drag. @param defaults  of the vehicle
 std::vector<ParameterSpec> chassis_parameter_specs(const ChassisParams& defaults);
 /// Fills everything but the checks. @param parameters  with chassis_parameter_specs()
 void read_chassis_params(const ParameterSet& parameters, const std::string& name,

@@ -22,7 +22,8 @@ void PlatformVehicle::actuate(std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i) platform_->command_speed(i, values[i]);
 }
 
-void PlatformVehicle::before_physics(Time /*now*/, Duration dt) {
+void PlatformVehicle::before_physics(Time now, Duration dt) {
+  platform_->push_by_wind(now, dt);
   platform_->before_physics(dt);
 }
 

@@ -27,6 +27,11 @@ class PlatformVehicle : public Vehicle {
   void read_links(std::vector<Pose>& X_WL) const override;
   void publish(Time now) override;
 
+  /// For factories: lets the wind push (WheeledPlatform::feel_wind). A vehicle without platform,
+  /// of kinematic fidelity, goes its way in any wind.
+  void feel_wind(RandomStream random) {
+    if (platform_) platform_->feel_wind(random);
+  }
   /// Not without build_platform().
   const WheeledPlatform& platform() const { return *platform_; }
 

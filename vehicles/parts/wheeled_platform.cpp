@@ -20,6 +20,7 @@ void WheeledPlatformParams::validate() const {
     throw ConfigError(fmt::format("{}: {} wheels, must be at least 3", name, wheels.size()));
   }
   battery.validate(name);
+  air.validate(name);
 }
 
 std::vector<double> calc_static_loads(std::span<const Eigen::Vector3d> hubs_B, double weight_N) {
@@ -63,6 +64,9 @@ void WheeledPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   state_.body = world.state(body_);
   state_.specific_force_B =
       X_WB.q.conjugate() * Eigen::Vector3d(0.0, 0.0, world.settings().gravity_mps2);
+  if (wind_random_ && !params_.air.none() && !world.world_model().wind.calm()) {
+    wind_.emplace(world.world_model(), world.scene(), *wind_random_);
+  }
   // It was parked there.
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     state_.wheels[i].motor.braked = params_.wheels[i].motor.brake_torque_Nm > 0.0;
@@ -76,6 +80,21 @@ void WheeledPlatform::set_forward_speed(double v_mps) {
     state_.wheels[i].spin_radps = v_mps / params_.wheels[i].radius_m;
     if (v_mps != 0.0) state_.wheels[i].motor.braked = false;
   }
+}
+
+void WheeledPlatform::push_by_wind(Time now, Duration dt) {
+  if (!wind_) return;
+  const physics::BodyState& body = state_.body;
+  const double lever_m =
+      params_.air.pressure_height_m.value_or(params_.com_height_m) - params_.com_height_m;
+  const Eigen::Vector3d lever_W = body.X_WB.q * Eigen::Vector3d(0.0, 0.0, lever_m);
+  const Eigen::Vector3d v_W = body.v_WB_W + body.w_WB_W.cross(lever_W);
+  const Eigen::Vector3d& wind_W = wind_->sample(now, body.X_WB.p + lever_W, v_W, dt);
+  const Eigen::Vector3d f_W =
+      body.X_WB.q * calc_air_drag_B(params_.air, wind_->air_density_kgm3(),
+                                    body.X_WB.q.conjugate() * Eigen::Vector3d(wind_W - v_W));
+  world_->add_central_force_W(body_, f_W);
+  world_->add_torque_W(body_, lever_W.cross(f_W));
 }
 
 void WheeledPlatform::before_physics(Duration dt) {

@@ -3,14 +3,17 @@
 /// vehicle of the project. A vehicle class adds its actuators, meshes and parameters.
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/api/vehicle.h"
 #include "engine/physics/physics_world.h"
+#include "vehicles/parts/air_drag.h"
 #include "vehicles/parts/battery.h"
 #include "vehicles/parts/wheel.h"
+#include "vehicles/parts/wind_probe.h"
 
 namespace vinerow::vehicles {
 
@@ -21,6 +24,8 @@ struct WheeledPlatformParams {
   std::vector<physics::PlacedShape> shapes;
   std::vector<WheelParams> wheels;  ///< at least 3, around B
   BatteryParams battery;
+  AirDragParams air;          ///< none: the wind does not push
+  double com_height_m = 0.0;  ///< of B above level ground, for the wind's lever
 
   /// @throws ConfigError
   void validate() const;
@@ -43,6 +48,10 @@ class WheeledPlatform {
   /// @throws ConfigError
   explicit WheeledPlatform(WheeledPlatformParams params);
 
+  /// Lets the wind push, if the params have a drag area and the world is not calm. Before spawn().
+  /// @param random  the vehicle's own stream for turbulence
+  void feel_wind(RandomStream random) { wind_random_ = random; }
+  /// @throws ConfigError as validate(Wind)
   void spawn(physics::PhysicsWorld& world, const Pose& X_WB);
   /// Rolling without slip at this forward speed, from the next step on: a start in motion.
   void set_forward_speed(double v_mps);
@@ -53,6 +62,8 @@ class WheeledPlatform {
     state_.wheels[wheel].steer_rad = steer_rad;
   }
 
+  /// Force of the wind over the coming step, beside before_physics(). @param now  its start
+  void push_by_wind(Time now, Duration dt);
   void before_physics(Duration dt);
   void after_physics(Duration dt);
 
@@ -64,6 +75,8 @@ class WheeledPlatform {
   const WheeledPlatformParams& params() const { return params_; }
   const WheeledPlatformState& state() const { return state_; }
   std::span<const WheelOutput> outputs() const { return outputs_; }
+  /// Nothing where no wind pushes.
+  const WindProbe* wind() const { return wind_ ? &*wind_ : nullptr; }
   const Wheel& wheel(std::size_t index) const { return wheels_[index]; }
   physics::BodyId body() const { return body_; }
 
@@ -71,6 +84,8 @@ class WheeledPlatform {
   WheeledPlatformParams params_;
   std::vector<Wheel> wheels_;
   WheeledPlatformState state_;
+  std::optional<RandomStream> wind_random_;
+  std::optional<WindProbe> wind_;
   std::vector<double> commands_;
   std::vector<WheelOutput> outputs_;
   physics::PhysicsWorld* world_ = nullptr;

@@ -44,6 +44,8 @@ WheeledPlatformParams platform_params(const UrdfRoverParams& p, const UrdfRoverM
   platform.inertia_B = model.inertia_B;
   platform.shapes = model.shapes;
   platform.battery = p.battery;
+  platform.air = p.air;
+  platform.com_height_m = model.height_above_ground_m;
   // One spring rate for all wheels; the design loads differ with the centre of mass.
   const auto count = static_cast<double>(loads.size());
   const double stiffness = weight_N / count / p.static_deflection_m;
@@ -110,6 +112,7 @@ PartSpec urdf_rover_spec() {
   for (ParameterSpec& drive : drive_parameter_specs(default_motor(), d.tyre, default_battery())) {
     spec.parameters.push_back(std::move(drive));
   }
+  for (ParameterSpec& air : air_drag_parameter_specs()) spec.parameters.push_back(std::move(air));
   return spec;
 }
 
@@ -142,6 +145,7 @@ UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std
   p.motor = read_motor_params(parameters);
   p.tyre = read_tyre_params(parameters);
   p.battery = read_battery_params(parameters);
+  p.air = read_air_drag_params(parameters);
   p.validate();
   return p;
 }
@@ -177,8 +181,10 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
 
 std::unique_ptr<Vehicle> make_urdf_rover(const ParameterSet& parameters,
                                          const VehicleContext& context) {
-  return std::make_unique<UrdfRover>(read_urdf_rover_params(parameters, context.vehicle),
-                                     context.gravity_mps2);
+  auto rover = std::make_unique<UrdfRover>(read_urdf_rover_params(parameters, context.vehicle),
+                                           context.gravity_mps2);
+  rover->feel_wind(context.random("wind"));
+  return rover;
 }
 
 }  // namespace vinerow::vehicles

@@ -27,6 +27,7 @@ struct UrdfRoverParams {
   MotorParams motor;
   TyreParams tyre;
   BatteryParams battery;
+  AirDragParams air;
 
   /// @throws ConfigError
   void validate() const;

@@ -218,7 +218,8 @@ void plant_stand_ins(WorldModel& world, const std::vector<RowCurve>& rows,
   add_alley_spawn_points(world);
 }
 
-std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters, const WorldContext&) {
+std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
+                                            const WorldContext& context) {
   const std::vector<ParameterSet>& items = parameters.groups("items");
   if (items.empty() && !parameters.has("sdf_file")) {
     throw ConfigError("mesh: nothing to load, give items (mesh files) or sdf_file");
@@ -226,7 +227,7 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters, cons
   auto world = std::make_unique<WorldModel>();
   world->name = "mesh";
   world->origin = read_origin(parameters);
-  read_surroundings(parameters, *world);
+  read_surroundings(parameters, context.seed, *world);
   const VinePlanting planting = read_planting(parameters);
 
   MeshLibrary library(*world);

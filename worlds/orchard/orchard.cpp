@@ -104,13 +104,14 @@ RowMap make_map(const OrchardLayout& layout, const TreeParams& trees, const Heig
   return map;
 }
 
-std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters, const WorldContext&) {
+std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
+                                         const WorldContext& context) {
   const OrchardLayout layout = read_layout(parameters);
   const TreeParams trees = read_trees(parameters, layout);
   auto world = std::make_unique<WorldModel>();
   world->name = "orchard";
   world->origin = read_origin(parameters);
-  read_surroundings(parameters, *world);
+  read_surroundings(parameters, context.seed, *world);
 
   TerrainShape shape;
   shape.centre_W = 0.5 * Eigen::Vector2d(layout.field_width_m, layout.field_length_m);

@@ -2,6 +2,7 @@
 
 #include "engine/math/angles.h"
 #include "worlds/parts/soil.h"
+#include "worlds/parts/wind.h"
 
 namespace vinerow::worlds {
 
@@ -35,13 +36,22 @@ std::vector<ParameterSpec> surroundings_parameters() {
           number_parameter("sun_azimuth_deg", "deg", deg_from_rad(light.sun_azimuth_rad), -360, 360,
                            "direction of the sun, from north clockwise"),
           number_parameter("sun_elevation_deg", "deg", deg_from_rad(light.sun_elevation_rad), 1, 90,
-                           "height of the sun above the horizon")};
+                           "height of the sun above the horizon"),
+          wind_parameter()};
 }
 
-void read_surroundings(const ParameterSet& parameters, WorldModel& world) {
+void read_surroundings(const ParameterSet& parameters, std::uint64_t seed, WorldModel& world) {
   world.soil = find_soil(parameters.text("soil"));
   world.daylight.sun_azimuth_rad = rad_from_deg(parameters.number("sun_azimuth_deg"));
   world.daylight.sun_elevation_rad = rad_from_deg(parameters.number("sun_elevation_deg"));
+  world.wind = read_wind(parameters, seed);
+  const bool without_wind =
+      world.wind.mean_speed_mps == 0.0 && world.wind.turbulence_wind_mps <= 0.0;
+  if (world.wind.turbulence > 0.0 && without_wind) {
+    world.notes.push_back(
+        "wind.turbulence has no wind to scale with and is left out; give wind.mean_speed_mps or "
+        "wind.turbulence_wind_mps");
+  }
 }
 
 std::vector<ParameterSpec> concatenate(std::vector<std::vector<ParameterSpec>> lists) {

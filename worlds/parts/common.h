@@ -1,6 +1,7 @@
 #pragma once
-/// Parameters that all worlds share: place on Earth, light, soil.
+/// Parameters that all worlds share: place on Earth, light, soil, wind.
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/api/parameters.h"
@@ -15,9 +16,11 @@ std::vector<ParameterSpec> origin_parameters(double latitude_deg, double longitu
 /// given one counts.
 GeoOrigin read_origin(const ParameterSet& parameters, const GeoOrigin& otherwise = {});
 
-/// `soil`, `sun_azimuth_deg`, `sun_elevation_deg`.
+/// `soil`, `sun_azimuth_deg`, `sun_elevation_deg`, the group `wind`.
 std::vector<ParameterSpec> surroundings_parameters();
-void read_surroundings(const ParameterSet& parameters, WorldModel& world);
+/// @param seed  of the run, for gusts by chance
+/// @throws ConfigError as read_wind()
+void read_surroundings(const ParameterSet& parameters, std::uint64_t seed, WorldModel& world);
 
 /// Lists joined in order.
 std::vector<ParameterSpec> concatenate(std::vector<std::vector<ParameterSpec>> lists);

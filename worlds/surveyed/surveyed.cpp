@@ -161,7 +161,8 @@ void append_points(const ParameterSet& parameters, const char* name,
   }
 }
 
-std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters, const WorldContext&) {
+std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
+                                          const WorldContext& context) {
   const std::string& file = parameters.text("survey_file");
   io::SurveyFile survey = io::read_survey(file, parameters.text("row_type"));
   append_points(parameters, "vines_file", survey.vines);
@@ -171,7 +172,7 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters, const 
   auto world = std::make_unique<WorldModel>();
   world->name = "surveyed";
   world->origin = read_origin(parameters, mean_of_rows(survey.rows));
-  read_surroundings(parameters, *world);
+  read_surroundings(parameters, context.seed, *world);
   const io::LocalFrame frame(world->origin);
   const std::vector<RowCurve> rows = read_rows(survey.rows, frame, file);
 

@@ -158,11 +158,11 @@ std::string mesh_key(const ParameterSet& parameters, const HeightField& terrain)
   Hasher hasher;
   hasher.add(kGeneratorVersion);
   ParameterSet shaping = parameters;
-  // Where the files lie, how the sun stands, what is on the map or in the way changes no file.
+  // Where the files lie, sun and wind, what is on the map or in the way changes no file.
   for (const char* name : {"sun_azimuth_deg", "sun_elevation_deg"}) shaping.set(name, 45.0);
   shaping.set("soil", std::string("dry_grass"));
   shaping.set("mesh_folder", std::string());
-  std::vector<std::string> without;
+  std::vector<std::string> without{"wind"};
   for (const auto& specs : {map_parameters(), obstacle_parameters()}) {
     for (const ParameterSpec& spec : specs) without.push_back(spec.name);
   }
@@ -171,13 +171,13 @@ std::string mesh_key(const ParameterSet& parameters, const HeightField& terrain)
   return hasher.hex().substr(0, 16);
 }
 
-std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& given, const WorldContext&) {
+std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& given, const WorldContext& context) {
   const ParameterSet parameters = with_relief(given);
   const VinePlanting planting = read_planting(parameters);
   auto world = std::make_unique<WorldModel>();
   world->name = "vineyard";
   world->origin = read_origin(parameters);
-  read_surroundings(parameters, *world);
+  read_surroundings(parameters, context.seed, *world);
 
   const std::vector<RowCurve> rows = lay_rows(parameters);
   const std::vector<Eigen::Vector2d> boundary =

@@ -1,0 +1,39 @@
+#pragma once
+/// What the wind does to a ground vehicle: drag of its hull, along and across.
+///
+///   f_B = 1/2 rho |v| (A_x v_x, A_y v_y, 0)
+///
+/// with the air's velocity v relative to the vehicle, in B's plane, and drag areas A = C_d times
+/// area. It acts at the centre of pressure. Left out: lift, yaw moment beyond that lever, the
+/// lee of other bodies, and all of it where the world is calm: at 2 m/s the drag of still air on
+/// 1 m2 is 2.5 N, a fortieth of the rolling resistance of 180 kg on dry grass.
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/api/parameters.h"
+
+namespace vinerow::vehicles {
+
+struct AirDragParams {
+  double drag_area_m2 = 0.0;       ///< wind from ahead or behind; 0: none
+  double side_drag_area_m2 = 0.0;  ///< wind from the side
+  /// Of the centre of pressure above level ground; absent: the centre of mass.
+  std::optional<double> pressure_height_m;
+
+  /// @throws ConfigError
+  void validate(const std::string& name) const;
+  bool none() const { return drag_area_m2 == 0.0 && side_drag_area_m2 == 0.0; }
+};
+
+/// `drag_area_m2`, `side_drag_area_m2`, `pressure_centre_height_m`.
+std::vector<ParameterSpec> air_drag_parameter_specs();
+AirDragParams read_air_drag_params(const ParameterSet& parameters);
+
+/// @param air_B  velocity of the air relative to the vehicle, in B, m/s @returns force in B, N
+Eigen::Vector3d calc_air_drag_B(const AirDragParams& params, double air_density_kgm3,
+                                const Eigen::Vector3d& air_B);
+
+}  // namespace vinerow::vehicles

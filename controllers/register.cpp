@@ -6,10 +6,12 @@
 #include "controllers/four_wheel_steering/four_wheel_steering.h"
 #include "controllers/path_follower/path_follower.h"
 #include "controllers/planning/coverage.h"
+#include "controllers/planning/row_flight.h"
 #include "controllers/planning/rrt_quartile.h"
 #include "controllers/planning/rrt_star.h"
 #include "controllers/planning/waypoints.h"
 #include "controllers/pure_pursuit/pure_pursuit.h"
+#include "controllers/trajectory/trajectory.h"
 
 namespace vinerow {
 
@@ -17,10 +19,12 @@ void register_controllers(Registry& registry) {
   registry.add_estimator(gps_pose_spec(), make_gps_pose);
   registry.add_estimator(odometry_filter_spec(), make_odometry_filter);
   registry.add_planner(coverage_spec(), make_coverage);
+  registry.add_planner(row_flight_spec(), make_row_flight);
   registry.add_planner(rrt_quartile_spec(), make_rrt_quartile);
   registry.add_planner(rrt_star_spec(), make_rrt_star);
   registry.add_planner(waypoints_spec(), make_waypoints);
   registry.add_guidance(dwa_spec(), make_dwa);
+  registry.add_guidance(trajectory_spec(), make_trajectory);
   registry.add_controller(pure_pursuit_spec(), make_pure_pursuit);
   registry.add_controller(path_follower_spec(), make_path_follower);
   registry.add_controller(four_wheel_steering_spec(), make_four_wheel_steering);

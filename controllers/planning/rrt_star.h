@@ -4,12 +4,20 @@
 
 #include <memory>
 
+#include "controllers/planning/route_planner.h"
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {
 
 PartSpec rrt_star_spec();
+
+/// Parameters of the search alone: iterations, first_iterations, range_m, reach_m, ...
+std::vector<ParameterSpec> rrt_star_search_parameters();
+/// The search by its parameters. @param route  of the planner that uses it
+std::unique_ptr<PoseSearch> make_rrt_star_search(const ParameterSet& parameters,
+                                                 const RoutePlannerParams& route,
+                                                 const PartContext& context);
 
 /// @throws ConfigError as make_route_planner and read_route_planner_params do
 std::unique_ptr<Planner> make_rrt_star(const ParameterSet& parameters,

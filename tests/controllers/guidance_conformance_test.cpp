@@ -1,7 +1,9 @@
-// What every registered guidance keeps.
+// What every registered guidance keeps: those of ground vehicles, which write "local_command", and
+// those of flying vehicles, which write "reference".
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +12,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/dwa/course.h"
+#include "tests/controllers/trajectory/flight_world.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::test {
@@ -22,6 +25,16 @@ const Registry& all_parts() {
     return r;
   }();
   return registry;
+}
+
+/// Names of the guidances that write a signal.
+std::vector<std::string> guidances_that_write(const std::string& signal) {
+  std::vector<std::string> names;
+  for (const std::string& name : all_parts().names(PartKind::kGuidance)) {
+    const auto& writes = all_parts().spec(PartKind::kGuidance, name).writes;
+    if (std::find(writes.begin(), writes.end(), signal) != writes.end()) names.push_back(name);
+  }
+  return names;
 }
 
 constexpr Time tick(std::int64_t i) {
@@ -81,9 +94,9 @@ struct Bench {
   SignalReader<LocalCommand> command;
 };
 
-class EveryGuidance : public testing::TestWithParam<std::string> {};
+class EveryGroundGuidance : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryGuidance, StandsStillWithoutPlanOrEstimate) {
+TEST_P(EveryGroundGuidance, StandsStillWithoutPlanOrEstimate) {
   Bench bench(GetParam());
   bench.guidance->step(tick(0));
   EXPECT_EQ(bench.command.value().mode, LocalCommand::Mode::kStop);
@@ -97,7 +110,7 @@ TEST_P(EveryGuidance, StandsStillWithoutPlanOrEstimate) {
   EXPECT_EQ(other.command.value().mode, LocalCommand::Mode::kStop);
 }
 
-TEST_P(EveryGuidance, TakesPlansOfOnePointAndOfNone) {
+TEST_P(EveryGroundGuidance, TakesPlansOfOnePointAndOfNone) {
   for (const int points : {0, 1}) {
     Bench bench(GetParam());
     PlannedPath plan;
@@ -109,7 +122,7 @@ TEST_P(EveryGuidance, TakesPlansOfOnePointAndOfNone) {
   }
 }
 
-TEST_P(EveryGuidance, CommandsAreFiniteWithinLimitsAndTheSameTwice) {
+TEST_P(EveryGroundGuidance, CommandsAreFiniteWithinLimitsAndTheSameTwice) {
   Bench a(GetParam()), b(GetParam());
   bool has_moved = false;
   for (Bench* bench : {&a, &b}) bench->plan.write(tick(0), make_alley().plan);
@@ -133,7 +146,7 @@ TEST_P(EveryGuidance, CommandsAreFiniteWithinLimitsAndTheSameTwice) {
   EXPECT_TRUE(has_moved);
 }
 
-TEST_P(EveryGuidance, AllocatesOnlyToTellAnEvent) {
+TEST_P(EveryGroundGuidance, AllocatesOnlyToTellAnEvent) {
   Bench bench(GetParam());
   bench.plan.write(tick(0), make_alley().plan);
   bench.step_at(0);
@@ -148,7 +161,7 @@ TEST_P(EveryGuidance, AllocatesOnlyToTellAnEvent) {
   EXPECT_EQ(allocations, 0u);
 }
 
-TEST_P(EveryGuidance, RefusesVehiclesItDoesNotKnowHowToDrive) {
+TEST_P(EveryGroundGuidance, RefusesVehiclesItDoesNotKnowHowToDrive) {
   VehicleDescription description;
   description.type = "quadrotor";
   description.numbers = {{"arm_m", 0.2}};
@@ -162,6 +175,131 @@ TEST_P(EveryGuidance, RefusesVehiclesItDoesNotKnowHowToDrive) {
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(Guidances, EveryGroundGuidance,
+                         testing::ValuesIn(guidances_that_write("local_command")),
+                         [](const auto& test) { return test.param; });
+
+/// A guidance of flying vehicles and a straight plan of 20 m in the air.
+class EveryFlightGuidance : public testing::TestWithParam<std::string> {
+ protected:
+  static PlannedPath make_flight() {
+    PlannedPath plan;
+    const auto add = [&plan](double x, double z, PathKind kind) {
+      PathPoint point;
+      point.p_W = {x, 0.0, z};
+      point.kind = kind;
+      plan.points.push_back(point);
+    };
+    add(0.0, 0.2, PathKind::kVertical);
+    add(0.0, 1.5, PathKind::kLeg);
+    add(20.0, 1.5, PathKind::kVertical);
+    add(20.0, 0.2, PathKind::kVertical);
+    return plan;
+  }
+  static Odometry at(const Eigen::Vector3d& p_W) {
+    Odometry odometry;
+    odometry.X_WB.p = p_W;
+    return odometry;
+  }
+  /// A vehicle that is pushed about.
+  static Odometry shaken(const TrajectoryPoint& point, int i) {
+    Odometry odometry = at(point.p_W);
+    odometry.X_WB.p += Eigen::Vector3d(0.3 * std::sin(0.3 * i), 0.2 * std::cos(0.2 * i), 0.0);
+    odometry.X_WB.q = quaternion_from_rpy({0.1 * std::sin(0.5 * i), 0.0, point.yaw_rad});
+    odometry.X_WB.p.z() = std::max(odometry.X_WB.p.z(), 0.2);
+    return odometry;
+  }
+};
+
+TEST_P(EveryFlightGuidance, WaitsAtItsPlaceWithoutPlanOrEstimate) {
+  GuideBench bench({}, GetParam());
+  const ReferenceTrajectory blind = bench.step_blind();
+  EXPECT_EQ(blind.phase, Phase::kWait);
+  const ReferenceTrajectory seeing = bench.step(at({1, 2, 3}));
+  EXPECT_EQ(seeing.phase, Phase::kWait);
+  ASSERT_FALSE(seeing.points.empty());
+  EXPECT_EQ(blind.points.size(), seeing.points.size());
+  for (const TrajectoryPoint& point : seeing.points) {
+    EXPECT_EQ(point.p_W, Eigen::Vector3d(1, 2, 3));
+    EXPECT_EQ(point.v_W, Eigen::Vector3d::Zero());
+  }
+  GuideBench other({}, GetParam());
+  other.give_plan(make_flight());
+  EXPECT_EQ(other.step_blind().phase, Phase::kWait);
+}
+
+TEST_P(EveryFlightGuidance, TakesPlansOfOnePointAndOfNone) {
+  for (const int points : {0, 1}) {
+    GuideBench bench({}, GetParam());
+    PlannedPath plan;
+    plan.points.resize(static_cast<std::size_t>(points));
+    bench.give_plan(plan);
+    EXPECT_EQ(bench.step(at({0, 0, 0.2})).phase, Phase::kWait);
+  }
+}
+
+TEST_P(EveryFlightGuidance, ReferencesAreFiniteComeToAnEndAndAreTheSameTwice) {
+  GuideBench a({}, GetParam()), b({}, GetParam());
+  for (GuideBench* bench : {&a, &b}) bench->give_plan(make_flight());
+  Odometry estimate = at({0, 0, 0.2});
+  std::size_t points = 0;
+  Phase phase = Phase::kWait;
+  double fastest = 0.0;
+  for (int i = 0; i < 1200 && phase != Phase::kDone; ++i) {
+    const ReferenceTrajectory& x = a.step(estimate);
+    const ReferenceTrajectory& y = b.step(estimate);
+    if (points == 0) points = x.points.size();
+    ASSERT_EQ(x.points.size(), points);
+    ASSERT_GT(x.dt_s, 0.0);
+    for (std::size_t k = 0; k < points; ++k) {
+      const TrajectoryPoint& p = x.points[k];
+      ASSERT_TRUE(p.p_W.allFinite() && p.v_W.allFinite() && p.a_W.allFinite());
+      ASSERT_TRUE(std::isfinite(p.yaw_rad) && std::isfinite(p.yaw_rate_radps));
+      ASSERT_TRUE(p.p_W == y.points[k].p_W && p.v_W == y.points[k].v_W &&
+                  p.a_W == y.points[k].a_W && p.yaw_rad == y.points[k].yaw_rad);
+      fastest = std::max(fastest, p.v_W.norm());
+    }
+    ASSERT_TRUE(x.phase == y.phase && x.distance_m == y.distance_m);
+    ASSERT_GE(x.remaining_m, 0.0);
+    phase = x.phase;
+    estimate = shaken(x.points[1], i);
+  }
+  EXPECT_EQ(phase, Phase::kDone);
+  EXPECT_GT(fastest, 1.0);
+}
+
+TEST_P(EveryFlightGuidance, AllocatesOnlyToTellAnEvent) {
+  GuideBench bench({}, GetParam());
+  bench.give_plan(make_flight());
+  Odometry estimate = at({0, 0, 0.2});
+  bench.step(estimate);
+  std::size_t allocations = 0;
+  for (int i = 0; i < 800; ++i) {
+    const std::size_t told = bench.events().size();
+    AllocationCounter counter;
+    const ReferenceTrajectory& reference = bench.step(estimate);
+    if (bench.events().size() == told) allocations += counter.count();
+    estimate = shaken(reference.points[1], i);
+  }
+  EXPECT_EQ(allocations, 0u);
+}
+
+TEST_P(EveryFlightGuidance, RefusesVehiclesThatDoNotFly) {
+  try {
+    GuideBench bench({}, GetParam(), make_four_wheel_rover());
+    FAIL() << "must be refused";
+  } catch (const ConfigError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find("drone.guidance (" + GetParam() + ") needs 'rotor_count'"), 0u) << text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Guidances, EveryFlightGuidance,
+                         testing::ValuesIn(guidances_that_write("reference")),
+                         [](const auto& test) { return test.param; });
+
+class EveryGuidance : public testing::TestWithParam<std::string> {};
+
 TEST_P(EveryGuidance, DocumentsItsParametersAndSignals) {
   const PartSpec& spec = all_parts().spec(PartKind::kGuidance, GetParam());
   EXPECT_GT(spec.default_rate_Hz, 0.0);
@@ -169,6 +307,14 @@ TEST_P(EveryGuidance, DocumentsItsParametersAndSignals) {
   for (const ParameterSpec& parameter : spec.parameters) {
     EXPECT_FALSE(parameter.description.empty()) << parameter.name;
   }
+}
+
+TEST_P(EveryGuidance, IsOfOneOfTheKindsTestedHere) {
+  const auto ground = guidances_that_write("local_command");
+  const auto flight = guidances_that_write("reference");
+  EXPECT_EQ(std::count(ground.begin(), ground.end(), GetParam()) +
+                std::count(flight.begin(), flight.end(), GetParam()),
+            1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Guidances, EveryGuidance,

@@ -1,0 +1,77 @@
+#pragma once
+/// A whole flight as a function of time: runs of the smoothed curve with their time laws, and rests
+/// between them, where the rotors spin up, the vehicle turns or holds its place.
+
+#include <optional>
+#include <vector>
+
+#include "controllers/trajectory/time_law.h"
+#include "controllers/trajectory/yaw_move.h"
+
+namespace vinerow {
+
+/// Holding a place before the last run, the landing.
+struct FlightHold {
+  double duration_s = 0.0;  ///< infinite: never lands
+  std::optional<double> yaw_rad;
+};
+
+struct FlightOptions {
+  FlightLimits limits;
+  double spin_up_s = 1.0;          ///< rest on the ground before the take-off
+  double landing_reserve_m = 1.0;  ///< how far below the plan's end the landing is continued
+  double sharp_rad = 0.35;         ///< sharper bends are flown by a stop
+  std::optional<FlightHold> hold;
+};
+
+class FlightTrajectory {
+ public:
+  using Phase = ReferenceTrajectory::Phase;
+  struct Sample {
+    TrajectoryPoint point;
+    Phase phase = Phase::kWait;
+    double distance_m = 0.0;  ///< along the plan
+  };
+
+  FlightTrajectory() = default;
+  /// Allocates. @param yaw_rad  the vehicle's before the take-off
+  FlightTrajectory(const PlannedPath& plan, double yaw_rad, const FlightOptions& options);
+
+  /// True where the plan has no length.
+  bool empty() const { return stages_.empty(); }
+  double duration_s() const { return stages_.back().end_s; }
+  /// Of the plan; without what the landing is continued by.
+  double length_m() const { return length_m_; }
+  double end_height_m() const { return end_height_m_; }
+
+  /// Clamped to [0, duration_s()]. No heap. @pre !empty()
+  Sample at(double time_s) const;
+
+ private:
+  struct Stage {
+    double start_s = 0.0, end_s = 0.0;
+    int run = -1;          ///< -1: rest
+    bool follows = false;  ///< the yaw follows the path
+    YawMove yaw;
+    double yaw_shift_rad = 0.0;  ///< whole turns between the run's own yaw and the flight's
+    Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+    Phase phase = Phase::kTransit;  ///< of rests and of vertical runs
+    double start_m = 0.0;           ///< along the plan
+  };
+  void add_rest(double duration_s, Phase phase);
+  void add_run(int run, bool is_first, bool is_last, std::optional<double> next_yaw_rad,
+               const FlightOptions& options);
+  Phase phase_of(const Stage& stage, double along_m) const;
+
+  std::vector<SmoothRun> runs_;
+  std::vector<TimeLaw> laws_;
+  std::vector<Stage> stages_;
+  YawMove yaw_;  // the last turn on the spot, while the flight is put together
+  Eigen::Vector3d p_W_ = Eigen::Vector3d::Zero();
+  double now_s_ = 0.0, now_m_ = 0.0;
+  bool has_flown_rows_ = false;
+  double length_m_ = 0.0;
+  double end_height_m_ = 0.0;
+};
+
+}  // namespace vinerow

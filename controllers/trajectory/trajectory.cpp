@@ -1,0 +1,187 @@
+#include "controllers/trajectory/trajectory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "controllers/trajectory/flight_clock.h"
+#include "controllers/trajectory/simple_flights.h"
+#include "controllers/trajectory/trajectory_params.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+using Phase = ReferenceTrajectory::Phase;
+
+class Trajectory final : public Guidance {
+ public:
+  Trajectory(const ParameterSet& parameters, const ControllerContext& context)
+      : source_(context.part),
+        params_(read_trajectory_params(parameters, context)),
+        watch_(params_.landing) {
+    reference_.dt_s = params_.sample_s;
+    reference_.points.resize(params_.horizon + 1);
+  }
+
+  void connect(Ports& ports) override {
+    estimate_ = ports.read<Odometry>("estimate");
+    if (!params_.hover_m) plan_ = ports.read<PlannedPath>("plan");
+    out_ = ports.write<ReferenceTrajectory>("reference");
+    news_ = ports.write<Event>("guidance_event");
+  }
+
+  void step(Time now) override {
+    const double dt_s = (now - last_).s();
+    last_ = now;
+    if (flight_.empty()) {
+      take_flight(now);
+    } else if (!has_landed_) {
+      advance(now, dt_s);
+    }
+    write(now);
+  }
+
+ private:
+  /// Works out the flight when all is there that it needs. Allocates.
+  void take_flight(Time now) {
+    if (!estimate_.has_value()) return;
+    const Pose& X_WB = estimate_.value().X_WB;
+    const double yaw_rad = yaw_from_quaternion(X_WB.q);
+    if (params_.hover_m) {
+      Eigen::Vector3d place = *params_.hover_m;
+      place.z() += X_WB.p.z() - params_.standing_m;
+      flight_ = FlightTrajectory(make_hover_plan(X_WB.p, place), yaw_rad, params_.flight);
+    } else if (plan_.is_newer_than(seen_plan_) && plan_.value().points.size() > 1) {
+      const PlannedPath& plan = plan_.value();
+      flight_ = FlightTrajectory(
+          has_vertical(plan) ? plan : lift_plan(plan, X_WB.p, params_.height_m, params_.standing_m),
+          yaw_rad, params_.flight);
+    }
+    if (flight_.empty()) return;
+    tell(now, Event::Level::kInfo,
+         fmt::format("takes off for {:.1f} m that take {:.1f} s", flight_.length_m(),
+                     flight_.duration_s()));
+  }
+
+  void advance(Time now, double dt_s) {
+    clock_.advance(dt_s, wanted_rate_);
+    const FlightTrajectory::Sample present = flight_.at(clock_.time_s());
+    const Odometry& estimate = estimate_.value();
+    const bool lands = present.phase == Phase::kLand;
+    const double away_m = (present.point.p_W - estimate.X_WB.p).norm();
+    // On the way down the ground holds the vehicle back.
+    wanted_rate_ = lands ? 1.0 : calc_clock_rate(away_m, params_.wait_m);
+    tell_waiting(now, away_m, present.distance_m);
+    if (!lands) return;
+    LandingWatch::Seen seen;
+    seen.wanted_mps = present.point.v_W.z() * clock_.rate();
+    seen.vertical_mps = (estimate.X_WB.q * estimate.v_WB_B).z();
+    seen.above_end_m = estimate.X_WB.p.z() - flight_.end_height_m();
+    seen.is_over = clock_.time_s() >= flight_.duration_s();
+    if (!watch_.has_landed(seen, dt_s)) return;
+    has_landed_ = true;
+    rest_.p_W = estimate.X_WB.p;
+    rest_.yaw_rad = present.point.yaw_rad;
+    tell(now, Event::Level::kInfo,
+         fmt::format("landed at ({:.2f}, {:.2f}), {:.2f} m above the end of its plan",
+                     rest_.p_W.x(), rest_.p_W.y(), seen.above_end_m));
+  }
+
+  void write(Time now) {
+    if (flight_.empty() && estimate_.has_value()) {
+      rest_.p_W = estimate_.value().X_WB.p;
+      rest_.yaw_rad = yaw_from_quaternion(estimate_.value().X_WB.q);
+    }
+    if (flight_.empty() || has_landed_) {
+      std::fill(reference_.points.begin(), reference_.points.end(), rest_);
+      reference_.phase = has_landed_ ? Phase::kDone : Phase::kWait;
+      if (has_landed_) reference_.distance_m = flight_.length_m();
+      reference_.remaining_m = 0.0;
+      out_.write(now, reference_);
+      return;
+    }
+    FlightClock clock = clock_;
+    for (std::size_t i = 0; i < reference_.points.size(); ++i) {
+      const FlightTrajectory::Sample sample = flight_.at(clock.time_s());
+      TrajectoryPoint& point = reference_.points[i];
+      point = sample.point;
+      point.v_W *= clock.rate();
+      point.a_W = sample.point.a_W * (clock.rate() * clock.rate()) +
+                  sample.point.v_W * clock.slope_per_s(wanted_rate_);
+      point.yaw_rate_radps *= clock.rate();
+      if (i == 0) {
+        reference_.distance_m = sample.distance_m;
+        reference_.remaining_m = flight_.length_m() - sample.distance_m;
+        reference_.phase = sample.phase;
+      }
+      clock.advance(params_.sample_s, wanted_rate_);
+    }
+    // A plan that does not end on the ground ends in the air.
+    if (clock_.time_s() >= flight_.duration_s() && reference_.phase != Phase::kLand) {
+      reference_.phase = Phase::kHover;
+    }
+    out_.write(now, reference_);
+  }
+
+  /// Once for every time it begins.
+  void tell_waiting(Time now, double away_m, double distance_m) {
+    if (wanted_rate_ == 1.0) {
+      if (away_m < 0.5 * params_.wait_m) is_waiting_ = false;
+      return;
+    }
+    if (is_waiting_) return;
+    is_waiting_ = true;
+    tell(now, Event::Level::kWarning,
+         fmt::format("the vehicle is {:.2f} m from where it should be after {:.1f} m: waits for it",
+                     away_m, distance_m));
+  }
+
+  /// Allocates.
+  void tell(Time now, Event::Level level, std::string text) {
+    Event event;
+    event.level = level;
+    event.source = source_;
+    event.text = std::move(text);
+    news_.write(now, event);
+  }
+
+  std::string source_;
+  TrajectoryParams params_;
+  FlightTrajectory flight_;
+  FlightClock clock_;
+  double wanted_rate_ = 1.0;
+  LandingWatch watch_;
+  bool has_landed_ = false;
+  bool is_waiting_ = false;
+  TrajectoryPoint rest_;  // before and after the flight
+  ReferenceTrajectory reference_;
+  Time last_;
+  std::uint64_t seen_plan_ = 0;
+  SignalReader<Odometry> estimate_;
+  SignalReader<PlannedPath> plan_;
+  SignalWriter<ReferenceTrajectory> out_;
+  SignalWriter<Event> news_;
+};
+
+}  // namespace
+
+PartSpec trajectory_spec() {
+  PartSpec spec;
+  spec.name = "trajectory";
+  spec.description =
+      "Where a flying vehicle should be over the controller's horizon: a time law along the plan "
+      "with 3 m/s in rows, slow turns, climb, way home and landing (paper A, 4.2).";
+  spec.parameters = trajectory_parameters();
+  spec.default_rate_Hz = 20.0;
+  spec.reads = {"estimate", "plan"};
+  spec.writes = {"reference", "guidance_event"};
+  return spec;
+}
+
+std::unique_ptr<Guidance> make_trajectory(const ParameterSet& parameters,
+                                          const ControllerContext& context) {
+  return std::make_unique<Trajectory>(parameters, context);
+}
+
+}  // namespace vinerow

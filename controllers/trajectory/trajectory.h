@@ -1,0 +1,19 @@
+#pragma once
+/// Guidance `trajectory`: a plan in space becomes a reference in time for flying vehicles (paper A,
+/// section 4.2): where to be, how fast and with which acceleration, now and over the controller's
+/// horizon. Parts: flight_curve.h, smooth_run.h, time_law.h, flight_trajectory.h.
+
+#include <memory>
+
+#include "engine/api/part.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+PartSpec trajectory_spec();
+
+/// @throws ConfigError as read_trajectory_params does
+std::unique_ptr<Guidance> make_trajectory(const ParameterSet& parameters,
+                                          const ControllerContext& context);
+
+}  // namespace vinerow

@@ -1,0 +1,32 @@
+#pragma once
+/// Parameters of guidance `trajectory`.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controllers/trajectory/flight_trajectory.h"
+#include "controllers/trajectory/landing_watch.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+struct TrajectoryParams {
+  int horizon = 20;
+  double sample_s = 0.05;
+  FlightOptions flight;
+  LandingWatch::Params landing;
+  double height_m = 1.5;  ///< above plans that lie on the ground
+  double wait_m = 1.0;
+  double standing_m = 0.0;  ///< of B above the ground when the vehicle stands
+  /// Without a planner: x, y in W and the height above the ground at the take-off.
+  std::optional<Eigen::Vector3d> hover_m;
+};
+
+std::vector<ParameterSpec> trajectory_parameters();
+/// @throws ConfigError for a vehicle without rotors, one that is slower than the wanted speeds, or
+/// hover parameters without hover_m
+TrajectoryParams read_trajectory_params(const ParameterSet& parameters,
+                                        const ControllerContext& context);
+
+}  // namespace vinerow

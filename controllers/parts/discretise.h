@@ -11,8 +11,10 @@ struct SampledModel {
 };
 
 /// Zero-order hold: x+ = A x + B u for inputs held over `period_s`, by the matrix exponential of
-/// [A_c B_c; 0 0]. Source: Van Loan, "Computing integrals involving the matrix exponential", IEEE
-/// TAC 23(3), 1978.
+/// [A_c B_c; 0 0]. Several inputs, e.g. controls and disturbances, go side by side into B_c.
+/// Source: Van Loan, "Computing integrals involving the matrix exponential", IEEE TAC 23(3), 1978.
+/// @param A_c  n x n  @param B_c  n x m  @param period_s  > 0
+/// @pre the sizes fit and all numbers are finite
 SampledModel discretise(const Eigen::MatrixXd& A_c, const Eigen::MatrixXd& B_c, double period_s);
 
 }  // namespace vinerow

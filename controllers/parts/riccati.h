@@ -1,5 +1,6 @@
 #pragma once
 /// Discrete-time algebraic Riccati and Lyapunov equations, and the LQR gain that comes of them.
+/// All of them take memory: for set-up, not for a step.
 
 #include <Eigen/Core>
 
@@ -8,9 +9,14 @@
 namespace vinerow {
 
 /// The stabilising P of P = A'PA - A'PB (R + B'PB)^-1 B'PA + Q, by the structured doubling
-/// algorithm (Chu, Fan, Lin, Wang, 2004). @param Q  n x n, symmetric, >= 0 @param R  m x m,
-/// symmetric, > 0
-/// @returns a failure in a sentence where there is none: "(A, B) cannot be stabilised: ..."
+/// algorithm, and one step of Newton's method for the last digits.
+/// Sources: Chu, Fan, Lin, Wang, "Structure-preserving algorithms for periodic discrete-time
+/// algebraic Riccati equations", Int. J. Control 77(8), 2004; Kleinman, IEEE TAC 13(1), 1968.
+/// @param A  n x n  @param B  n x m  @param Q  n x n, symmetric, >= 0
+/// @param R  m x m, symmetric, > 0
+/// @returns a failure in a sentence where there is none: "(A, B) cannot be stabilised: ..."; also
+/// where an unstable mode does not show in Q, "(A, Q) leaves an unstable mode unseen: ..."
+/// @pre the sizes fit
 Result<Eigen::MatrixXd> solve_dare(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
                                    const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R);
 
@@ -18,10 +24,12 @@ Result<Eigen::MatrixXd> solve_dare(const Eigen::MatrixXd& A, const Eigen::Matrix
 Eigen::MatrixXd lqr_gain(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
                          const Eigen::MatrixXd& R, const Eigen::MatrixXd& P);
 
-/// P of P = A'PA + Q. @returns a failure if A is not Schur stable, with its spectral radius
+/// P of P = A'PA + Q, by doubling (Smith, "Matrix equation XA + BX = C", SIAM J. Appl. Math. 16(1),
+/// 1968). @param Q  n x n, symmetric. @returns a failure if A is not Schur stable, with its
+/// spectral radius
 Result<Eigen::MatrixXd> solve_discrete_lyapunov(const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q);
 
-/// Largest magnitude of an eigenvalue.
+/// Largest magnitude of an eigenvalue; infinite where a number of A is not finite.
 double spectral_radius(const Eigen::MatrixXd& A);
 
 }  // namespace vinerow

@@ -2,6 +2,7 @@
 
 #include "vehicles/diff_drive_rover/diff_drive_rover.h"
 #include "vehicles/four_wheel_steering_rover/four_wheel_steering_rover.h"
+#include "vehicles/quadrotor/quadrotor.h"
 #include "vehicles/urdf_rover/urdf_rover.h"
 
 namespace vinerow {
@@ -10,6 +11,7 @@ void register_vehicles(Registry& registry) {
   registry.add_vehicle(vehicles::diff_drive_rover_spec(), vehicles::make_diff_drive_rover);
   registry.add_vehicle(vehicles::four_wheel_steering_rover_spec(),
                        vehicles::make_four_wheel_steering_rover);
+  registry.add_vehicle(vehicles::quadrotor_spec(), vehicles::make_quadrotor);
   registry.add_vehicle(vehicles::urdf_rover_spec(), vehicles::make_urdf_rover);
 }
 

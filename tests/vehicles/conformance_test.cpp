@@ -1,4 +1,5 @@
-/// What every registered vehicle must do. A vehicle that needs parameters gets them in kSetups.
+/// What every registered vehicle must do. A vehicle that needs parameters gets them in setups().
+/// Vehicles on wheels drive, those on rotors fly: each kind has requirements of its own.
 
 #include <gtest/gtest.h>
 
@@ -41,6 +42,10 @@ std::vector<Setup> setups() {
       result.push_back({name + "_wheel_limit", name,
                         [](ParameterSet& set) { set.set("steer_limit", std::string("wheel")); }});
     }
+    if (name == "quadrotor") {
+      result.push_back({name + "_plus", name,
+                        [](ParameterSet& set) { set.set("layout", std::string("plus")); }});
+    }
     if (name == "diff_drive_rover") {
       result.push_back({name + "_kinematic", name,
                         [](ParameterSet& set) { set.set("fidelity", std::string("kinematic")); }});
@@ -49,7 +54,7 @@ std::vector<Setup> setups() {
   return result;
 }
 
-/// A vehicle in a world of its own, driven by speeds of its sides.
+/// A vehicle in a world of its own, driven by speeds of its sides or flown by those of its rotors.
 class Rig {
  public:
   Rig(const Setup& setup, WorldModel model, double yaw_rad = 0.0)
@@ -73,8 +78,31 @@ class Rig {
   }
 
   const VehicleDescription& about() const { return vehicle_->description(); }
+  bool flies() const { return about().numbers.contains("rotor_count"); }
   Vehicle& vehicle() { return *vehicle_; }
   SignalBus& bus() { return bus_; }
+
+  /// All rotors at this speed, within their limits.
+  void spin(double speed_radps) {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      values_[i] = std::clamp(speed_radps, about().actuators[i].min, about().actuators[i].max);
+    }
+    vehicle_->actuate(values_);
+  }
+  /// At which the rotors carry the weight.
+  double hover_radps() const {
+    return std::sqrt(about().mass_kg * 9.80665 / about().number("rotor_count", "the test") /
+                     about().number("rotor_thrust_coefficient", "the test"));
+  }
+  /// A moderate command: about a metre per second, or a take-off.
+  void move() {
+    if (flies()) return spin(1.1 * hover_radps());
+    drive(1.0, 0.6);
+  }
+  void rest() {
+    values_.assign(values_.size(), 0.0);
+    vehicle_->actuate(values_);
+  }
 
   /// Rim speeds of both sides, m/s. A vehicle that steers is asked for the same twist: the yaw rate
   /// of two sides that roll on the track, as far as its steering lets it.
@@ -141,6 +169,9 @@ class Rig {
 };
 
 class VehicleConformance : public testing::TestWithParam<Setup> {};
+/// Requirements of one kind only.
+class WheeledConformance : public VehicleConformance {};
+class FlyingConformance : public VehicleConformance {};
 
 TEST_P(VehicleConformance, DescribesItselfCompletely) {
   Rig rig(GetParam(), make_flat_world());
@@ -154,9 +185,13 @@ TEST_P(VehicleConformance, DescribesItselfCompletely) {
     EXPECT_LT(actuator.min, actuator.max) << actuator.name;
     EXPECT_FALSE(actuator.unit.empty()) << actuator.name;
   }
-  for (const char* name :
-       {"track_m", "wheel_base_m", "wheel_radius_m", "max_speed_mps", "min_turning_radius_m"}) {
+  for (const char* name : {"max_speed_mps", "min_turning_radius_m"}) {
     EXPECT_GE(about.number(name, "the test"), 0.0);
+  }
+  for (const char* name : {"track_m", "wheel_base_m", "wheel_radius_m"}) {
+    if (!rig.flies()) {
+      EXPECT_GE(about.number(name, "the test"), 0.0);
+    }
   }
   std::vector<Pose> poses(rig.vehicle().links().size());
   rig.vehicle().read_links(poses);
@@ -167,11 +202,17 @@ TEST_P(VehicleConformance, DescribesItselfCompletely) {
   }
 }
 
-TEST_P(VehicleConformance, StandsWhereItSaysAndComesToRest) {
+TEST_P(VehicleConformance, StandsWhereItSays) {
   Rig rig(GetParam(), make_flat_world());
   const double height = rig.about().height_above_ground_m;
   rig.run(1.0);
   EXPECT_NEAR(rig.truth().X_WB.p.z(), height, 1e-3);
+  EXPECT_NEAR(rig.vehicle().specific_force_B().z(), 9.80665, 1e-3);
+  EXPECT_TRUE(rig.vehicle().crash().empty());
+}
+
+TEST_P(WheeledConformance, ComesToRest) {
+  Rig rig(GetParam(), make_flat_world());
   const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
   rig.drive(v, v);
   rig.run(3.0);
@@ -185,7 +226,7 @@ TEST_P(VehicleConformance, StandsWhereItSaysAndComesToRest) {
 TEST_P(VehicleConformance, RestsOnASlopeForAMinute) {
   for (const double yaw_deg : {0.0, 35.0, 90.0}) {
     Rig rig(GetParam(), make_slope_world(rad_from_deg(18.0)), rad_from_deg(yaw_deg));
-    rig.drive(0.0, 0.0);
+    rig.rest();
     rig.run(3.0);  // to settle on its springs
     const Eigen::Vector3d start = rig.truth().X_WB.p;
     rig.run(60.0);
@@ -193,7 +234,7 @@ TEST_P(VehicleConformance, RestsOnASlopeForAMinute) {
   }
 }
 
-TEST_P(VehicleConformance, StartsOnASlopeWithoutRollingBack) {
+TEST_P(WheeledConformance, StartsOnASlopeWithoutRollingBack) {
   for (const double yaw_deg : {0.0, 180.0}) {  // one is uphill
     Rig rig(GetParam(), make_slope_world(rad_from_deg(14.0)), rad_from_deg(yaw_deg));
     const Pose start = rig.truth().X_WB;  // parked there
@@ -208,7 +249,7 @@ TEST_P(VehicleConformance, StartsOnASlopeWithoutRollingBack) {
   }
 }
 
-TEST_P(VehicleConformance, DrivesStraight) {
+TEST_P(WheeledConformance, DrivesStraight) {
   Rig rig(GetParam(), make_flat_world());
   const double v = rig.about().number("max_speed_mps", "the test");
   rig.drive(v, v);
@@ -220,7 +261,7 @@ TEST_P(VehicleConformance, DrivesStraight) {
   EXPECT_LT(std::abs(pose.p.y()), 1e-3 * pose.p.x());
 }
 
-TEST_P(VehicleConformance, TurnsLeftForAPositiveYawCommand) {
+TEST_P(WheeledConformance, TurnsLeftForAPositiveYawCommand) {
   Rig rig(GetParam(), make_flat_world());
   const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
   rig.drive(0.5 * v, 1.5 * v);
@@ -231,7 +272,7 @@ TEST_P(VehicleConformance, TurnsLeftForAPositiveYawCommand) {
   EXPECT_LE(rig.truth().w_WB_B.z(), v / rig.about().number("track_m", "the test") + 1e-9);
 }
 
-TEST_P(VehicleConformance, ReversesTheWayItCame) {
+TEST_P(WheeledConformance, ReversesTheWayItCame) {
   Rig rig(GetParam(), make_flat_world());
   const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
   rig.drive(-v, -v);
@@ -247,7 +288,11 @@ TEST_P(VehicleConformance, SameInputsGiveTheSameBits) {
     RandomStream random(7, "rover", "commands");
     const double v = rig.about().number("max_speed_mps", "the test");
     for (int i = 0; i < 20; ++i) {
-      rig.drive(random.uniform(-v, v), random.uniform(-v, v));
+      if (rig.flies()) {
+        rig.spin(rig.hover_radps() * random.uniform(0.9, 1.2));
+      } else {
+        rig.drive(random.uniform(-v, v), random.uniform(-v, v));
+      }
       rig.run(0.2);
     }
     return rig.truth();
@@ -262,7 +307,7 @@ TEST_P(VehicleConformance, SameInputsGiveTheSameBits) {
 
 TEST_P(VehicleConformance, AStepAllocatesNothing) {
   Rig rig(GetParam(), make_flat_world());
-  rig.drive(1.0, 0.6);
+  rig.move();
   rig.run(0.1);
   std::vector<Pose> poses(rig.vehicle().links().size());
   rig.vehicle().publish(rig.now());  // the first write sizes the signals
@@ -288,11 +333,15 @@ TEST_P(VehicleConformance, StaysFiniteAtItsActuatorLimitsOnRoughGround) {
             return 0.08 * std::sin(5.0 * x) * std::sin(4.0 * y) + 0.1 * x;
           }));
   for (int i = 0; i < 10; ++i) {
-    rig.drive(i % 2 ? 1e3 : -1e3, i % 3 ? 1e3 : -1e3);  // clamped to the limits
+    if (rig.flies()) {
+      rig.spin(i % 2 ? 0.0 : 1e5);  // clamped to the limits; it falls on the ground and is wrecked
+    } else {
+      rig.drive(i % 2 ? 1e3 : -1e3, i % 3 ? 1e3 : -1e3);
+    }
     rig.run(0.5);
     const Odometry truth = rig.truth();
     ASSERT_TRUE(truth.X_WB.p.allFinite() && truth.v_WB_B.allFinite());
-    ASSERT_LT(truth.v_WB_B.norm(), 20.0);
+    ASSERT_LT(truth.v_WB_B.norm(), rig.flies() ? 40.0 : 20.0);
   }
 }
 
@@ -300,7 +349,11 @@ TEST_P(VehicleConformance, TellsTheStatesOfItsActuatorsOrNothing) {
   Rig rig(GetParam(), make_flat_world());
   if (rig.vehicle().actuator_states().empty()) GTEST_SKIP() << "tells no actuator states";
   const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
-  rig.drive(0.9 * v, 1.1 * v);
+  if (rig.flies()) {
+    rig.move();
+  } else {
+    rig.drive(0.9 * v, 1.1 * v);
+  }
   rig.run(3.0);
   const std::span<const double> states = rig.vehicle().actuator_states();
   ASSERT_EQ(states.size(), rig.about().actuators.size());
@@ -314,19 +367,83 @@ TEST_P(VehicleConformance, TellsTheStatesOfItsActuatorsOrNothing) {
 TEST_P(VehicleConformance, PublishesEnergyThatGrows) {
   Rig rig(GetParam(), make_flat_world());
   const auto battery = rig.bus().subscribe<BatteryState>("rover/battery", "test");
-  rig.drive(1.0, 1.0);
+  rig.move();
   rig.run(2.0);
   rig.vehicle().publish(rig.now());
   EXPECT_GT(battery.value().energy_used_J, 0.0);
   EXPECT_LT(battery.value().charge, 1.0);
 }
 
+TEST_P(FlyingConformance, LiftsOffAtFullThrustAndKeepsLevel) {
+  Rig rig(GetParam(), make_flat_world());
+  rig.spin(1e5);
+  rig.run(2.0);
+  const Odometry truth = rig.truth();
+  EXPECT_GT(truth.X_WB.p.z(), 5.0);
+  EXPECT_LT(truth.X_WB.p.head<2>().norm(), 1e-3);
+  EXPECT_GT((truth.X_WB.q * Eigen::Vector3d::UnitZ()).z(), 1.0 - 1e-6);
+  EXPECT_LT(truth.w_WB_B.norm(), 1e-3);
+  EXPECT_TRUE(rig.vehicle().crash().empty());
+}
+
+/// What controllers are told makes the vehicle hover: out of the ground's reach it keeps its
+/// height.
+TEST_P(FlyingConformance, HoversAtTheSpeedThatItsNumbersTell) {
+  Rig rig(GetParam(), make_flat_world());
+  rig.spin(1e5);
+  rig.run(1.5);
+  rig.spin(rig.hover_radps());
+  rig.run(1.0);  // the rotors have come down; what is left of the climb is slowed by drag only
+  const double before = rig.truth().v_WB_B.z();
+  rig.run(0.5);
+  EXPECT_GT(rig.truth().X_WB.p.z(), 5.0);
+  EXPECT_LE(rig.truth().v_WB_B.z(), before);
+  EXPECT_GT(rig.truth().v_WB_B.z(), 0.8 * before);
+}
+
+TEST_P(FlyingConformance, TellsAControllerWhereItsRotorsAre) {
+  Rig rig(GetParam(), make_flat_world());
+  const VehicleDescription& about = rig.about();
+  const auto number = [&](const std::string& name) { return about.number(name, "the test"); };
+  const int count = static_cast<int>(number("rotor_count"));
+  ASSERT_EQ(static_cast<std::size_t>(count), about.actuators.size());
+  double torque = 0.0, x = 0.0, y = 0.0, tip = 0.0;
+  for (int i = 1; i <= count; ++i) {
+    const std::string rotor = "rotor_" + std::to_string(i);
+    EXPECT_EQ(about.actuators[static_cast<std::size_t>(i - 1)].name, rotor + "_speed_radps");
+    EXPECT_EQ(about.actuators[static_cast<std::size_t>(i - 1)].max, number("rotor_max_radps"));
+    EXPECT_EQ(std::abs(number(rotor + "_torque_sign")), 1.0);
+    torque += number(rotor + "_torque_sign");
+    x += number(rotor + "_x_m"), y += number(rotor + "_y_m");
+    tip = std::max(tip, std::hypot(number(rotor + "_x_m"), number(rotor + "_y_m")));
+  }
+  EXPECT_EQ(torque, 0.0);
+  EXPECT_NEAR(x, 0.0, 1e-12);
+  EXPECT_NEAR(y, 0.0, 1e-12);
+  EXPECT_NEAR(number("tip_radius_m"), tip + number("rotor_radius_m"), 1e-12);
+  for (const char* name : {"rotor_torque_coefficient", "rotor_lag_s", "inertia_xx_kgm2",
+                           "inertia_yy_kgm2", "inertia_zz_kgm2", "max_tilt_rad"}) {
+    EXPECT_GT(number(name), 0.0) << name;
+  }
+}
+
+std::vector<Setup> setups_that(bool fly) {
+  std::vector<Setup> result;
+  for (const Setup& setup : setups()) {
+    if (Rig(setup, make_flat_world()).flies() == fly) result.push_back(setup);
+  }
+  return result;
+}
+
 void PrintTo(const Setup& setup, std::ostream* out) {
   *out << setup.label;
 }
 
-INSTANTIATE_TEST_SUITE_P(Vehicles, VehicleConformance, testing::ValuesIn(setups()),
-                         [](const auto& setup) { return setup.param.label; });
+const auto kLabel = [](const auto& setup) { return setup.param.label; };
+INSTANTIATE_TEST_SUITE_P(Vehicles, VehicleConformance, testing::ValuesIn(setups()), kLabel);
+INSTANTIATE_TEST_SUITE_P(Vehicles, WheeledConformance, testing::ValuesIn(setups_that(false)),
+                         kLabel);
+INSTANTIATE_TEST_SUITE_P(Vehicles, FlyingConformance, testing::ValuesIn(setups_that(true)), kLabel);
 
 }  // namespace
 }  // namespace vinerow::vehicles

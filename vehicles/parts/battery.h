@@ -10,6 +10,7 @@ namespace vinerow::vehicles {
 struct BatteryParams {
   double capacity_Wh = 1000.0;  ///< > 0
   double electronics_W = 30.0;  ///< computers, sensors, radio; always drawn, >= 0
+  double initial_charge = 1.0;  ///< share of the capacity at the start, 0..1
 
   void validate(const std::string& who) const;
 };

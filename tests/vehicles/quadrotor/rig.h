@@ -1,0 +1,103 @@
+#pragma once
+/// A quadrotor in a world of its own.
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "engine/math/angles.h"
+#include "tests/vehicles/small_worlds.h"
+#include "vehicles/quadrotor/quadrotor.h"
+
+namespace vinerow::vehicles::test {
+
+constexpr double kGravity = 9.80665;
+
+/// No air: what is left are thrust and weight.
+inline QuadrotorParams without_air(QuadrotorParams params = {}) {
+  params.rotor_drag_Ns_per_m = 0.0;
+  params.body_drag_area_m2 = 0.0;
+  params.ground_effect = GroundEffectModel::kNone;
+  return params;
+}
+
+/// Mesh box with the half extents given, standing at p_W.
+inline MeshInstance make_box(const std::string& name, const Eigen::Vector3f& half,
+                             const Eigen::Vector3d& p_W, SurfaceClass surface) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (int k = 0; k < 8; ++k) {
+    mesh->vertices.emplace_back(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
+                                k & 4 ? half.z() : -half.z());
+  }
+  mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  MeshInstance instance;
+  instance.name = name;
+  instance.mesh = mesh;
+  instance.X_WM.p = p_W;
+  instance.surface = surface;
+  return instance;
+}
+
+struct QuadrotorRig {
+  explicit QuadrotorRig(const QuadrotorParams& the_params = {},
+                        WorldModel model = make_flat_world(), std::int64_t step_ns = 1'000'000,
+                        double yaw_rad = 0.0, double gravity = kGravity)
+      : params(the_params),
+        world_model(std::move(model)),
+        world(settings(step_ns, gravity), world_model),
+        drone(params, context()),
+        dt{step_ns} {
+    drone.spawn(world, pose_on_ground(world_model, 0.0, 0.0, yaw_rad, params.stand_height_m));
+  }
+  static physics::PhysicsSettings settings(std::int64_t step_ns, double gravity) {
+    physics::PhysicsSettings result = settings_with_step(step_ns);
+    result.gravity_mps2 = gravity;
+    return result;
+  }
+  static VehicleContext context() {
+    VehicleContext context;
+    context.vehicle = context.part = "drone";
+    return context;
+  }
+
+  /// In flight, level, at rest, all rotors at one speed.
+  void fly(double height_m, double speed_radps) {
+    physics::BodyState state;
+    state.X_WB.p.z() = height_m;
+    state.v_WB_W.setZero();
+    state.w_WB_W.setZero();
+    fly(state, {speed_radps, speed_radps, speed_radps, speed_radps});
+  }
+  void fly(const physics::BodyState& state, const std::array<double, kRotors>& speeds_radps) {
+    drone.set_motion(state, speeds_radps);
+  }
+  void actuate(const std::array<double, kRotors>& speeds_radps) { drone.actuate(speeds_radps); }
+  void actuate(double speed_radps) {
+    actuate({speed_radps, speed_radps, speed_radps, speed_radps});
+  }
+  void step() {
+    drone.before_physics(now, dt);
+    world.step(dt);
+    now = now + dt;
+    drone.after_physics(now, dt);
+  }
+  void run(double time_s) {
+    for (auto i = std::llround(time_s / dt.s()); i > 0; --i) step();
+  }
+  const physics::BodyState& body() const { return drone.body(); }
+  Eigen::Vector3d rates_B() const { return body().X_WB.q.conjugate() * body().w_WB_W; }
+  double tilt_rad() const {
+    return std::acos(std::clamp((body().X_WB.q * Eigen::Vector3d::UnitZ()).z(), -1.0, 1.0));
+  }
+  std::string crash() const { return std::string(drone.crash()); }
+
+  QuadrotorParams params;
+  WorldModel world_model;
+  physics::PhysicsWorld world;
+  Quadrotor drone;
+  Time now;
+  Duration dt;
+};
+
+}  // namespace vinerow::vehicles::test

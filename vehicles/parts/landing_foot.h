@@ -1,0 +1,49 @@
+#pragma once
+/// A foot of a landing gear: a leg that gives way along the body's z axis, and rubber that sticks.
+///
+/// Normal force: spring and damper, S = max(0, k (d + d_0) + c dd/dt), d the depth below the foot
+/// as drawn, d_0 = static load / k: the vehicle stands as drawn. Friction: the rubber is held at an
+/// anchor on the ground by a spring of its own (Haessig, Friedland, J. Dyn. Sys. Meas. Control
+/// 113(3), 1991, "bristle"); where that would pull harder than mu N, the anchor is dragged along.
+/// So a vehicle at rest stays where it is, without creep, on any slope that the rubber holds.
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "engine/physics/physics_world.h"
+
+namespace vinerow::vehicles {
+
+struct LandingFootParams {
+  double stiffness_N_per_m = 5000.0;
+  double damping_Ns_per_m = 50.0;
+  double friction = 0.8;
+  double static_load_N = 5.0;
+  /// How far above the foot the ground is looked for: deeper it is not found.
+  double leg_m = 0.10;
+
+  /// @throws ConfigError
+  void validate(const std::string& who) const;
+};
+
+struct LandingFootState {
+  bool stands = false;
+  Eigen::Vector3d anchor_W = Eigen::Vector3d::Zero();  ///< valid while it stands
+};
+
+/// What a foot does in one step.
+struct FootContact {
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< where it acts
+  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
+  SurfaceClass surface = SurfaceClass::kTerrain;
+};
+
+/// @param foot_B  lowest point of the foot as drawn
+/// @returns nothing where the foot is in the air. No heap.
+std::optional<FootContact> press_foot(const LandingFootParams& params,
+                                      const physics::PhysicsWorld& world,
+                                      const physics::BodyState& body, const Eigen::Vector3d& foot_B,
+                                      LandingFootState& state);
+
+}  // namespace vinerow::vehicles

@@ -1,0 +1,74 @@
+#include "vehicles/quadrotor/crash_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "vehicles/quadrotor/quadrotor_shapes.h"
+
+namespace vinerow::vehicles {
+namespace {
+
+using Eigen::Vector3d;
+
+double tilt_of(const physics::BodyState& body) {
+  return std::acos(std::clamp((body.X_WB.q * Vector3d::UnitZ()).z(), -1.0, 1.0));
+}
+
+/// Which part met something, for people.
+const char* part_name(const QuadrotorParams& params, const Vector3d& p_B) {
+  if (is_at_rotors(params, p_B.z())) return "a rotor";
+  return p_B.z() < -0.5 * params.stand_height_m ? "its landing gear" : "its body";
+}
+
+std::string judge_ground(const QuadrotorParams& params, const Vector3d& p_B, double tilt_rad,
+                         double speed_mps) {
+  if (speed_mps > params.landing_speed_limit_mps) {
+    return fmt::format("hit the ground at {:.1f} m/s", speed_mps);
+  }
+  if (is_at_rotors(params, p_B.z())) {
+    return fmt::format("touched the ground with a rotor at {:.1f} m/s", speed_mps);
+  }
+  if (tilt_rad > params.landing_tilt_limit_rad) {
+    return fmt::format("touched the ground tilted by {:.0f} deg", deg_from_rad(tilt_rad));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string judge_contacts(const physics::PhysicsWorld& world, physics::BodyId body,
+                           const physics::BodyState& before, const QuadrotorParams& params) {
+  for (const physics::Contact& contact : world.contacts()) {
+    const bool mine = contact.body.index == body.index;
+    if (!mine && contact.other.index != body.index) continue;
+    const Vector3d arm_W = contact.p_W - before.X_WB.p;
+    const Vector3d p_B = before.X_WB.q.conjugate() * arm_W;
+    const double speed_mps = (before.v_WB_W + before.w_WB_W.cross(arm_W)).norm();
+    if (contact.other.index >= 0) {
+      const physics::BodyId other = mine ? contact.other : contact.body;
+      return fmt::format("hit {} with {} at {:.1f} m/s", world.body_name(other),
+                         part_name(params, p_B), speed_mps);
+    }
+    if (contact.surface != SurfaceClass::kTerrain) {
+      return fmt::format("hit {} '{}' with {} at {:.1f} m/s", to_string(contact.surface),
+                         world.contact_name(contact), part_name(params, p_B), speed_mps);
+    }
+    std::string reason = judge_ground(params, p_B, tilt_of(before), speed_mps);
+    if (!reason.empty()) return reason;
+  }
+  return {};
+}
+
+std::string judge_foot(const FootContact& contact, const physics::BodyState& body,
+                       const QuadrotorParams& params) {
+  const double speed_mps = body.v_WB_W.norm();
+  if (contact.surface != SurfaceClass::kTerrain) {
+    return fmt::format("hit {} with its landing gear at {:.1f} m/s", to_string(contact.surface),
+                       speed_mps);
+  }
+  return judge_ground(params, Vector3d(0.0, 0.0, -params.stand_height_m), tilt_of(body), speed_mps);
+}
+
+}  // namespace vinerow::vehicles

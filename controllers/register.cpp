@@ -11,7 +11,9 @@
 #include "controllers/planning/rrt_star.h"
 #include "controllers/planning/waypoints.h"
 #include "controllers/pure_pursuit/pure_pursuit.h"
+#include "controllers/quadrotor_lqr/quadrotor_lqr.h"
 #include "controllers/quadrotor_mpc/quadrotor_mpc.h"
+#include "controllers/quadrotor_pid/quadrotor_pid.h"
 #include "controllers/trajectory/trajectory.h"
 
 namespace vinerow {
@@ -29,6 +31,8 @@ void register_controllers(Registry& registry) {
   registry.add_controller(pure_pursuit_spec(), make_pure_pursuit);
   registry.add_controller(path_follower_spec(), make_path_follower);
   registry.add_controller(four_wheel_steering_spec(), make_four_wheel_steering);
+  registry.add_controller(quadrotor_lqr_spec(), make_quadrotor_lqr);
+  registry.add_controller(quadrotor_pid_spec(), make_quadrotor_pid);
   registry.add_controller(quadrotor_mpc_spec(), make_quadrotor_mpc);
 }
 

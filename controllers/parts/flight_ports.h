@@ -40,6 +40,8 @@ class FlightPorts {
 
   /// Mixes and writes. No heap. @returns what the rotors can make of it
   Wrench write(Time now, const Wrench& wanted);
+  /// What was written last, rad/s.
+  const std::vector<double>& speeds_radps() const { return actuator_values_.values; }
   /// Rotors off.
   void write_off(Time now);
 

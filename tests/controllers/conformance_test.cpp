@@ -1,7 +1,9 @@
-// What every registered controller keeps, and every estimator and planner that feeds it.
+// What every registered controller of ground vehicles keeps, and every estimator and planner that
+// feeds it. Controllers of flying vehicles: flight_conformance_test.cpp.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/error.h"
@@ -195,8 +197,21 @@ TEST_P(EveryController, DocumentsItsParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, EveryController,
-                         testing::ValuesIn(parts().names(PartKind::kController)),
+                         testing::ValuesIn(controllers_that_read("plan")),
                          [](const auto& test) { return test.param; });
+
+TEST(Controllers, AreEachRunByOneOfTheTwoSuites) {
+  const std::vector<std::string> ground = controllers_that_read("plan"),
+                                 flying = controllers_that_read("reference");
+  for (const std::string& name : parts().names(PartKind::kController)) {
+    EXPECT_EQ(std::count(ground.begin(), ground.end(), name) +
+                  std::count(flying.begin(), flying.end(), name),
+              1)
+        << name << " must read either \"plan\" or \"reference\"";
+  }
+  EXPECT_GE(ground.size(), 3u);
+  EXPECT_GE(flying.size(), 2u);
+}
 
 class EveryEstimator : public testing::TestWithParam<std::string> {};
 

@@ -56,7 +56,9 @@ FlightPath row_and_turn(const Eigen::Vector3d& p_W, double yaw_rad, double speed
 }
 
 FlightLoop::FlightLoop(const FlightSetup& setup)
-    : setup_(setup), description_(describe(setup.numbers)), sim_(setup.numbers) {
+    : setup_(setup),
+      description_(describe(setup.told.value_or(setup.numbers))),
+      sim_(setup.numbers) {
   const PartSpec& spec = parts().spec(PartKind::kController, setup.controller.type);
   ControllerContext context;
   context.vehicle = "drone";

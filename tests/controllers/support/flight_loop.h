@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/api/registry.h"
@@ -28,6 +29,7 @@ FlightPath row_and_turn(const Eigen::Vector3d& p_W, double yaw_rad, double speed
 
 struct FlightSetup {
   QuadrotorNumbers numbers = make_q4t();
+  std::optional<QuadrotorNumbers> told;  ///< what the controller is told; default: the truth
   PartChoice controller{"quadrotor_pid", {}};
   double rate_Hz = 0.0;  ///< of the controller; 0: its own
   FlightPath path = hover_at({0, 0, 2});

@@ -1,5 +1,6 @@
 #include "tests/controllers/support/mission.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -40,6 +41,15 @@ const Registry& parts() {
     return r;
   }();
   return registry;
+}
+
+std::vector<std::string> controllers_that_read(const std::string& signal) {
+  std::vector<std::string> names;
+  for (const std::string& name : parts().names(PartKind::kController)) {
+    const std::vector<std::string>& reads = parts().spec(PartKind::kController, name).reads;
+    if (std::find(reads.begin(), reads.end(), signal) != reads.end()) names.push_back(name);
+  }
+  return names;
 }
 
 ParameterSet make_parameters(const PartSpec& spec, const Values& values) {

@@ -60,6 +60,9 @@ MissionSetup make_paper_mission(double pitch_m = 0.33);
 
 /// All registered controllers, planners and estimators.
 const Registry& parts();
+/// Names of the registered controllers that say that they read this signal: those of ground
+/// vehicles follow a "plan", those of flying ones a "reference".
+std::vector<std::string> controllers_that_read(const std::string& signal);
 
 ParameterSet make_parameters(const PartSpec& spec, const Values& values);
 std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& map);

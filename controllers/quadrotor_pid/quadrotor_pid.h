@@ -1,0 +1,18 @@
+#pragma once
+/// Controller `quadrotor_pid`: the cascade that autopilots fly with, as the baseline that optimal
+/// control is measured against.
+
+#include <memory>
+
+#include "engine/api/part.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+PartSpec quadrotor_pid_spec();
+
+/// @throws ConfigError if the vehicle has no rotors or cannot hover
+std::unique_ptr<Controller> make_quadrotor_pid(const ParameterSet& parameters,
+                                               const ControllerContext& context);
+
+}  // namespace vinerow

@@ -104,7 +104,7 @@ TEST(QuadrotorMpcFlight, GainsLittleFromAFasterTick) {
   EXPECT_LT(fly_rows(3.0, 1.0, slow).errors.lateral_max_m, 0.023);
 }
 
-TEST(QuadrotorMpcFlight, FliesAHeavierLayoutAndAnotherVehicle) {
+TEST(QuadrotorMpcFlight, FliesThePlusLayoutAndAnotherVehicle) {
   MpcSetup plus;
   plus.numbers = plus.told = with_plus_layout(make_q4t());
   EXPECT_LT(fly_rows(3.0, 1.0, plus).errors.lateral_max_m, 0.023);
@@ -120,8 +120,8 @@ TEST(QuadrotorMpcFlight, BearsAWrongModel) {
   wrong.numbers.inertia_kgm2 *= 1.2;
   wrong.numbers.lag_s = 0.07;
   const Flight flight = fly_rows(3.0, 1.0, wrong);
-  EXPECT_LT(flight.errors.lateral_max_m, 0.10);
-  EXPECT_LT(flight.errors.altitude_max_m, 0.15);
+  EXPECT_LT(flight.errors.lateral_max_m, 0.03);
+  EXPECT_LT(flight.errors.altitude_max_m, 0.015);
   EXPECT_TRUE(flight.events.empty());
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/physics/bullet_convert.h"
+#include "engine/physics/mesh_gate.h"
 #include "engine/physics/terrain_gate.h"
 
 namespace vinerow::physics {
@@ -96,13 +97,15 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
     pair.m_algorithm->processCollision(&wrap_a, &wrap_b, info, &result);
   }
 
-  /// One is the height field, and the other surely does not touch it.
+  /// One is the height field or a static mesh, and the other surely does not touch it.
   bool is_clear(const btCollisionObject& a, const btCollisionObject& b) const {
+    const double margin_m = 2.0 * breaking_threshold_m_;
+    if (a.isStaticObject() && is_clear_of_mesh(a, b, margin_m)) return true;
+    if (b.isStaticObject() && is_clear_of_mesh(b, a, margin_m)) return true;
     if (!terrain_) return false;
     const auto is_terrain = [](const btCollisionObject& object) {
       return object.getCollisionShape()->getShapeType() == TERRAIN_SHAPE_PROXYTYPE;
     };
-    const double margin_m = 2.0 * breaking_threshold_m_;
     if (is_terrain(a)) return is_clear_of_terrain(*terrain_, b, margin_m);
     return is_terrain(b) && is_clear_of_terrain(*terrain_, a, margin_m);
   }

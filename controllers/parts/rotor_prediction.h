@@ -21,12 +21,18 @@ class RotorPrediction {
 
   /// At the end of the last command.
   Wrench now() const { return mixer_.wrench_of(speeds_radps_); }
-  /// Mean over the last command.
-  Wrench mean() const { return mixer_.wrench_of(mean_radps_); }
+  /// Mean over the last command; what spinning the rotors up gives the body is in it.
+  Wrench mean() const {
+    Wrench wrench = mixer_.wrench_of(mean_radps_);
+    wrench.torque_B.z() += spin_up_Nm_;
+    return wrench;
+  }
 
  private:
   const RotorMixer& mixer_;
   double lag_s_;
+  std::vector<double> inertia_kgm2_;  ///< of each rotor, signed as its drag torque
+  double spin_up_Nm_ = 0.0;
   std::vector<double> speeds_radps_;
   std::vector<double> mean_radps_;  ///< root mean square
 };

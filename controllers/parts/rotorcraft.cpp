@@ -53,6 +53,8 @@ Rotorcraft read_rotorcraft(const VehicleDescription& description, double gravity
   craft.max_rotor_radps = read_positive(description, "rotor_max_radps", who);
   craft.rotor_lag_s = description.number("rotor_lag_s", who);
   craft.rotor_drag_Ns_per_m = description.number("rotor_drag_Ns_per_m", who);
+  const auto inertia = description.numbers.find("rotor_inertia_kgm2");
+  if (inertia != description.numbers.end()) craft.rotor_inertia_kgm2 = inertia->second;
   const double weight_N = craft.mass_kg * gravity_mps2;
   if (craft.max_thrust_N() <= weight_N) {
     throw ConfigError(
@@ -98,6 +100,13 @@ HoverModel make_hover_model(const Rotorcraft& craft, bool with_lag) {
   model.A.middleCols<4>(kWrench) = effect;
   model.A.block<4, 4>(kWrench, kWrench).diagonal().setConstant(-1.0 / craft.rotor_lag_s);
   model.B.middleRows<4>(kWrench).diagonal().setConstant(1.0 / craft.rotor_lag_s);
+  if (craft.rotor_inertia_kgm2 > 0.0 && craft.torque_coefficient > 0.0) {
+    const double lead_s = craft.rotor_inertia_kgm2 /
+                          (2.0 * craft.hover_rotor_radps() * craft.torque_coefficient);
+    const double at_once = lead_s / craft.rotor_lag_s / craft.inertia_kgm2.z();
+    model.A(kRate + 2, kWrench + 3) -= at_once;
+    model.B(kRate + 2, 3) = at_once;
+  }
   return model;
 }
 

@@ -25,6 +25,8 @@ struct Rotorcraft {
   double min_rotor_radps = 0.0;
   double max_rotor_radps = 0.0;
   double rotor_lag_s = 0.05;         ///< first-order lag of the rotor's speed
+  /// Of one rotor about its axis. A rotor that is spun up pushes the body the way its drag does.
+  double rotor_inertia_kgm2 = 0.0;
   double rotor_drag_Ns_per_m = 0.0;  ///< all rotors together: force = - this * air velocity
   double gravity_mps2 = 9.80665;
 
@@ -38,7 +40,7 @@ struct Rotorcraft {
 /// Reads the numbers `rotor_count`, `rotor_<i>_x_m`, `rotor_<i>_y_m`, `rotor_<i>_torque_sign`
 /// (i from 1), `rotor_thrust_coefficient`, `rotor_torque_coefficient`, `rotor_min_radps`,
 /// `rotor_max_radps`, `rotor_lag_s`, `rotor_drag_Ns_per_m`, `inertia_xx_kgm2`, `inertia_yy_kgm2`,
-/// `inertia_zz_kgm2`.
+/// `inertia_zz_kgm2`; `rotor_inertia_kgm2` where it is told.
 /// @throws ConfigError "drone.controller needs 'rotor_count', which vehicle type 'x' does not
 /// tell"; numbers that no rotorcraft has; "the rotors lift 15.2 N at most, less than the weight
 /// of 19.6 N"
@@ -49,6 +51,9 @@ Rotorcraft read_rotorcraft(const VehicleDescription& description, double gravity
 /// State: position (3, m), velocity (3, m/s), roll, pitch, yaw error (rad), body rates p, q, r
 /// (rad/s); with lag four more, the wrench that acts: thrust less weight (N), torques (N m).
 /// Input: the wanted wrench, thrust less weight (N) and torques about x, y, z (N m).
+/// With lag the yaw torque has a lead: spinning rotors up by dw turns the body at once, J_r dw / dt,
+/// which in the first lag is several times the drag torque k_M w^2 that it leads to (about hover
+/// tau = tau_drag + J_r / (2 w k_M) dtau_drag / dt).
 /// No wind, no rotor inertia: x' = v, v' = g (pitch, -roll, 0) + (0, 0, thrust) / m - drag / m v,
 /// angles' = rates, rates' = torques / J, wrench' = (wanted - wrench) / lag.
 /// Source: paper A, section 4.2, with z up and the rotors' lag and drag added.

@@ -25,6 +25,7 @@ void Quadrotor::describe() {
       {"inertia_xx_kgm2", p.inertia_kgm2.x()},
       {"inertia_yy_kgm2", p.inertia_kgm2.y()},
       {"inertia_zz_kgm2", p.inertia_kgm2.z()},
+      {"rotor_inertia_kgm2", p.rotor.inertia_kgm2},
       {"max_tilt_rad", p.max_tilt_rad},
       {"max_speed_mps", p.max_speed_mps},
       {"min_turning_radius_m", p.min_turning_radius_m},

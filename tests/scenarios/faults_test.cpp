@@ -65,8 +65,10 @@ TEST(BadInput, AFollowerWithoutAPlannerIsTold) {
       {"s.yaml:6", "'path_follower' follows a plan, but the vehicle has no planner"});
 }
 
+/// The scenario on a small parcel.
 std::string run_two_rows(const std::string& set) {
-  return "run " + scenario_file("vineyard_4ws_two_rows") + " --quiet --no-log --out " +
+  return "run " + scenario_file("vineyard_4ws_two_rows") +
+         " --set world.row_count=3 --set world.row_length_m=20 --quiet --no-log --out " +
          VINEROW_BINARY_DIR + "/scratch/refused --set '" + set + "'";
 }
 
@@ -76,8 +78,8 @@ TEST(BadInput, TheFourWheelSteeringScenarioRefusesWhatItCannotDo) {
   expect_refused(
       run_two_rows("rover.planner=null"),
       {"vineyard_4ws_two_rows.yaml:", "'dwa' follows a plan, but the vehicle has no planner"});
-  expect_refused(run_two_rows("rover.planner.alleys=[3, 99]"),
-                 {"rover.planner (rrt_star): alleys holds 99", "0 to 14"});
+  expect_refused(run_two_rows("rover.planner.alleys=[0, 9]"),
+                 {"rover.planner (rrt_star): alleys holds 9", "0 to 1"});
   expect_refused(run_two_rows("rover.max_steer_deg=80"),
                  {"rover.max_steer_deg = 80 deg", "<= 45 deg"});
   expect_refused(run_two_rows("rover.sensors.sonar_left.rate_Hz=7"),
@@ -183,6 +185,29 @@ TEST(ExitStatus, AFailedCriterionGivesOne) {
                                   folder.path().string());
   EXPECT_EQ(result.status, 1) << result.output;
   EXPECT_NE(result.output.find("FAILED  rover.distance_m"), std::string::npos) << result.output;
+}
+
+TEST(ExitStatus, ACrashGivesOneAndSaysWhoWhyAndWhen) {
+  const ScratchFolder folder("crash");
+  const std::string file =
+      folder.file("s.yaml",
+                  "vinerow: 1\nname: s\nduration_s: 1\nworld: {type: vineyard, row_count: 2, "
+                  "row_length_m: 10}\nvehicles:\n  rover: {type: wreck, spawn: {alley: 0}}\n");
+  const std::string command = "run " + file + " --quiet --no-pictures --plugin " +
+                              plugin("vinerow_test_faulty_parts") + " --out " +
+                              folder.path().string();
+  const auto ended = run_vinerow(command);
+  EXPECT_EQ(ended.status, 1) << ended.output;
+  EXPECT_NE(ended.output.find("vinerow: rover crashed at 0.500 s: fell off its trailer\n"),
+            std::string::npos)
+      << ended.output;
+  EXPECT_NE(ended.output.find("simulated 0.500 s"), std::string::npos) << ended.output;
+  const std::string summary = test::read_text(folder.path() / "summary.json");
+  EXPECT_NE(summary.find("\"text\": \"fell off its trailer\""), std::string::npos) << summary;
+
+  const auto failed = run_vinerow(command + " --set rover.on_crash=fail");
+  EXPECT_EQ(failed.status, 1) << failed.output;
+  EXPECT_NE(failed.output.find("simulated 1.000 s"), std::string::npos) << failed.output;
 }
 
 TEST(NoRenderer, AMachineWithoutTheLibraryStillSimulates) {

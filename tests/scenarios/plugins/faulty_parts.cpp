@@ -1,5 +1,5 @@
-/// Controllers that misbehave, for tests of what the kernel then does: one throws, one writes NaN,
-/// one writes for an actuator that the vehicle does not have. Each is well until t = 0.5 s.
+/// Parts that misbehave, for tests of what the kernel then does: a controller throws, one writes
+/// NaN, a vehicle is wrecked. Each is well until t = 0.5 s.
 
 #include <cmath>
 #include <stdexcept>
@@ -32,7 +32,38 @@ class Faulty final : public Controller {
   SignalWriter<NamedValues> actuators_;
 };
 
+/// Stands where it was put.
+class Wreck final : public Vehicle {
+ public:
+  Wreck() { description_.type = "wreck"; }
+  const VehicleDescription& description() const override { return description_; }
+  const std::vector<VehicleLink>& links() const override { return links_; }
+  void spawn(physics::PhysicsWorld&, const Pose& X_WB) override { X_WB_ = X_WB; }
+  void connect(Ports&) override {}
+  void actuate(std::span<const double>) override {}
+  void before_physics(Time, Duration) override {}
+  void after_physics(Time now, Duration) override { crashed_ = crashed_ || now.s() >= 0.5; }
+  void read_truth(Odometry& truth) const override { truth.X_WB = X_WB_; }
+  Eigen::Vector3d specific_force_B() const override { return {0, 0, 9.8}; }
+  std::string_view crash() const override {
+    return crashed_ ? "fell off its trailer" : std::string_view();
+  }
+  void read_links(std::vector<Pose>&) const override {}
+  void publish(Time) override {}
+
+ private:
+  VehicleDescription description_;
+  std::vector<VehicleLink> links_;
+  Pose X_WB_;
+  bool crashed_ = false;
+};
+
 void register_parts(Registry& registry) {
+  PartSpec wreck;
+  wreck.name = "wreck";
+  wreck.description = "is wrecked at t = 0.5 s";
+  registry.add_vehicle(
+      wreck, [](const ParameterSet&, const VehicleContext&) { return std::make_unique<Wreck>(); });
   for (const char* fault : {"throws", "writes_nan"}) {
     PartSpec spec;
     spec.name = fault;

@@ -1,0 +1,93 @@
+/// lp_solve_files FILE: solves the linear programmes of a text file, for judges in other languages.
+/// The file holds one programme after the other, numbers and "inf" separated by blanks:
+///   n m, F (m x n, row by row), g (m), c (n)
+/// Output is one line for each: status (one word), iterations, value, x (n), multipliers (m).
+/// Exit code 2 where the file is not like that.
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "controllers/parts/linear_programme.h"
+
+namespace {
+
+class Numbers {
+ public:
+  explicit Numbers(const std::string& text) : at_(text.c_str()) {}
+
+  bool next(double& number) {
+    char* end = nullptr;
+    number = std::strtod(at_, &end);
+    const bool found = end != at_;
+    at_ = end;
+    return found;
+  }
+
+  double expect() {
+    double number = 0.0;
+    if (!next(number)) {
+      std::fputs("the file ends within a programme or holds a word that is no number\n", stderr);
+      std::exit(2);
+    }
+    return number;
+  }
+
+  template <typename Matrix>
+  void fill(Matrix& matrix) {
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      for (Eigen::Index j = 0; j < matrix.cols(); ++j) matrix(i, j) = expect();
+    }
+  }
+
+ private:
+  const char* at_;
+};
+
+const char* word(vinerow::LpStatus status) {
+  switch (status) {
+    case vinerow::LpStatus::kSolved:
+      return "solved";
+    case vinerow::LpStatus::kInfeasible:
+      return "infeasible";
+    case vinerow::LpStatus::kUnbounded:
+      return "unbounded";
+    default:
+      return "failed";
+  }
+}
+
+}  // namespace
+
+int main(int argument_count, char** arguments) {
+  if (argument_count != 2) {
+    std::fputs("usage: lp_solve_files FILE\n", stderr);
+    return 2;
+  }
+  std::ifstream stream(arguments[1]);
+  if (!stream) {
+    std::fprintf(stderr, "cannot read %s\n", arguments[1]);
+    return 2;
+  }
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  Numbers numbers(text);
+  double n = 0.0;
+  while (numbers.next(n)) {
+    const int variables = static_cast<int>(n), rows = static_cast<int>(numbers.expect());
+    Eigen::MatrixXd F(rows, variables);
+    Eigen::VectorXd g(rows), c(variables);
+    numbers.fill(F);
+    numbers.fill(g);
+    numbers.fill(c);
+    vinerow::LinearProgramme programme(variables, rows);
+    programme.set_rows(F, g);
+    const vinerow::LpStatus status = programme.maximise(c);
+    std::printf("%s %d %.17g", word(status), programme.iterations(), programme.value());
+    for (const double x : programme.x()) std::printf(" %.17g", x);
+    for (int i = 0; i < rows; ++i) std::printf(" %.17g", programme.multipliers()[i]);
+    std::putchar('\n');
+  }
+  return 0;
+}

@@ -1,10 +1,13 @@
 #include "controllers/parts/linear_mpc.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "controllers/parts/mpc_form.h"
+#include "controllers/parts/mpc_prediction.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 
@@ -16,6 +19,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// QpSolver takes a soft row for one of this weight, times 1 / (a' H^-1 a), if its own is larger.
+constexpr double kHeaviest = 1e12;
 
 LinearMpcProblem checked(const LinearMpcProblem& problem, const std::string& who) {
   mpc::check(problem, who);
@@ -33,6 +38,17 @@ void move_up(MatrixXd& sequence) {
   for (Index k = 0; k + 1 < sequence.cols(); ++k) sequence.col(k) = sequence.col(k + 1);
 }
 
+/// A number that is not finite leaves a NaN in the sum, at a fraction of the cost of allFinite().
+template <typename Matrix>
+bool finite(const Matrix& matrix) {
+  return (0.0 * matrix).sum() == 0.0;
+}
+
+double violation(const mpc::StateLimit& limit, double value) {
+  if (std::isinf(limit.weight)) return 0.0;
+  return std::max({0.0, value - limit.upper, limit.lower - value});
+}
+
 }  // namespace
 
 struct LinearMpc::Impl {
@@ -42,84 +58,72 @@ struct LinearMpc::Impl {
   Impl(const LinearMpcProblem& wanted, const std::string& who, const QpSettings& settings);
 
   void forget();
-  void predict_without_inputs(const Vector& x, const Vector& d);
-  void find_gradient(const Matrix& reference, const Matrix& input_reference);
+  QpStatus optimise(const Matrix& input_reference, const Vector& input_before);
   void bound_first_input(const Vector& input_before);
-  void place_rows(const Matrix& reference);
+  void place_rows();
   bool unreached_limits_hold() const;
-  QpStatus optimise(const Matrix& reference, const Matrix& input_reference, const Vector& before);
   void keep_solution();
-  void predict(const Vector& x, const Vector& d);
-  double violation(const mpc::StateLimit& limit, double shift) const;
-  void find_soft_violation(bool solved);
-
-  double shift(const mpc::StateLimit& limit, const Matrix& reference) const {
-    return limit.relative ? form.F.dot(limit.F_row, reference.col(limit.step).data()) : 0.0;
-  }
+  void fall_back(QpStatus status, const Matrix& reference);
+  void predict_states();
 
   LinearMpcProblem problem;
   mpc::Condensed form;
+  mpc::Prediction prediction;
   Index n, m, N;
-  // Cost gradients carry the factor 2 of |x|^2.
-  mpc::SparseRows A, A_transposed, B, B_transposed, two_Q, two_P, minus_two_R;
   QpSolver qp;
   double tolerance;
+  std::vector<int> value_of_row;      // where the prediction has the value of a QP row
+  VectorXd limit_lower, limit_upper;  // of the QP rows' values
+  VectorXd softness;                  // 1 / weight of QP rows, as the QP takes it
 
-  std::vector<int> limit_of_row;  // index in form.reached, -1 for rates
-
-  MatrixXd free;                     // n x (N + 1): the states if all inputs were zero
-  MatrixXd error;                    // n x (N + 1): free - reference
-  VectorXd costate, costate_before;  // n: gradient of the cost by a state
-  MatrixXd f;                        // m x N: gradient of the cost by the inputs, at zero
-  VectorXd lower, upper;             // Nm
+  MatrixXd f;             // m x N: gradient of the cost by the inputs, at zero
+  VectorXd lower, upper;  // Nm
   VectorXd row_lower, row_upper;
-  VectorXd shifts, unreached_shifts;  // F r of relative limits, else 0
-  MatrixXd inputs, states;
+  MatrixXd inputs;
+
   double soft_violation = 0.0;
+  // The prediction is made when it is asked for.
+  VectorXd x, disturbance;
+  MatrixXd states;
+  bool predicted = true;
 };
 
 LinearMpc::Impl::Impl(const LinearMpcProblem& wanted, const std::string& who,
                       const QpSettings& settings)
     : problem(checked(wanted, who)),
       form(mpc::condense(problem)),
+      prediction(problem, form),
       n(problem.A.rows()),
       m(problem.B.cols()),
       N(problem.horizon),
-      A(problem.A),
-      A_transposed(problem.A.transpose()),
-      B(problem.B),
-      B_transposed(problem.B.transpose()),
-      two_Q(2.0 * problem.Q),
-      two_P(2.0 * problem.P),
-      minus_two_R(-2.0 * problem.R),
       qp(static_cast<int>(N * m), static_cast<int>(form.rows.rows()), settings),
       tolerance(settings.tolerance) {
   if (!qp.set_hessian(form.H)) {
     throw ConfigError(who + ": the condensed Hessian of Q, R and P is not positive definite");
   }
   qp.set_rows(form.rows);
-  limit_of_row.assign(static_cast<std::size_t>(form.rows.rows()), -1);
-  for (std::size_t i = 0; i < form.reached.size(); ++i) {
-    qp.soften_row(form.reached[i].qp_row, form.reached[i].weight);
-    limit_of_row[static_cast<std::size_t>(form.reached[i].qp_row)] = static_cast<int>(i);
+  const Index rows = form.rows.rows();
+  for (VectorXd* vector : {&limit_lower, &limit_upper, &softness, &row_lower, &row_upper}) {
+    vector->setZero(rows);
   }
-  free.setZero(n, N + 1);
-  error.setZero(n, N + 1);
-  states.setZero(n, N + 1);
-  costate.setZero(n);
-  costate_before.setZero(n);
+  const Eigen::LLT<MatrixXd> factor(form.H);
+  for (Index i = 0; i < rows; ++i) {
+    const mpc::StateLimit& limit = form.limits[static_cast<std::size_t>(i)];
+    value_of_row.push_back(prediction.index_of(limit));
+    limit_lower[i] = limit.lower;
+    limit_upper[i] = limit.upper;
+    if (std::isinf(limit.weight)) continue;
+    qp.soften_row(static_cast<int>(i), limit.weight);
+    const VectorXd row = form.rows.row(i);
+    softness[i] = std::max(1.0 / limit.weight, row.dot(factor.solve(row)) / kHeaviest);
+  }
   f.setZero(m, N);
   inputs.setZero(m, N);
+  states.setZero(n, N + 1);
+  x.setZero(n);
+  disturbance.setZero(n);
   lower = problem.input_lower.replicate(N, 1);
   upper = problem.input_upper.replicate(N, 1);
-  row_lower.setZero(form.rows.rows());
-  row_upper.setZero(form.rows.rows());
-  for (const mpc::RateLimit& rate : form.rates) {
-    row_lower[rate.qp_row] = rate.lower;
-    row_upper[rate.qp_row] = rate.upper;
-  }
-  shifts.setZero(static_cast<Index>(form.reached.size()));
-  unreached_shifts.setZero(static_cast<Index>(form.unreached.size()));
   forget();
 }
 
@@ -130,33 +134,21 @@ void LinearMpc::Impl::forget() {
     inputs.col(k) = inputs.col(k).cwiseMax(problem.input_lower).cwiseMin(problem.input_upper);
   }
   states.setZero();
+  predicted = true;
   soft_violation = 0.0;
 }
 
-void LinearMpc::Impl::predict_without_inputs(const Vector& x, const Vector& d) {
-  free.col(0) = x;
-  for (Index k = 0; k < N; ++k) {
-    free.col(k + 1) = d;
-    A.add_product(free.col(k).data(), free.col(k + 1).data());
+QpStatus LinearMpc::Impl::optimise(const Matrix& input_reference, const Vector& input_before) {
+  prediction.find_gradient(input_reference, f);
+  prediction.evaluate_limits();
+  bound_first_input(input_before);
+  place_rows();
+  if (!unreached_limits_hold()) {
+    qp.cold_start();
+    return QpStatus::kInfeasible;
   }
-}
-
-/// The adjoint of the prediction: costate_k = 2 Q (x_k - r_k) + A' costate_{k+1}, and the gradient
-/// by u_k is B' costate_{k+1} - 2 R v_k.
-void LinearMpc::Impl::find_gradient(const Matrix& reference, const Matrix& input_reference) {
-  error = free - reference;
-  costate.setZero();
-  two_P.add_product(error.col(N).data(), costate.data());
-  f.setZero();
-  for (Index k = N - 1; k >= 0; --k) {
-    B_transposed.add_product(costate.data(), f.col(k).data());
-    minus_two_R.add_product(input_reference.col(k).data(), f.col(k).data());
-    if (k == 0) break;
-    costate_before.setZero();
-    two_Q.add_product(error.col(k).data(), costate_before.data());
-    A_transposed.add_product(costate.data(), costate_before.data());
-    costate.swap(costate_before);
-  }
+  return qp.solve(Eigen::Map<const VectorXd>(f.data(), f.size()), lower, upper, row_lower,
+                  row_upper);
 }
 
 void LinearMpc::Impl::bound_first_input(const Vector& input_before) {
@@ -167,25 +159,19 @@ void LinearMpc::Impl::bound_first_input(const Vector& input_before) {
   }
 }
 
-void LinearMpc::Impl::place_rows(const Matrix& reference) {
-  Index i = 0;
-  for (const mpc::StateLimit& limit : form.reached) {
-    shifts[i] = shift(limit, reference);
-    const double given = form.F.dot(limit.F_row, free.col(limit.step).data()) - shifts[i++];
-    row_lower[limit.qp_row] = limit.lower - given;
-    row_upper[limit.qp_row] = limit.upper - given;
-  }
-  i = 0;
-  for (const mpc::StateLimit& limit : form.unreached) {
-    unreached_shifts[i++] = shift(limit, reference);
+void LinearMpc::Impl::place_rows() {
+  const double* values = prediction.values();
+  const int* place = value_of_row.data();
+  for (Index i = 0; i < row_lower.size(); ++i) {
+    const double given = values[place[i]];
+    row_lower[i] = limit_lower[i] - given;
+    row_upper[i] = limit_upper[i] - given;
   }
 }
 
 bool LinearMpc::Impl::unreached_limits_hold() const {
-  Index i = 0;
   for (const mpc::StateLimit& limit : form.unreached) {
-    const double value =
-        form.F.dot(limit.F_row, free.col(limit.step).data()) - unreached_shifts[i++];
+    const double value = prediction.values()[prediction.index_of(limit)];
     if (std::isfinite(limit.weight)) continue;
     const double allowed = tolerance * std::max(1.0, std::abs(value));
     if (value > limit.upper + allowed || value < limit.lower - allowed) return false;
@@ -193,60 +179,44 @@ bool LinearMpc::Impl::unreached_limits_hold() const {
   return true;
 }
 
-QpStatus LinearMpc::Impl::optimise(const Matrix& reference, const Matrix& input_reference,
-                                   const Vector& before) {
-  find_gradient(reference, input_reference);
-  bound_first_input(before);
-  place_rows(reference);
-  if (!unreached_limits_hold()) {
-    qp.cold_start();
-    return QpStatus::kInfeasible;
-  }
-  return qp.solve(Eigen::Map<const VectorXd>(f.data(), f.size()), lower, upper, row_lower,
-                  row_upper);
-}
-
 void LinearMpc::Impl::keep_solution() {
   // An input may be over a limit by the tolerance of the QP, the input that is given out not.
   Eigen::Map<VectorXd>(inputs.data(), inputs.size()) = qp.x().cwiseMax(lower).cwiseMin(upper);
-}
-
-void LinearMpc::Impl::predict(const Vector& x, const Vector& d) {
-  states.col(0) = x;
-  for (Index k = 0; k < N; ++k) {
-    states.col(k + 1) = d;
-    A.add_product(states.col(k).data(), states.col(k + 1).data());
-    B.add_product(inputs.col(k).data(), states.col(k + 1).data());
-  }
-}
-
-double LinearMpc::Impl::violation(const mpc::StateLimit& limit, double shift) const {
-  if (std::isinf(limit.weight)) return 0.0;
-  const double value = form.F.dot(limit.F_row, states.col(limit.step).data()) - shift;
-  return std::max({0.0, value - limit.upper, limit.lower - value});
-}
-
-void LinearMpc::Impl::find_soft_violation(bool solved) {
+  // A limit that is violated is active, and its multiplier is the weight times the violation.
   soft_violation = 0.0;
-  if (solved) {
-    // A limit that is violated is active.
-    for (const int constraint : qp.active_set()) {
-      if (constraint < N * m) continue;
-      const int i = limit_of_row[static_cast<std::size_t>(constraint - N * m)];
-      if (i < 0) continue;
-      const mpc::StateLimit& limit = form.reached[static_cast<std::size_t>(i)];
-      soft_violation = std::max(soft_violation, violation(limit, shifts[i]));
-    }
-  } else {
-    Index i = 0;
-    for (const mpc::StateLimit& limit : form.reached) {
-      soft_violation = std::max(soft_violation, violation(limit, shifts[i++]));
-    }
+  for (const int constraint : qp.active_set()) {
+    if (constraint < N * m) continue;
+    const double violated = std::abs(qp.multipliers()[constraint]) * softness[constraint - N * m];
+    soft_violation = std::max(soft_violation, violated);
   }
-  Index i = 0;
   for (const mpc::StateLimit& limit : form.unreached) {
-    soft_violation = std::max(soft_violation, violation(limit, unreached_shifts[i++]));
+    const double value = prediction.values()[prediction.index_of(limit)];
+    soft_violation = std::max(soft_violation, violation(limit, value));
   }
+}
+
+/// The inputs have been clamped when they were found, and the bounds are the same.
+void LinearMpc::Impl::fall_back(QpStatus status, const Matrix& reference) {
+  move_up(inputs);
+  soft_violation = 0.0;
+  if (status == QpStatus::kInvalidInput) {
+    qp.cold_start();
+    return;
+  }
+  predict_states();
+  prediction.evaluate_limits(states, reference);
+  for (const auto* limits : {&form.limits, &form.unreached}) {
+    for (const mpc::StateLimit& limit : *limits) {
+      const double value = prediction.values()[prediction.index_of(limit)];
+      soft_violation = std::max(soft_violation, violation(limit, value));
+    }
+  }
+}
+
+void LinearMpc::Impl::predict_states() {
+  if (predicted) return;
+  prediction.predict(x, disturbance, inputs, states);
+  predicted = true;
 }
 
 LinearMpc::LinearMpc(const LinearMpcProblem& problem, const std::string& who,
@@ -276,28 +246,27 @@ QpStatus LinearMpc::solve(const Eigen::Ref<const VectorXd>& x,
   VINEROW_DEMAND(reference.rows() == impl.n && reference.cols() == impl.N + 1);
   VINEROW_DEMAND(input_reference.rows() == impl.m && input_reference.cols() == impl.N);
   VINEROW_DEMAND(input_before.size() == impl.m);
-  const bool start_known = x.allFinite() && disturbance.allFinite();
-  const bool finite = start_known && reference.allFinite() && input_reference.allFinite() &&
-                      input_before.allFinite();
-  QpStatus status = QpStatus::kInvalidInput;
-  if (finite) {
-    impl.predict_without_inputs(x, disturbance);
-    status = impl.optimise(reference, input_reference, input_before);
-  } else {
-    impl.qp.cold_start();
-  }
-  const bool solved = status == QpStatus::kSolved;
-  if (solved) {
-    impl.keep_solution();
-  } else {
-    move_up(impl.inputs);
-  }
-  if (start_known) {
-    impl.predict(x, disturbance);
-  } else {
+  const bool start_known = finite(x) && finite(disturbance);
+  if (!start_known) {
+    // The last prediction is all there is: it is made now, before its inputs go.
+    impl.predict_states();
     move_up(impl.states);
   }
-  impl.find_soft_violation(solved);
+  QpStatus status = QpStatus::kInvalidInput;
+  if (start_known) {
+    impl.x = x;
+    impl.disturbance = disturbance;
+    impl.predicted = false;
+    if (finite(reference) && finite(input_reference) && finite(input_before)) {
+      impl.prediction.predict_without_inputs(x, disturbance, reference);
+      status = impl.optimise(input_reference, input_before);
+    }
+  }
+  if (status == QpStatus::kSolved) {
+    impl.keep_solution();
+    return status;
+  }
+  impl.fall_back(status, reference);
   return status;
 }
 
@@ -312,6 +281,7 @@ const MatrixXd& LinearMpc::inputs_ahead() const {
   return impl_->inputs;
 }
 const MatrixXd& LinearMpc::states_ahead() const {
+  impl_->predict_states();
   return impl_->states;
 }
 double LinearMpc::soft_violation() const {

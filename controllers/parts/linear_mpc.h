@@ -80,10 +80,11 @@ class LinearMpc {
 
   Eigen::Ref<const Eigen::VectorXd> u() const;  ///< the first input, m
   const Eigen::MatrixXd& inputs_ahead() const;  ///< m x N
-  /// n x (N + 1), x_0 first: what inputs_ahead() leads to. Where x or the disturbance is not finite
-  /// these are the states of the call before, moved up by one step.
+  /// n x (N + 1), x_0 first: what inputs_ahead() leads to, worked out when it is first asked for.
+  /// Where x or the disturbance is not finite these are the states of the call before, moved up.
   const Eigen::MatrixXd& states_ahead() const;
-  /// Largest violation of a soft row in the prediction, in the row's unit; 0: all are kept.
+  /// Largest violation of a soft row in the prediction, in the row's unit; 0: all are kept, or the
+  /// input is invalid.
   double soft_violation() const;
   int iterations() const;  ///< of the QP
   double cost() const;     ///< of the QP, constants left out

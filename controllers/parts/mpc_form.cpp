@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "engine/core/error.h"
 
@@ -13,6 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A row of the condensed problem shorter than this share of what it is made of is rounding.
 constexpr double kRoundingRow = 1e-13;
 
@@ -102,6 +104,18 @@ class RowBuilder {
     for (const MpcStateRows& block : problem.state_rows) most += problem.horizon * block.F.rows();
     for (const MpcStateRows& block : problem.terminal_rows) most += block.F.rows();
     out_.rows.setZero(most, Gamma.cols());
+    out_.F.resize(0, problem.A.cols());
+    out_.F_relative.resize(0, problem.A.cols());
+  }
+
+  /// @returns the place of the block's first row in F or F_relative
+  int add_matrix(const MpcStateRows& block) {
+    MatrixXd& F = block.relative ? out_.F_relative : out_.F;
+    const Index first = F.rows();
+    if (block.F.rows() == 0) return static_cast<int>(first);
+    F.conservativeResize(first + block.F.rows(), Eigen::NoChange);
+    F.bottomRows(block.F.rows()) = block.F;
+    return static_cast<int>(first);
   }
 
   void add_states(const MpcStateRows& block, int step, int first_F_row) {
@@ -113,21 +127,17 @@ class RowBuilder {
       StateLimit limit;
       limit.step = step;
       limit.F_row = first_F_row + static_cast<int>(i);
+      limit.relative = block.relative;
       limit.lower = block.lower[i];
       limit.upper = block.upper[i];
-      if (block.soft_weight.size() != 0)
-        limit.weight = block.soft_weight[i];
-      else
-        limit.weight = std::numeric_limits<double>::infinity();
-      limit.relative = block.relative;
+      limit.weight = block.soft_weight.size() != 0 ? block.soft_weight[i] : kInfinity;
       const Eigen::RowVectorXd row = block.F.row(i) * Gamma_k;
       if (row.norm() <= kRoundingRow * block.F.row(i).norm() * size) {
         out_.unreached.push_back(limit);
-        continue;
+      } else {
+        out_.rows.row(count()).head(reach) = row;
+        out_.limits.push_back(limit);
       }
-      out_.rows.row(next_).head(reach) = row;
-      limit.qp_row = static_cast<int>(next_++);
-      out_.reached.push_back(limit);
     }
   }
 
@@ -135,21 +145,25 @@ class RowBuilder {
   void add_rates(int step) {
     const Index m = problem_.B.cols();
     for (Index i = 0; i < problem_.rate_lower.size(); ++i) {
-      const double lower = problem_.rate_lower[i], upper = problem_.rate_upper[i];
-      if (std::isinf(lower) && std::isinf(upper)) continue;
-      out_.rows(next_, step * m + i) = 1.0;
-      out_.rows(next_, (step - 1) * m + i) = -1.0;
-      out_.rates.push_back({static_cast<int>(next_++), lower, upper});
+      StateLimit limit;
+      limit.lower = problem_.rate_lower[i];
+      limit.upper = problem_.rate_upper[i];
+      limit.weight = kInfinity;
+      if (std::isinf(limit.lower) && std::isinf(limit.upper)) continue;
+      out_.rows(count(), step * m + i) = 1.0;
+      out_.rows(count(), (step - 1) * m + i) = -1.0;
+      out_.limits.push_back(limit);
     }
   }
 
-  void finish() { out_.rows.conservativeResize(next_, Eigen::NoChange); }
+  void finish() { out_.rows.conservativeResize(count(), Eigen::NoChange); }
 
  private:
+  Index count() const { return static_cast<Index>(out_.limits.size()); }
+
   const LinearMpcProblem& problem_;
   const MatrixXd& Gamma_;
   Condensed& out_;
-  Index next_ = 0;
 };
 
 }  // namespace
@@ -182,23 +196,18 @@ Condensed condense(const LinearMpcProblem& problem) {
   Condensed result;
   result.H = hessian(problem, Gamma);
   RowBuilder builder(problem, Gamma, result);
-  std::vector<int> first_state_row, first_terminal_row;
+  std::vector<int> first_row;
   for (const MpcStateRows& block : problem.state_rows) {
-    first_state_row.push_back(result.F.rows());
-    result.F.append(block.F);
-  }
-  for (const MpcStateRows& block : problem.terminal_rows) {
-    first_terminal_row.push_back(result.F.rows());
-    result.F.append(block.F);
+    first_row.push_back(builder.add_matrix(block));
   }
   for (int step = 1; step <= problem.horizon; ++step) {
     if (step >= 2) builder.add_rates(step - 1);
     for (std::size_t i = 0; i < problem.state_rows.size(); ++i) {
-      builder.add_states(problem.state_rows[i], step, first_state_row[i]);
+      builder.add_states(problem.state_rows[i], step, first_row[i]);
     }
   }
-  for (std::size_t i = 0; i < problem.terminal_rows.size(); ++i) {
-    builder.add_states(problem.terminal_rows[i], problem.horizon, first_terminal_row[i]);
+  for (const MpcStateRows& block : problem.terminal_rows) {
+    builder.add_states(block, problem.horizon, builder.add_matrix(block));
   }
   builder.finish();
   return result;

@@ -24,24 +24,13 @@ class SparseRows {
 
   int rows() const { return static_cast<int>(start_.size()) - 1; }
 
-  /// Row i times x
-  double dot(int i, const double* x) const {
-    const int* start = start_.data() + i;
-    const Entry *entry = entries_.data() + start[0], *end = entries_.data() + start[1];
-    double sum = 0.0;
-    for (; entry != end; ++entry) sum += entry->value * x[entry->column];
-    return sum;
+  /// y = M x
+  void product(const double* x, double* y) const {
+    for_each_row(x, [y](int i, double sum) { y[i] = sum; });
   }
-
   /// y = M x + y
   void add_product(const double* x, double* y) const {
-    const Entry* entry = entries_.data();
-    for (int i = 0; i < rows(); ++i) {
-      const Entry* end = entries_.data() + start_[static_cast<std::size_t>(i) + 1];
-      double sum = y[i];
-      for (; entry != end; ++entry) sum += entry->value * x[entry->column];
-      y[i] = sum;
-    }
+    for_each_row(x, [y](int i, double sum) { y[i] += sum; });
   }
 
  private:
@@ -49,6 +38,21 @@ class SparseRows {
     double value;
     int column;
   };
+
+  template <typename Take>
+  void for_each_row(const double* x, Take take) const {
+    const Entry* entry = entries_.data();
+    const int* end = start_.data() + 1;
+    const int count = rows();
+    for (int i = 0; i < count; ++i) {
+      double sum = 0.0;
+      for (const Entry* last = entries_.data() + end[i]; entry != last; ++entry) {
+        sum += entry->value * x[entry->column];
+      }
+      take(i, sum);
+    }
+  }
+
   std::vector<int> start_;
   std::vector<Entry> entries_;
 };

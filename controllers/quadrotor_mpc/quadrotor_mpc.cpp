@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "controllers/parts/flight_ports.h"
 #include "controllers/quadrotor_mpc/limit_watch.h"
 #include "controllers/quadrotor_mpc/quadrotor_mpc_law.h"
@@ -86,8 +88,12 @@ class QuadrotorMpc final : public Controller {
 
   FlightDeviation deviation() const {
     const HoverState& state = law_.state();
-    return {state.tilt_rad(), state.x[kHoverPosition + 1], state.x[kHoverPosition + 2],
-            law_.speed_error_mps()};
+    double altitude_m = state.x[kHoverPosition + 2];
+    // A landing asks for ever less height until the ground is felt.
+    if (ports_.reference().phase == ReferenceTrajectory::Phase::kLand) {
+      altitude_m = std::min(altitude_m, 0.0);
+    }
+    return {state.tilt_rad(), state.x[kHoverPosition + 1], altitude_m, law_.speed_error_mps()};
   }
 
   /// One event a tick at most: a failure of the solver is told first.
@@ -104,6 +110,7 @@ class QuadrotorMpc final : public Controller {
       }
       return;
     }
+    if (!ports_.has_lifted_off()) return;  // the ground decides
     const FlightDeviation off = deviation();
     switch (watch_.update(off, now.s())) {
       case LimitWatch::News::kNone:

@@ -173,6 +173,24 @@ TEST(QuadrotorMpcRecovery, LeavesTheGroundWithoutLearningWhatItCarries) {
   }
   EXPECT_LT(off, 0.03);
   EXPECT_LT(std::abs(loop.error().z()), 2e-3);
+  EXPECT_TRUE(loop.events().empty());
+}
+
+TEST(QuadrotorMpcRecovery, StandsOnTheGroundWhileALandingStillAsksForLess) {
+  MpcSetup setup;
+  setup.phase = Phase::kLand;
+  setup.path = [](double t) {
+    TrajectoryPoint point;
+    point.v_W.z() = -0.5;
+    point.p_W.z() = 1.0 - 0.5 * t;
+    return point;
+  };
+  MpcLoop loop(setup);
+  loop.sim().set_floor(0.0);
+  run_checked(loop, 4.0);
+  EXPECT_EQ(loop.sim().state().p_W.z(), 0.0);
+  EXPECT_LT(loop.sim().state().p_W.head<2>().norm(), 0.01);
+  EXPECT_TRUE(loop.events().empty());
 }
 
 }  // namespace

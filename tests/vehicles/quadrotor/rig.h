@@ -39,6 +39,15 @@ inline MeshInstance make_box(const std::string& name, const Eigen::Vector3f& hal
   return instance;
 }
 
+/// Level and at rest.
+inline physics::BodyState at_height(double z) {
+  physics::BodyState state;
+  state.X_WB.p.z() = z;
+  state.v_WB_W.setZero();
+  state.w_WB_W.setZero();
+  return state;
+}
+
 struct QuadrotorRig {
   explicit QuadrotorRig(const QuadrotorParams& the_params = {},
                         WorldModel model = make_flat_world(), std::int64_t step_ns = 1'000'000,
@@ -63,11 +72,7 @@ struct QuadrotorRig {
 
   /// In flight, level, at rest, all rotors at one speed.
   void fly(double height_m, double speed_radps) {
-    physics::BodyState state;
-    state.X_WB.p.z() = height_m;
-    state.v_WB_W.setZero();
-    state.w_WB_W.setZero();
-    fly(state, {speed_radps, speed_radps, speed_radps, speed_radps});
+    fly(at_height(height_m), {speed_radps, speed_radps, speed_radps, speed_radps});
   }
   void fly(const physics::BodyState& state, const std::array<double, kRotors>& speeds_radps) {
     drone.set_motion(state, speeds_radps);

@@ -1,15 +1,13 @@
-// What every registered controller of a flying vehicle keeps: one that reads "reference". Those of
-// ground vehicles: conformance_test.cpp.
+// How well every registered controller of a flying vehicle flies, that is one that reads
+// "reference". What else it keeps: flight_contract_test.cpp. Ground vehicles: conformance_test.cpp.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/flight_loop.h"
-#include "tests/support/no_alloc.h"
 
 namespace vinerow::test {
 namespace {
@@ -220,158 +218,6 @@ TEST_P(EveryFlightController, DoesNotCareForDirections) {
     }
     EXPECT_LT(largest_m, 1e-8) << yaw;  // rounding, not amplified by a stable loop
   }
-}
-
-TEST_P(EveryFlightController, FliesTheSameBitsTwice) {
-  const auto fly = [&](std::uint64_t seed) {
-    FlightSetup setup = make_setup();
-    setup.wind = gusty_wind({1, 2, 0}, 1.0, 1.0, 10.0, seed);
-    FlightLoop loop(setup);
-    std::vector<Eigen::Vector3d> places;
-    loop.run_until(5.0, [&](const FlightLoop& now) { places.push_back(now.sim().state().p_W); });
-    return places;
-  };
-  EXPECT_EQ(fly(1), fly(1));
-  EXPECT_NE(fly(1), fly(2));
-}
-
-TEST_P(EveryFlightController, TakesOffLandsAndIsDone) {
-  FlightSetup setup = make_setup();
-  setup.start.p = {0, 0, 0};
-  setup.floor_m = 0.0;
-  setup.rotors_on = false;
-  // Waits 1 s, climbs 1.5 m in 3 s by a smooth step, stays 4 s, sinks by the same and on.
-  setup.phase = [](double t) {
-    return t < 1.0    ? Phase::kWait
-           : t < 4.0  ? Phase::kTakeOff
-           : t < 8.0  ? Phase::kHover
-           : t < 14.0 ? Phase::kLand
-                      : Phase::kDone;
-  };
-  setup.path = [](double t) {
-    TrajectoryPoint at;
-    const auto move = [&](double from_s, double way_m) {
-      const double s = std::clamp((t - from_s) / 3.0, 0.0, 1.0);
-      at.p_W.z() += way_m * s * s * s * (10.0 + s * (6.0 * s - 15.0));
-      at.v_W.z() += way_m * 30.0 * s * s * (1.0 - s) * (1.0 - s) / 3.0;
-      at.a_W.z() += way_m * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / 9.0;
-    };
-    move(1.0, 1.5);
-    move(8.0, -2.0);
-    return at;
-  };
-  FlightLoop loop(setup);
-  double overshoot_m = 0.0, off_m = 0.0, hardest_mps = 0.0;
-  loop.run_until(14.2, [&](const FlightLoop& now) {
-    const QuadrotorState& state = now.sim().state();
-    const Phase phase = now.reference().phase;
-    overshoot_m = std::max(overshoot_m, state.p_W.z() - 1.5);
-    if (phase == Phase::kHover && now.time_s() > 6.0) off_m = std::abs(state.p_W.z() - 1.5);
-    if (state.p_W.z() < 0.02) hardest_mps = std::max(hardest_mps, -state.v_W.z());
-    const bool on = phase != Phase::kWait && phase != Phase::kDone;
-    if (!on) {
-      for (const double speed : now.actuators().values) ASSERT_EQ(speed, 0.0) << now.time_s();
-    }
-    ASSERT_EQ(now.controller().finished(), phase == Phase::kDone) << now.time_s();
-  });
-  EXPECT_LT(overshoot_m, 0.15);
-  EXPECT_LT(off_m, 0.03);
-  EXPECT_LT(hardest_mps, 1.5);
-  EXPECT_EQ(loop.sim().state().p_W.z(), 0.0);
-  EXPECT_LT(loop.sim().state().p_W.head<2>().norm(), 0.05);
-  EXPECT_TRUE(loop.follower().finished);
-}
-
-TEST_P(EveryFlightController, AllocatesNothing) {
-  FlightSetup setup = make_setup();
-  setup.wind = gusty_wind({0, 3, 0}, 1.0, 1.0, 10.0, 1);
-  setup.path = hover_at({3, 2, 4}, 1.0);  // limits become active
-  FlightLoop loop(setup);
-  loop.run_until(0.2);
-  std::size_t allocations = 0;
-  loop.run_until(3.0, [&](const FlightLoop& now) {
-    if (std::lround(now.time_s() * 1000) % 50 != 0) return;
-    AllocationCounter counter;
-    loop.tick_controller();
-    allocations += counter.count();
-  });
-  EXPECT_EQ(allocations, 0u);
-}
-
-/// A controller alone between signals.
-struct Bench {
-  Bench(const std::string& type, VehicleDescription d = describe(make_q4t()))
-      : description(std::move(d)) {
-    ControllerContext context;
-    context.vehicle = "drone";
-    context.part = "drone.controller";
-    context.period = Duration{20'000'000};
-    context.vehicle_description = &description;
-    Ports world(bus, "drone", "test");
-    estimate = world.write<Odometry>("estimate");
-    reference = world.write<ReferenceTrajectory>("reference");
-    const PartSpec& spec = parts().spec(PartKind::kController, type);
-    controller = parts().make_controller(type, make_parameters(spec, {}), context);
-    Ports ports(bus, "drone", "drone.controller");
-    controller->connect(ports);
-    actuators = world.read<NamedValues>("actuators");
-    follower = world.read<FollowerState>("follower");
-  }
-  void expect_off() const {
-    ASSERT_EQ(actuators.value().values.size(), 4u);
-    for (const double speed : actuators.value().values) EXPECT_EQ(speed, 0.0);
-    EXPECT_FALSE(controller->finished());
-  }
-  VehicleDescription description;
-  SignalBus bus;
-  SignalWriter<Odometry> estimate;
-  SignalWriter<ReferenceTrajectory> reference;
-  std::unique_ptr<Controller> controller;
-  SignalReader<NamedValues> actuators;
-  SignalReader<FollowerState> follower;
-};
-
-TEST_P(EveryFlightController, KeepsRotorsOffWithoutReferenceOrEstimate) {
-  Bench bench(GetParam());
-  bench.controller->step(Time{});
-  bench.expect_off();
-  bench.estimate.write(Time{}, Odometry{});
-  bench.controller->step(Time{20'000'000});
-  bench.expect_off();
-  ReferenceTrajectory empty;
-  empty.phase = Phase::kHover;
-  bench.reference.write(Time{}, empty);
-  bench.controller->step(Time{40'000'000});
-  bench.expect_off();
-
-  Bench blind(GetParam());
-  empty.points.resize(21);
-  blind.reference.write(Time{}, empty);
-  blind.controller->step(Time{});
-  blind.expect_off();
-}
-
-TEST_P(EveryFlightController, RefusesVehiclesWithoutRotors) {
-  VehicleDescription rover = make_rover_description();
-  rover.mass_kg = 300.0;
-  try {
-    Bench bench(GetParam(), rover);
-    FAIL() << "must be refused";
-  } catch (const ConfigError& error) {
-    EXPECT_EQ(std::string(error.what())
-                  .find("drone.controller (" + GetParam() +
-                        ") needs 'rotor_count', which vehicle type 'test_rover' does not tell"),
-              0u)
-        << error.what();
-  }
-}
-
-TEST_P(EveryFlightController, DocumentsItsParameters) {
-  const PartSpec& spec = parts().spec(PartKind::kController, GetParam());
-  for (const ParameterSpec& parameter : spec.parameters) {
-    EXPECT_FALSE(parameter.description.empty()) << parameter.name;
-  }
-  EXPECT_GE(spec.default_rate_Hz, 20.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, EveryFlightController,

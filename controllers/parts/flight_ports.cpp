@@ -99,6 +99,7 @@ Wrench FlightPorts::write(Time now, const Wrench& wanted) {
 
 void FlightPorts::write_off(Time now) {
   has_lifted_off_ = false;
+  has_ended_ = is_done();
   std::fill(actuator_values_.values.begin(), actuator_values_.values.end(), 0.0);
   write_values(now, {}, {});
 }

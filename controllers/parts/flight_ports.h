@@ -30,6 +30,8 @@ class FlightPorts {
   bool is_done() const {
     return has_reference() && reference().phase == ReferenceTrajectory::Phase::kDone;
   }
+  /// Rotors off have been written since the reference is done: what a controller's finished() says.
+  bool has_ended() const { return has_ended_; }
 
   /// The reference at a moment between its points: position by cubic Hermite pieces, the rest
   /// linear. After the last point it stays there, at rest. @pre has_reference()
@@ -51,6 +53,7 @@ class FlightPorts {
 
   Rotorcraft craft_;
   RotorMixer mixer_;
+  bool has_ended_ = false;
   bool has_lifted_off_ = false;
   NamedValues actuator_values_;
   NamedValues wrench_values_;

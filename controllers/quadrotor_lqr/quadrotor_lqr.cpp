@@ -50,7 +50,7 @@ class QuadrotorLqr final : public Controller {
     law_.command(ports_.speeds_radps());
   }
 
-  bool finished() const override { return ports_.is_done(); }
+  bool finished() const override { return ports_.has_ended(); }
 
  private:
   FlightPorts ports_;

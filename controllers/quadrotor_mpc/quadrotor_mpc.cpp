@@ -52,7 +52,7 @@ class QuadrotorMpc final : public Controller {
     write(now);
   }
 
-  bool finished() const override { return ports_.is_done(); }
+  bool finished() const override { return ports_.has_ended(); }
 
  private:
   /// A flight that does not begin with a take-off begins in the air.

@@ -87,7 +87,7 @@ class QuadrotorPid final : public Controller {
     lost_ = {wanted.thrust_N - reached.thrust_N, wanted.torque_B - reached.torque_B};
   }
 
-  bool finished() const override { return ports_.is_done(); }
+  bool finished() const override { return ports_.has_ended(); }
 
  private:
   /// Keeps the vertical part of the force at the tilt that there is.

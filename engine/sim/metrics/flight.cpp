@@ -56,12 +56,15 @@ class Flight final : public Metric {
     plan_.take_over();
     const Odometry& truth = truth_.value();
     const Eigen::Vector3d& p_W = truth.X_WB.p;
-    const Eigen::Vector3d up_B = truth.X_WB.q * Eigen::Vector3d::UnitZ();
-    tilt_rad_.add(std::acos(std::clamp(up_B.z(), -1.0, 1.0)));
     const std::optional<double> ground_m =
         scene_->ground_height_m(p_W.x(), p_W.y(), p_W.z() + kLookFrom_m);
     const double height_m = ground_m ? p_W.z() - *ground_m : kNotMeasured;
-    if (height_m > description_->height_above_ground_m + kInTheAir_m) watch_rotors();
+    if (height_m > description_->height_above_ground_m + kInTheAir_m) {
+      watch_rotors();
+      const Eigen::Vector3d up_W = truth.X_WB.q * Eigen::Vector3d::UnitZ();
+      tilt_rad_.add(std::acos(std::clamp(up_W.z(), -1.0, 1.0)));
+    }
+    watch_hover(p_W);
     if (!plan_.has_plan()) return;
     const PlanStretch::Place place = plan_.find(p_W);
     if (plan_.is_leg(place.segment)) {
@@ -83,6 +86,8 @@ class Flight final : public Metric {
             {"row_speed_mean_mps", share(speed_sum_mps_, speeds_)},
             {"row_speed_error_max_mps", speed_error_.max_or_nan()},
             {"return_clearance_min_m", return_clearance_m_.min_or_nan()},
+            {"hover_error_rms_m", hover_m_.rms()},
+            {"hover_error_max_m", hover_m_.max_or_nan()},
             {"tilt_max_deg", deg_from_rad(tilt_rad_.max_or_nan())},
             {"thrust_limit_share", share(static_cast<double>(limited_), airborne_)},
             {"crashed", crashed() ? 1.0 : 0.0}};
@@ -104,6 +109,12 @@ class Flight final : public Metric {
     if (wanted_mps <= 0.0) return;
     if (std::abs(wanted.a_W.dot(wanted.v_W)) > kConstantSpeed_mps2 * wanted_mps) return;
     speed_error_.add(speed_mps - wanted_mps);
+  }
+
+  void watch_hover(const Eigen::Vector3d& p_W) {
+    if (!reference_.has_value() || reference_.value().points.empty()) return;
+    if (reference_.value().phase != ReferenceTrajectory::Phase::kHover) return;
+    hover_m_.add((p_W - reference_.value().points.front().p_W).norm());
   }
 
   void watch_rotors() {
@@ -141,7 +152,7 @@ class Flight final : public Metric {
   SignalReader<ReferenceTrajectory> reference_;
   SignalReader<NamedValues> actuators_;
   std::vector<const ActuatorSpec*> rotors_;  ///< of each name; null: no rotor
-  Spread altitude_, speed_error_;
+  Spread altitude_, speed_error_, hover_m_;
   Extremes row_height_m_, return_clearance_m_, tilt_rad_;
   double speed_sum_mps_ = 0.0;
   std::int64_t speeds_ = 0;
@@ -155,13 +166,14 @@ PartSpec flight_spec() {
   PartSpec spec;
   spec.name = "flight";
   spec.description =
-      "Of vehicles that fly: height and speed in the rows, clearance on the way home, tilt, "
-      "rotors at their limits, whether it crashed";
+      "Of vehicles that fly: height and speed in the rows, clearance on the way home, how still "
+      "it hovers, tilt in the air, rotors at their limits, whether it crashed";
   spec.reads = {"truth", "plan (optional)", "reference (optional)", "actuators (optional)"};
   spec.writes = {"altitude_error_rms_m",      "altitude_error_max_m",
                  "height_above_ground_min_m", "height_above_ground_max_m",
                  "row_speed_mean_mps",        "row_speed_error_max_mps",
-                 "return_clearance_min_m",    "tilt_max_deg",
+                 "return_clearance_min_m",    "hover_error_rms_m",
+                 "hover_error_max_m",         "tilt_max_deg",
                  "thrust_limit_share",        "crashed"};
   return spec;
 }

@@ -1,5 +1,7 @@
 #include "controllers/parts/mpc_prediction.h"
 
+#include <utility>
+
 namespace vinerow::mpc {
 
 using Eigen::Index;

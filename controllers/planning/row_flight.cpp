@@ -9,6 +9,7 @@
 #include "controllers/planning/flight_way.h"
 #include "controllers/planning/row_flight_params.h"
 #include "controllers/planning/rrt_star.h"
+#include "engine/core/error.h"
 
 namespace vinerow {
 namespace {
@@ -238,8 +239,12 @@ PartSpec row_flight_spec() {
 
 std::unique_ptr<Planner> make_row_flight(const ParameterSet& parameters,
                                          const PlannerContext& context) {
-  const RowFlightParams params =
-      read_row_flight_params(parameters, context, context.part + " (row_flight)");
+  const std::string who = context.part + " (row_flight)";
+  if (!context.vehicle_description->flies()) {
+    throw ConfigError(fmt::format("{} plans flights, but vehicle type '{}' does not fly", who,
+                                  context.vehicle_description->type));
+  }
+  const RowFlightParams params = read_row_flight_params(parameters, context, who);
   const std::string& turns = parameters.text("turns");
   std::unique_ptr<FlightWay> way;
   if (turns == "grid") {

@@ -305,6 +305,12 @@ TEST(RowFlight, RefusesWhatCannotBeFlown) {
   bench.values = {{"alleys", std::vector<double>{1.0}}};
   EXPECT_THAT(refusal_of(bench), HasSubstr("alleys holds 1, must be whole numbers from 0 to 0"));
   bench.values = {};
+  FlightBench rover({.alleys = 1, .row_length_m = 20.0});
+  rover.vehicle.type = "four_wheel_steering_rover";
+  rover.vehicle.numbers.erase("rotor_count");
+  EXPECT_EQ(refusal_of(rover),
+            "drone.planner (row_flight) plans flights, but vehicle type "
+            "'four_wheel_steering_rover' does not fly");
   bench.map.occupancy = {};
   EXPECT_EQ(refusal_of(bench),
             "drone.planner (row_flight): the map has no occupancy grid: set occupancy_cell_m, or "

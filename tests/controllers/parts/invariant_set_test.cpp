@@ -2,53 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "controllers/parts/zonotope.h"
-#include "engine/core/error.h"
-#include "engine/core/random.h"
+#include "tests/controllers/parts/random_sets.h"
 
 namespace vinerow::test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-Eigen::MatrixXd random_matrix(RandomStream& random, Eigen::Index rows, Eigen::Index columns) {
-  Eigen::MatrixXd matrix(rows, columns);
-  for (double& entry : matrix.reshaped()) entry = random.normal();
-  return matrix;
-}
-
-/// A random system with the spectral radius `radius`.
-Eigen::MatrixXd random_system(RandomStream& random, int n, double radius) {
-  const Eigen::MatrixXd A = random_matrix(random, n, n);
-  return A * (radius / A.eigenvalues().cwiseAbs().maxCoeff());
-}
-
-Polytope random_constraints(RandomStream& random, int n, int rows) {
-  Eigen::VectorXd g(rows);
-  for (double& limit : g) limit = random.uniform(0.5, 1.5);
-  return Polytope(random_matrix(random, rows, n), g)
-      .intersection(Polytope::box(Eigen::VectorXd::Constant(n, 2.0)));
-}
-
-bool same_set(const Polytope& P, const Polytope& Q) {
-  return P.contains(Q) && Q.contains(P);
-}
-
-template <typename Action>
-std::string complaint(Action&& action) {
-  try {
-    action();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "none";
-}
 
 TEST(InvariantSet, ScalarAndDiagonalSystemsKeepTheirWholeBox) {
   const Polytope line = Polytope::box(Eigen::VectorXd::Constant(1, -0.7), Eigen::VectorXd::Ones(1));

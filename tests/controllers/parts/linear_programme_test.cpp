@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/random.h"
+#include "tests/controllers/parts/random_sets.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::test {
@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-Eigen::MatrixXd random_matrix(RandomStream& random, Eigen::Index rows, Eigen::Index columns) {
-  Eigen::MatrixXd matrix(rows, columns);
-  for (double& entry : matrix.reshaped()) entry = random.normal();
-  return matrix;
-}
 
 /// Rows of lower <= x <= upper: +e_j, then -e_j.
 Eigen::MatrixXd box_rows(int n) {

@@ -5,46 +5,11 @@
 /// Exit code 2 where the file is not like that.
 
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <string>
 
 #include "controllers/parts/linear_programme.h"
+#include "tests/controllers/parts/number_reader.h"
 
 namespace {
-
-class Numbers {
- public:
-  explicit Numbers(const std::string& text) : at_(text.c_str()) {}
-
-  bool next(double& number) {
-    char* end = nullptr;
-    number = std::strtod(at_, &end);
-    const bool found = end != at_;
-    at_ = end;
-    return found;
-  }
-
-  double expect() {
-    double number = 0.0;
-    if (!next(number)) {
-      std::fputs("the file ends within a programme or holds a word that is no number\n", stderr);
-      std::exit(2);
-    }
-    return number;
-  }
-
-  template <typename Matrix>
-  void fill(Matrix& matrix) {
-    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-      for (Eigen::Index j = 0; j < matrix.cols(); ++j) matrix(i, j) = expect();
-    }
-  }
-
- private:
-  const char* at_;
-};
 
 const char* word(vinerow::LpStatus status) {
   switch (status) {
@@ -66,16 +31,10 @@ int main(int argument_count, char** arguments) {
     std::fputs("usage: lp_solve_files FILE\n", stderr);
     return 2;
   }
-  std::ifstream stream(arguments[1]);
-  if (!stream) {
-    std::fprintf(stderr, "cannot read %s\n", arguments[1]);
-    return 2;
-  }
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  Numbers numbers(text);
+  vinerow::test::NumberReader numbers(arguments[1]);
   double n = 0.0;
   while (numbers.next(n)) {
-    const int variables = static_cast<int>(n), rows = static_cast<int>(numbers.expect());
+    const int variables = static_cast<int>(n), rows = numbers.expect_int();
     Eigen::MatrixXd F(rows, variables);
     Eigen::VectorXd g(rows), c(variables);
     numbers.fill(F);

@@ -2,47 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <limits>
-#include <string>
 
 #include "controllers/parts/series_support.h"
-#include "engine/core/error.h"
-#include "engine/core/random.h"
+#include "tests/controllers/parts/random_sets.h"
 
 namespace vinerow::test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Eigen::MatrixXd random_matrix(RandomStream& random, Eigen::Index rows, Eigen::Index columns) {
-  Eigen::MatrixXd matrix(rows, columns);
-  for (double& entry : matrix.reshaped()) entry = random.normal();
-  return matrix;
-}
-
-/// A random system with the spectral radius `radius`.
-Eigen::MatrixXd random_system(RandomStream& random, int n, double radius) {
-  const Eigen::MatrixXd A = random_matrix(random, n, n);
-  return A * (radius / A.eigenvalues().cwiseAbs().maxCoeff());
-}
-
-Polytope random_constraints(RandomStream& random, int n, int rows) {
-  Eigen::VectorXd g(rows);
-  for (double& limit : g) limit = random.uniform(0.5, 1.5);
-  return Polytope(random_matrix(random, rows, n), g)
-      .intersection(Polytope::box(Eigen::VectorXd::Constant(n, 2.0)));
-}
-
-template <typename Action>
-std::string complaint(Action&& action) {
-  try {
-    action();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "none";
-}
 
 TEST(OuterMinimalSet, ReproducesTheExampleOfRakovic) {
   // The example with A_K = [-.17 -.03; -1.17 -.03] and a unit box: the set itself has half widths

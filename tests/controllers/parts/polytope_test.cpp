@@ -8,20 +8,13 @@
 #include <vector>
 
 #include "controllers/parts/zonotope.h"
-#include "engine/core/error.h"
-#include "engine/core/random.h"
+#include "tests/controllers/parts/random_sets.h"
 
 namespace vinerow::test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-Eigen::MatrixXd random_matrix(RandomStream& random, Eigen::Index rows, Eigen::Index columns) {
-  Eigen::MatrixXd matrix(rows, columns);
-  for (double& entry : matrix.reshaped()) entry = random.normal();
-  return matrix;
-}
 
 /// {x : |x_1| + ... + |x_n| <= 1} by its 2^n rows.
 Polytope one_norm_ball(int n) {
@@ -50,20 +43,7 @@ std::vector<Eigen::Vector3d> vertices(const Polytope& P) {
 }
 
 Polytope random_polytope(RandomStream& random, int rows) {
-  Eigen::VectorXd g(rows);
-  for (double& limit : g) limit = random.uniform(0.5, 1.5);
-  return Polytope(random_matrix(random, rows, 3), g)
-      .intersection(Polytope::box(Eigen::Vector3d(2.0, 3.0, 4.0)));
-}
-
-template <typename Action>
-std::string complaint(Action&& action) {
-  try {
-    action();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "none";
+  return random_constraints(random, Eigen::Vector3d(2.0, 3.0, 4.0), rows);
 }
 
 TEST(Polytope, SupportOfBoxAndOneNormBall) {

@@ -5,23 +5,15 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "controllers/parts/polytope.h"
 #include "controllers/parts/series_support.h"
-#include "engine/core/error.h"
-#include "engine/core/random.h"
+#include "tests/controllers/parts/random_sets.h"
 
 namespace vinerow::test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-Eigen::MatrixXd random_matrix(RandomStream& random, Eigen::Index rows, Eigen::Index columns) {
-  Eigen::MatrixXd matrix(rows, columns);
-  for (double& entry : matrix.reshaped()) entry = random.normal();
-  return matrix;
-}
 
 /// The largest c'x over all 2^k sign patterns of the generators.
 double best_corner(const Zonotope& Z, const Eigen::VectorXd& c) {
@@ -33,16 +25,6 @@ double best_corner(const Zonotope& Z, const Eigen::VectorXd& c) {
     best = std::max(best, c.dot(x));
   }
   return best;
-}
-
-template <typename Action>
-std::string complaint(Action&& action) {
-  try {
-    action();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "none";
 }
 
 TEST(Zonotope, SupportIsTheBestCorner) {

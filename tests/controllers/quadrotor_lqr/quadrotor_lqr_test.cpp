@@ -78,6 +78,7 @@ TEST(QuadrotorLqr, GivesVehiclesOfAnySizeTheSameLoop) {
   large.inertia_kgm2 = {0.4, 0.3, 0.9};
   large.thrust_coefficient *= 3.0;
   large.torque_coefficient *= 3.0;
+  large.rotor_inertia_kgm2 *= 3.0;
   large.rotor_drag_Ns_per_m *= 3.0;
   const Law a(small), b(large);
   const Eigen::Vector4d ratio(3.0, 0.4 / 0.05, 0.3 / 0.05, 0.9 / 0.0977);

@@ -71,6 +71,7 @@ VehicleDescription describe(const QuadrotorNumbers& numbers) {
   tell["rotor_min_radps"] = numbers.min_radps;
   tell["rotor_max_radps"] = numbers.max_radps;
   tell["rotor_lag_s"] = numbers.lag_s;
+  tell["rotor_inertia_kgm2"] = numbers.rotor_inertia_kgm2;
   tell["rotor_drag_Ns_per_m"] = numbers.rotor_drag_Ns_per_m;
   tell["inertia_xx_kgm2"] = numbers.inertia_kgm2.x();
   tell["inertia_yy_kgm2"] = numbers.inertia_kgm2.y();
@@ -100,7 +101,9 @@ void QuadrotorSim::set_floor(double height_m) {
 
 QuadrotorState QuadrotorSim::derivative(const QuadrotorState& x, const Eigen::VectorXd& wanted,
                                         double time_s) const {
-  double thrust_N = 0.0;
+  QuadrotorState rate;
+  rate.rotors_radps = (wanted - x.rotors_radps) / numbers_.lag_s;
+  double thrust_N = 0.0, rotors_Nms = 0.0;
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
   for (int i = 0; i < x.rotors_radps.size(); ++i) {
     const SimRotor& rotor = numbers_.rotors[static_cast<std::size_t>(i)];
@@ -109,6 +112,9 @@ QuadrotorState QuadrotorSim::derivative(const QuadrotorState& x, const Eigen::Ve
     thrust_N += lift.z();
     torque += Eigen::Vector3d(rotor.x_m, rotor.y_m, 0.0).cross(lift);
     torque.z() += rotor.torque_sign * numbers_.torque_coefficient * square;
+    // A rotor whose drag turns the body to the left turns to the right itself.
+    torque.z() += rotor.torque_sign * numbers_.rotor_inertia_kgm2 * rate.rotors_radps(i);
+    rotors_Nms -= rotor.torque_sign * numbers_.rotor_inertia_kgm2 * x.rotors_radps(i);
   }
   const Eigen::Vector3d wind = wind_ ? wind_(time_s, x.p_W) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d through_air = x.v_W - wind;
@@ -116,15 +122,14 @@ QuadrotorState QuadrotorSim::derivative(const QuadrotorState& x, const Eigen::Ve
                                                          numbers_.body_drag_area_m2 *
                                                          through_air.norm();
   const Eigen::Quaterniond q = x.q_WB.normalized();
-  QuadrotorState rate;
   rate.p_W = x.v_W;
   rate.v_W = (q * Eigen::Vector3d(0.0, 0.0, thrust_N) - drag * through_air) / numbers_.mass_kg;
   rate.v_W.z() -= numbers_.gravity_mps2;
   const Eigen::Quaterniond spin(0.0, x.w_B.x(), x.w_B.y(), x.w_B.z());
   rate.q_WB.coeffs() = 0.5 * (x.q_WB * spin).coeffs();
-  const Eigen::Vector3d momentum = numbers_.inertia_kgm2.cwiseProduct(x.w_B);
+  Eigen::Vector3d momentum = numbers_.inertia_kgm2.cwiseProduct(x.w_B);
+  momentum.z() += rotors_Nms;
   rate.w_B = (torque - x.w_B.cross(momentum)).cwiseQuotient(numbers_.inertia_kgm2);
-  rate.rotors_radps = (wanted - x.rotors_radps) / numbers_.lag_s;
   return rate;
 }
 

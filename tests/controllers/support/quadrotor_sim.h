@@ -1,6 +1,7 @@
 #pragma once
-/// A plain nonlinear quadrotor for tests: rigid body, rotor lag, thrust and drag torque, drag in
-/// the wind, Runge-Kutta 4. Written without the code under test and without the product's vehicle.
+/// A plain nonlinear quadrotor for tests: rigid body, rotor lag, thrust and drag torque, the
+/// rotors' momentum, drag in the wind, Runge-Kutta 4. Written without the code under test and
+/// without the product's vehicle.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -25,6 +26,7 @@ struct QuadrotorNumbers {
   double torque_coefficient = 1.32e-6;  ///< N m s2
   double min_radps = 0.0, max_radps = 640.0;
   double lag_s = 0.05;
+  double rotor_inertia_kgm2 = 3.6e-4;  ///< of each rotor about its axis
   double rotor_drag_Ns_per_m = 0.30;
   double body_drag_area_m2 = 0.04;  ///< C_d A
   double air_density_kgm3 = 1.225;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -241,6 +242,74 @@ struct ReferenceTrajectory {
   }
 };
 
+/// What a vehicle on wings is to hold now. ROS 2: vinerow_msgs/msg/AirReference.
+struct AirReference {
+  static constexpr const char* kType = "AirReference";
+  enum class Phase : std::uint8_t {
+    kWait = 0,      ///< on the launcher, propeller off
+    kLaunch = 1,    ///< straight ahead and up
+    kStraight = 2,  ///< along a leg, or on the way to it
+    kTurn = 3,
+    kLoiter = 4,  ///< circles
+    kLand = 5,    ///< down to the ground; the propeller stops where `power` says so
+    kDone = 6     ///< on the ground, nothing left to do
+  };
+  Phase phase = Phase::kWait;
+  bool power = false;         ///< whether the propeller may run
+  double airspeed_mps = 0.0;  ///< true airspeed
+  double course_rad = 0.0;    ///< of the velocity over ground, from east, positive to the left
+  double heading_rad = 0.0;   ///< of body x: the course, crabbed by the wind; continuous
+  double heading_rate_radps = 0.0;
+  double bank_rad = 0.0;  ///< roll that this turn takes, positive to the right (right wing down)
+  double height_m = 0.0;  ///< z of W
+  double climb_angle_rad = 0.0;                      ///< of the path through the air
+  Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();  ///< mean wind as far as it is known, m/s
+  double cross_track_m = 0.0;                        ///< of the leg flown, positive: left of it
+  std::int32_t waypoint = 0;                         ///< flown to
+  double distance_m = 0.0;                           ///< along the plan
+  double remaining_m = 0.0;
+
+  template <class F>
+  void fields(F&& f) {
+    f(phase), f(power), f(airspeed_mps), f(course_rad), f(heading_rad), f(heading_rate_radps);
+    f(bank_rad), f(height_m), f(climb_angle_rad), f(wind_W), f(cross_track_m), f(waypoint);
+    f(distance_m), f(remaining_m);
+  }
+};
+
+/// Velocity through the air, as a pitot tube with vanes tells it. ROS 2:
+/// geometry_msgs/msg/Vector3Stamped.
+struct AirData {
+  static constexpr const char* kType = "AirData";
+  Eigen::Vector3d v_air_B = Eigen::Vector3d::Zero();  ///< of the vehicle through the air, m/s
+
+  template <class F>
+  void fields(F&& f) {
+    f(v_air_B);
+  }
+};
+
+/// One picture taken from above. ROS 2: vinerow_msgs/msg/CameraShot.
+struct CameraShot {
+  static constexpr const char* kType = "CameraShot";
+  std::int32_t index = -1;  ///< counted from 0; -1: none yet
+  Pose X_WS;                ///< x of S along the optical axis, y to the picture's left, z up in it
+  /// Where the picture's corners meet the ground: upper left, upper right, lower right, lower left,
+  /// m. Only where `on_ground`.
+  std::array<Eigen::Vector3d, 4> corners_W = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                              Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  bool on_ground = false;   ///< every corner meets the ground
+  double distance_m = 0.0;  ///< to the ground along the optical axis
+  double gsd_m = 0.0;       ///< ground sampling distance there
+
+  template <class F>
+  void fields(F&& f) {
+    f(index), f(X_WS.p), f(X_WS.q);
+    for (Eigen::Vector3d& corner : corners_W) f(corner);
+    f(on_ground), f(distance_m), f(gsd_m);
+  }
+};
+
 /// Electric energy. ROS 2: sensor_msgs/msg/BatteryState.
 struct BatteryState {
   static constexpr const char* kType = "BatteryState";
@@ -285,6 +354,9 @@ void for_each_message_type(F&& f) {
   f(static_cast<PlannedPath*>(nullptr));
   f(static_cast<FollowerState*>(nullptr));
   f(static_cast<ReferenceTrajectory*>(nullptr));
+  f(static_cast<AirReference*>(nullptr));
+  f(static_cast<AirData*>(nullptr));
+  f(static_cast<CameraShot*>(nullptr));
   f(static_cast<BatteryState*>(nullptr));
   f(static_cast<Event*>(nullptr));
 }

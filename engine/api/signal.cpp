@@ -87,6 +87,9 @@ template class Signal<LinkPoses>;
 template class Signal<PlannedPath>;
 template class Signal<FollowerState>;
 template class Signal<ReferenceTrajectory>;
+template class Signal<AirReference>;
+template class Signal<AirData>;
+template class Signal<CameraShot>;
 template class Signal<BatteryState>;
 template class Signal<Event>;
 

@@ -6,9 +6,9 @@
 /// physics, metrics. Local signal names (see Ports): "truth" (kernel), "<sensor name>" (sensors),
 /// "estimate" (estimator), "plan" and "plan_tree" (planner), "local_command" (guidance), "command"
 /// VelocityCommand or "actuators" NamedValues (controller), "follower" (controller), "reference"
-/// (guidance of flying vehicles). A part tells
-/// people what happened by writing an Event of its own, "<part>_event"; the kernel passes it on to
-/// "run/events".
+/// (guidance of flying vehicles: ReferenceTrajectory of rotorcraft, AirReference of what has
+/// wings). A part tells people what happened by writing an Event of its own, "<part>_event"; the
+/// kernel passes it on to "run/events".
 
 #include <map>
 #include <memory>
@@ -87,6 +87,7 @@ struct PlannerContext : PartContext {
   const RowMap* map = nullptr;
   /// Ground height of the map, m; used to lift planned points.
   const SceneQuery* scene = nullptr;
+  GeoOrigin origin;  ///< of W, for files in latitude and longitude
 };
 
 /// Local planning: reads "estimate" and "plan", writes "reference" signals that a controller reads.

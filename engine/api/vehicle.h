@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/api/flight_model.h"
 #include "engine/api/mesh.h"
 #include "engine/api/part.h"
 
@@ -42,6 +43,8 @@ struct VehicleDescription {
   /// Further numbers by name with unit suffix: "track_m", "wheel_radius_m", "max_speed_mps",
   /// "min_turning_radius_m".
   std::map<std::string, double> numbers;
+  /// Of vehicles with wings: their flight mechanics as their maker knows them. Null elsewhere.
+  std::shared_ptr<const FlightModel> flight_model;
 
   /// @throws ConfigError "vehicle type 'x' does not tell 'track_m', which rover.controller needs"
   double number(const std::string& name, const std::string& who) const;
@@ -92,6 +95,13 @@ class Vehicle {
   /// What encoders on the actuators would tell: the true value of each, same order and units as
   /// description().actuators. Empty where the vehicle does not know.
   virtual std::span<const double> actuator_states() const { return {}; }
+  /// True velocity through the air of B's origin, in B, m/s; of a vehicle that feels no wind its
+  /// velocity over ground. What an air data sensor measures.
+  virtual Eigen::Vector3d air_velocity_B() const {
+    Odometry truth;
+    read_truth(truth);
+    return truth.v_WB_B;
+  }
   /// Why the vehicle is wrecked, "hit the ground at 2.3 m/s"; empty while it is not. Once told it
   /// stays. The kernel tells people, and ends or fails the run as the scenario's `on_crash` says.
   virtual std::string_view crash() const { return {}; }

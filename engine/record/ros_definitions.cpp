@@ -179,6 +179,34 @@ constexpr std::array kDefinitions = {
     Definition{"vinerow_msgs/PlannedPath",
                "std_msgs/Header header\n# m, of the exact curve\nfloat64 length\n"
                "vinerow_msgs/PathPoint[] points\n"},
+    Definition{"geometry_msgs/Vector3Stamped",
+               "std_msgs/Header header\ngeometry_msgs/Vector3 vector\n"},
+    Definition{
+        "vinerow_msgs/AirReference",
+        "# what a vehicle on wings is to hold now\n"
+        "uint8 WAIT=0\nuint8 LAUNCH=1\nuint8 STRAIGHT=2\nuint8 TURN=3\nuint8 LOITER=4\n"
+        "uint8 LAND=5\nuint8 DONE=6\n"
+        "std_msgs/Header header\nuint8 phase\n# whether the propeller may run\nbool power\n"
+        "# m/s, true airspeed\nfloat64 airspeed\n"
+        "# rad from east, positive to the left: of the velocity over ground, and of the body\n"
+        "float64 course\nfloat64 heading\n# rad/s\nfloat64 heading_rate\n"
+        "# rad, positive with the right wing down\nfloat64 bank\n"
+        "# m, z in header.frame_id\nfloat64 height\n# rad, of the path through the air\n"
+        "float64 climb_angle\n# m/s, mean wind as far as it is known\n"
+        "geometry_msgs/Vector3 wind\n# m, positive left of the leg\nfloat64 cross_track\n"
+        "int32 waypoint\n# m along the plan, flown and to go\nfloat64 distance\n"
+        "float64 remaining\n"},
+    Definition{
+        "vinerow_msgs/CameraShot",
+        "# a picture taken from above\nstd_msgs/Header header\nint32 index\n"
+        "# of the vehicle in header.frame_id, and of the camera (looking along its x, z up in "
+        "the picture) in the vehicle\n"
+        "geometry_msgs/Pose body\ngeometry_msgs/Pose camera\n"
+        "# where the corners meet the ground: upper left, upper right, lower right, lower "
+        "left, m\n"
+        "geometry_msgs/Point[4] corners\n# every corner meets the ground\nbool on_ground\n"
+        "# m along the optical axis, and metres per pixel there\n"
+        "float64 distance\nfloat64 ground_sampling_distance\n"},
     Definition{"vinerow_msgs/BatteryState",
                "std_msgs/Header header\n# W drawn now\nfloat64 power\n# J since the start\n"
                "float64 energy_used\n# remaining share of the capacity, 0 to 1\n"

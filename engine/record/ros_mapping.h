@@ -68,6 +68,9 @@ VINEROW_ROS_MAPPING(PlannedPath, "nav_msgs/msg/Path", "vinerow_msgs/msg/PlannedP
 VINEROW_ROS_MAPPING(FollowerState, "vinerow_msgs/msg/FollowerState", nullptr)
 VINEROW_ROS_MAPPING(ReferenceTrajectory, "trajectory_msgs/msg/MultiDOFJointTrajectory",
                     "vinerow_msgs/msg/ReferenceTrajectory")
+VINEROW_ROS_MAPPING(AirReference, "vinerow_msgs/msg/AirReference", nullptr)
+VINEROW_ROS_MAPPING(AirData, "geometry_msgs/msg/Vector3Stamped", nullptr)
+VINEROW_ROS_MAPPING(CameraShot, "vinerow_msgs/msg/CameraShot", nullptr)
 VINEROW_ROS_MAPPING(BatteryState, "sensor_msgs/msg/BatteryState", "vinerow_msgs/msg/BatteryState")
 VINEROW_ROS_MAPPING(Event, "rcl_interfaces/msg/Log", nullptr)
 

@@ -166,6 +166,7 @@ void VehicleRuntime::add_planner() {
   planner_context.vehicle_description = &vehicle_->description();
   planner_context.map = &run_.world.rows;
   planner_context.scene = &run_.physics.scene();
+  planner_context.origin = run_.world.origin;
   planner_ = run_.registry.make_planner(config_.planner->type, config_.planner->parameters,
                                         planner_context);
   Ports ports(run_.bus, config_.name, part);

@@ -73,6 +73,9 @@ void fill(RandomStream& random, T& value) {
   if constexpr (std::is_same_v<T, ReferenceTrajectory>) {
     value.phase = static_cast<ReferenceTrajectory::Phase>(random.next_u64() % 9);
   }
+  if constexpr (std::is_same_v<T, AirReference>) {
+    value.phase = static_cast<AirReference::Phase>(random.next_u64() % 7);
+  }
   if constexpr (std::is_same_v<T, LocalCommand>) {
     value.mode = static_cast<LocalCommand::Mode>(random.next_u64() % 3);
   }

@@ -1,0 +1,77 @@
+#pragma once
+/// What every controller of a vehicle on wings reads and writes: "estimate" and "reference"
+/// (AirReference) in; "actuators" (throttle, elevons), "deviation" (NamedValues) and "follower"
+/// out.
+///
+/// The reference's steady flight (airspeed, climb angle, bank) has a trim; controllers work on what
+/// differs from it: x_lon = [u w q theta h], x_lat = [v p r phi psi] (aircraft_linear.h), where the
+/// velocities are against the mean wind that the reference tells, h is the height above the
+/// reference's and psi the heading clockwise from it, in (-pi, pi]. Controls are the trim's plus
+/// the deviation that the controller asks for.
+
+#include <Eigen/Core>
+
+#include "controllers/parts/aircraft.h"
+#include "controllers/parts/aircraft_limits.h"
+#include "controllers/parts/trim_table.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+struct AircraftDeviation {
+  Eigen::Matrix<double, 5, 1> lon = Eigen::Matrix<double, 5, 1>::Zero();
+  Eigen::Matrix<double, 5, 1> lat = Eigen::Matrix<double, 5, 1>::Zero();
+};
+
+class AircraftPorts {
+ public:
+  /// @throws ConfigError if the vehicle has no wings, or no trim at its cruise speed
+  /// @param limits  what "deviation" is judged by
+  AircraftPorts(const ControllerContext& context, const std::string& type,
+                const AircraftLimits& limits);
+
+  void connect(Ports& ports);
+
+  const Aircraft& aircraft() const { return aircraft_; }
+  const TrimTable& trims() const { return trims_; }
+  bool has_estimate() const { return estimate_.has_value(); }
+  bool has_reference() const { return reference_.has_value(); }
+  const Odometry& estimate() const { return estimate_.value(); }
+  const AirReference& reference() const { return reference_.value(); }
+  /// The reference wants it in the air, under power or gliding.
+  bool is_flying() const;
+  /// Propeller off has been written since the reference is done.
+  bool has_ended() const { return has_ended_; }
+
+  /// Takes over estimate and reference. @pre both are there
+  void take_over();
+  /// As of the last take_over().
+  const AircraftDeviation& deviation() const { return deviation_; }
+  const TrimPoint& trim() const { return trim_; }
+
+  /// Trim plus deviation of the controls, limited to what the actuators can do, then written.
+  /// No heap. @returns the deviations that were left after limiting
+  AircraftControls write(Time now, const AircraftControls& deviation);
+  /// Propeller off, elevons neutral.
+  void write_off(Time now);
+
+ private:
+  void write_deviation(Time now, const AircraftControls& deviation);
+  void write_follower(Time now);
+
+  Aircraft aircraft_;
+  TrimTable trims_;
+  AircraftLimits limits_;
+  AircraftDeviation deviation_;
+  TrimPoint trim_;
+  bool has_ended_ = false;
+  NamedValues actuator_values_;
+  NamedValues deviation_values_;
+  SignalReader<Odometry> estimate_;
+  SignalReader<AirReference> reference_;
+  SignalWriter<NamedValues> actuators_;
+  SignalWriter<NamedValues> deviation_out_;
+  SignalWriter<FollowerState> follower_;
+};
+
+}  // namespace vinerow

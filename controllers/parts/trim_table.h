@@ -1,0 +1,43 @@
+#pragma once
+/// Trims over climb angle and bank at one airspeed, worked out once and interpolated in a step.
+
+#include <string>
+#include <vector>
+
+#include "controllers/parts/flight_trim.h"
+
+namespace vinerow {
+
+/// A trim between the table's points.
+struct TrimPoint {
+  AircraftControls controls;
+  double u_mps = 0.0, v_mps = 0.0, w_mps = 0.0;
+  double p_radps = 0.0, q_radps = 0.0, r_radps = 0.0;
+  double pitch_rad = 0.0, roll_rad = 0.0;
+};
+
+class TrimTable {
+ public:
+  /// Climb angles from what gliding without power gives to what full throttle climbs, banks up to
+  /// `max_bank_rad` either side.
+  /// @throws ConfigError "<who>: <why there is no trim in level flight>"
+  TrimTable(const Aircraft& aircraft, double airspeed_mps, double max_bank_rad,
+            const std::string& who);
+
+  /// Bilinear; climb angle and bank are limited to the table's. No heap.
+  TrimPoint at(double climb_angle_rad, double bank_rad) const;
+
+  double airspeed_mps() const { return airspeed_mps_; }
+  double climb_min_rad() const { return climb_min_rad_; }
+  double climb_max_rad() const { return climb_max_rad_; }
+  const Trim& level() const { return level_; }
+
+ private:
+  double airspeed_mps_ = 0.0;
+  double climb_min_rad_ = 0.0, climb_max_rad_ = 0.0, bank_max_rad_ = 0.0;
+  int climbs_ = 0, banks_ = 0;
+  std::vector<TrimPoint> points_;  // climbs_ x banks_, banks fastest
+  Trim level_;
+};
+
+}  // namespace vinerow

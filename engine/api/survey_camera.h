@@ -1,0 +1,48 @@
+#pragma once
+/// A camera that looks down from an aircraft: ground sampling distance, footprint, and how far
+/// apart pictures and lanes may be. Shared by the survey planner, the camera trigger and metrics.
+///
+/// Over flat ground, looking straight down from h above it, with focal length f, sensor width w
+/// (across the track) and height l (along it), both in the same unit as f:
+///   GSD = w / columns h / f        footprint = h / f (w across, l along)
+/// Overlap q ahead at speed V over ground and rate r: V / r <= (1 - q) h l / f; side overlap p:
+/// lanes at most (1 - p) h w / f apart. Paper A, section 2; corrected numbers in its reference:
+/// 104.2 mm at 150 m with f = 5.4 mm (the paper's 102 mm is f = 5.5 mm).
+
+#include <string>
+#include <vector>
+
+#include "engine/api/parameters.h"
+
+namespace vinerow {
+
+struct SurveyCamera {
+  std::string name = "rededge";
+  double focal_length_mm = 5.4;
+  double sensor_width_mm = 4.8;   ///< across the track
+  double sensor_height_mm = 3.6;  ///< along the track
+  int columns = 1280;
+  int rows = 960;
+  double max_rate_Hz = 1.0;  ///< pictures per second at most
+
+  /// m per pixel, across the track, straight down from `height_m` above flat ground.
+  double gsd_m(double height_m) const;
+  double footprint_width_m(double height_m) const;
+  double footprint_length_m(double height_m) const;
+  /// Height that gives a ground sampling distance.
+  double height_for_gsd_m(double gsd_m) const;
+  /// Of consecutive pictures `step_m` apart; may be negative.
+  double forward_overlap(double height_m, double step_m) const;
+  /// Of neighbouring lanes `spacing_m` apart; may be negative.
+  double side_overlap(double height_m, double spacing_m) const;
+  /// Half of the angle of view across the track, rad.
+  double half_angle_across_rad() const;
+  double half_angle_along_rad() const;
+};
+
+/// `camera` (rededge | rededge_5p5 | rx100) and what overrides it: focal_length_mm,
+/// sensor_width_mm, sensor_height_mm, image_columns, image_rows, max_rate_Hz.
+std::vector<ParameterSpec> survey_camera_parameters();
+SurveyCamera read_survey_camera(const ParameterSet& parameters);
+
+}  // namespace vinerow

@@ -1,0 +1,88 @@
+/// The proof that a body of several shapes is clear of a static mesh, and what it must never hide:
+/// a contact. Spheres against an upright box: who touches is known in closed form.
+
+#include "engine/physics/mesh_gate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/random.h"
+#include "tests/engine/physics/small_worlds.h"
+
+namespace vinerow::physics {
+namespace {
+
+using Eigen::Vector3d;
+
+const Vector3d kPost_half_m(0.05, 0.05, 1.0);
+const Vector3d kSpheres_B[] = {{0.5, 0.4, 0}, {0.5, -0.4, 0}, {-0.5, 0.4, 0.1}, {-0.5, -0.4, 0.1}};
+constexpr double kRadius_m = 0.15;
+
+/// Four posts of one mesh, as a row has them: its bounding box covers what lies between them.
+const Vector3d kPosts_W[] = {{-2, -2, 0}, {2, -2, 0}, {-2, 2, 0}, {2, 2, 0}};
+
+WorldModel make_posts() {
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (const Vector3d& p_W : kPosts_W) {
+    const auto post = test::make_box_mesh(kPost_half_m.cast<float>());
+    const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
+    for (const auto& vertex : post->vertices) mesh->vertices.push_back(vertex + p_W.cast<float>());
+    for (auto corners : post->triangles) {
+      for (auto& corner : corners) corner += first;
+      mesh->triangles.push_back(corners);
+    }
+  }
+  WorldModel model;
+  model.meshes.push_back(test::make_instance("posts", mesh, Vector3d::Zero(), SurfaceClass::kPost));
+  return model;
+}
+
+/// Gap between the nearest sphere and the nearest post; negative: they overlap.
+double gap_m(const Pose& X_WB, int spheres) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < spheres; ++i) {
+    for (const Vector3d& post_W : kPosts_W) {
+      const Vector3d from_post = (X_WB * kSpheres_B[i] - post_W).cwiseAbs();
+      gap = std::min(gap, (from_post - kPost_half_m).cwiseMax(0.0).norm() - kRadius_m);
+    }
+  }
+  return gap;
+}
+
+TEST(MeshGate, BodiesOfManyShapesTouchExactlyWhenOneShapeDoes) {
+  const WorldModel model = make_posts();
+  RandomStream random(7, "test", "mesh_gate");
+  for (const int spheres : {2, 4}) {  // without and with the gate
+    PhysicsWorld world({}, model);
+    BodySpec spec = test::make_sphere(kRadius_m, 5.0, {0, 0, 10});
+    spec.shapes.clear();
+    for (int i = 0; i < spheres; ++i) {
+      spec.shapes.push_back({SphereShape{kRadius_m}, Pose{{1, 0, 0, 0}, kSpheres_B[i]}});
+    }
+    const BodyId body = world.add_body(spec);
+    world.set_kinematic(body, true);
+    int touching = 0, near = 0;
+    for (int k = 0; k < 6000; ++k) {
+      const Pose X_WB{quaternion_from_rpy(
+                          {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)}),
+                      {random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-1.5, 1.5)}};
+      const double gap = gap_m(X_WB, spheres);
+      // Bullet counts a sphere as touching within its margin, to rounding.
+      if (std::abs(gap) < 1e-4) continue;
+      world.set_state(body, {X_WB, Vector3d::Zero(), Vector3d::Zero()});
+      world.step(world.settings().step);
+      const bool touches = std::any_of(world.contacts().begin(), world.contacts().end(),
+                                       [](const Contact& c) { return c.depth_m > 0.0; });
+      ASSERT_EQ(touches, gap < 0.0) << "gap " << gap << " m, case " << k;
+      touching += touches;
+      near += !touches && gap < 0.05;
+    }
+    EXPECT_GT(touching, 100);
+    EXPECT_GT(near, 50);
+  }
+}
+
+}  // namespace
+}  // namespace vinerow::physics

@@ -101,6 +101,22 @@ TEST(QuadrotorMission, TheBaselinesFlyItToo) {
   }
 }
 
+TEST(QuadrotorMission, PaperCsMatrice100FliesItOnPlusAndX) {
+  std::string text = test::read_text(scenario_file(kTwoRows));
+  const std::string q4t = "quadrotor_q4t.yaml";
+  text.replace(text.find(q4t), q4t.size(), "quadrotor_m100.yaml");
+  const auto folder = std::filesystem::path(scenario_file(kTwoRows)).parent_path();
+  for (const std::string layout : {"plus", "x"}) {
+    SCOPED_TRACE(layout);
+    const std::string spawn = "    spawn:";
+    std::string laid_out = text;
+    laid_out.insert(laid_out.find(spawn), "    layout: " + layout + "\n");
+    TestRun run = TestRun::from_yaml(laid_out, folder);
+    run.run_to_end();
+    expect_mission_within_limits(run, 2.0);
+  }
+}
+
 TEST(QuadrotorMission, HoldsItsPlaceInGusts) {
   TestRun run = TestRun::from_file(scenario_file("quadrotor_gust"));
   run.run_to_end();

@@ -8,7 +8,7 @@
 #include "engine/math/angles.h"
 #include "engine/sim/metrics/flight.h"
 #include "engine/sim/metrics/path_deviation.h"
-#include "engine/sim/metrics/plan_stretch.h"
+#include "engine/api/plan_stretch.h"
 #include "engine/sim/metrics/travel.h"
 #include "engine/sim/metrics/wheel_slip.h"
 #include "tests/support/no_alloc.h"
@@ -223,6 +223,26 @@ TEST_F(FlightBench, HeightIsJudgedOnTheLegsOnly) {
   EXPECT_NEAR(result("altitude_error_rms_m"), std::sqrt((0.01 + 0.09) / 2), 1e-12);
   EXPECT_NEAR(result("height_above_ground_min_m"), 1.2, 1e-12);
   EXPECT_NEAR(result("height_above_ground_max_m"), 1.6, 1e-12);
+}
+
+TEST_F(FlightBench, AHoverIsJudgedByItsDistanceFromTheWantedPlace) {
+  start(make_flight);
+  const auto want = [&](ReferenceTrajectory::Phase phase) {
+    ReferenceTrajectory reference;
+    reference.phase = phase;
+    reference.points.resize(2);
+    reference.points[0].p_W = {10, 2, 3.0};  // 2 m above the ground there
+    reference.points[1].p_W = {90, 90, 90};
+    reference_out_.write(now_, reference);
+  };
+  want(ReferenceTrajectory::Phase::kTransit);
+  fly(10, 2, 1.0);  // not there yet
+  EXPECT_TRUE(std::isnan(result("hover_error_max_m")));
+  want(ReferenceTrajectory::Phase::kHover);
+  fly(10, 2.3, 2.0);
+  fly(10, 1.6, 2.3);
+  EXPECT_NEAR(result("hover_error_max_m"), 0.5, 1e-12);
+  EXPECT_NEAR(result("hover_error_rms_m"), std::sqrt((0.09 + 0.25) / 2), 1e-12);
 }
 
 TEST_F(FlightBench, APlanForTheGroundTellsNoHeight) {

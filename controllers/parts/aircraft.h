@@ -26,7 +26,8 @@ struct Aircraft {
   std::string type;
   std::shared_ptr<const FlightModel> model;
   double gravity_mps2 = 9.80665;
-  double air_density_kgm3 = 1.225;
+  double air_density_kgm3 = 1.225;                      ///< "air_density_kgm3", where told
+  double wing_area_m2 = 0.0;                            ///< "wing_area_m2"; 0: not told
   double span_m = 0.0;                                  ///< "wing_span_m"
   double cruise_speed_mps = 0.0;                        ///< "cruise_speed_mps"
   double stall_speed_mps = 0.0;                         ///< "stall_speed_mps", level flight
@@ -36,12 +37,17 @@ struct Aircraft {
   int throttle = 0, elevon_left = 1, elevon_right = 2;  ///< in the actuator vector
   std::vector<ActuatorSpec> actuators;
 
+  double throttle_min() const { return actuators[static_cast<std::size_t>(throttle)].min; }
   double throttle_max() const { return actuators[static_cast<std::size_t>(throttle)].max; }
   double elevon_min_rad() const { return actuators[static_cast<std::size_t>(elevon_left)].min; }
   double elevon_max_rad() const { return actuators[static_cast<std::size_t>(elevon_left)].max; }
 
   /// Actuator vector of the controls, not limited.
+  /// @param actuator_values  actuators.size() entries
   void mix(const AircraftControls& controls, std::vector<double>& actuator_values) const;
+  /// What is left of the controls when each actuator is cut to its range: an elevon at its stop
+  /// takes from both elevator and aileron.
+  AircraftControls limit(const AircraftControls& controls) const;
 };
 
 /// Actuators "throttle", "elevon_left_rad", "elevon_right_rad" and the numbers above.

@@ -43,20 +43,31 @@ class AircraftPorts {
   /// Propeller off has been written since the reference is done.
   bool has_ended() const { return has_ended_; }
 
-  /// Takes over estimate and reference. @pre both are there
+  /// The reference wants it launched and it is still slower than 0.8 of the wanted airspeed.
+  /// As of the last take_over().
+  bool is_launching() const { return is_launching_; }
+
+  /// Takes over estimate and reference. Where a number of them is not finite there is no deviation:
+  /// the controls stay at the trim's. @pre both are there
   void take_over();
   /// As of the last take_over().
   const AircraftDeviation& deviation() const { return deviation_; }
   const TrimPoint& trim() const { return trim_; }
 
-  /// Trim plus deviation of the controls, limited to what the actuators can do, then written.
-  /// No heap. @returns the deviations that were left after limiting
+  /// Trim plus deviation of the controls, limited to what the actuators can do, then written; the
+  /// throttle is 0 where the reference's `power` is off, and no throttle is counted then.
+  /// A deviation that is not finite counts as none. No heap.
+  /// @returns the deviations that were left after limiting
   AircraftControls write(Time now, const AircraftControls& deviation);
-  /// Propeller off, elevons neutral.
+  /// Full throttle, trimmed elevator, no aileron; nothing counts as a deviation beyond its limit.
+  void write_launch(Time now);
+  /// Propeller off, elevons neutral; no deviations.
   void write_off(Time now);
 
  private:
-  void write_deviation(Time now, const AircraftControls& deviation);
+  void write_actuators(Time now, const AircraftControls& controls);
+  void write_deviation(Time now, const AircraftDeviation& deviation,
+                       const AircraftControls& controls, bool judged);
   void write_follower(Time now);
 
   Aircraft aircraft_;
@@ -65,6 +76,7 @@ class AircraftPorts {
   AircraftDeviation deviation_;
   TrimPoint trim_;
   bool has_ended_ = false;
+  bool is_launching_ = false;
   NamedValues actuator_values_;
   NamedValues deviation_values_;
   SignalReader<Odometry> estimate_;

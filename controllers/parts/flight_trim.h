@@ -11,7 +11,7 @@ namespace vinerow {
 struct TrimRequest {
   double airspeed_mps = 12.0;
   double climb_angle_rad = 0.0;  ///< of the path through the air
-  double bank_rad = 0.0;         ///< phi, positive with the right wing down; turn rate follows
+  double bank_rad = 0.0;         ///< phi, positive with the right wing down
 };
 
 /// All in the signs of aviation, see aircraft.h.
@@ -28,12 +28,28 @@ struct Trim {
   int iterations = 0;
 };
 
-/// Newton's method with central differences: no acceleration, no angular acceleration, no side
-/// slip force beyond that of the turn (v from the equations; coordinated: lateral specific force
-/// 0).
+/// Newton's method with central differences on the equations of six degrees of freedom: no
+/// acceleration, no angular acceleration, the climb angle and the bank as asked. Side slip and turn
+/// rate follow: without a rudder a turn slips a little, so its rate is g tan(bank) / V within about
+/// 1 % only.
 /// @returns a failure in one sentence where there is none: stall, throttle or elevons out of range,
-/// with the numbers: "no steady flight at 7.0 m/s, climb 0 deg, bank 0 deg: it takes a lift
-/// coefficient of ... / throttle 1.31 of at most 1 ..."
+/// with the numbers and the speeds that would do: "no steady flight at 7.00 m/s, climb 0.0 deg,
+/// bank 0.0 deg: it takes 11.8 N of lift and the wings give at most 8.3 N at 17.3 deg of incidence;
+/// it can fly so from 8.40 to 24.10 m/s"
 Result<Trim> find_trim(const Aircraft& aircraft, const TrimRequest& request);
+
+/// Steady flight with the throttle given: the climb angle of `request` is where the search starts,
+/// that of the result what comes of it.
+/// @returns a failure in one sentence
+Result<Trim> find_trim_at_throttle(const Aircraft& aircraft, const TrimRequest& request,
+                                   double throttle);
+
+/// Between which speeds there is steady flight, to 1 mm/s.
+struct SpeedRange {
+  double slowest_mps = 0.0, fastest_mps = 0.0;
+};
+/// @returns a failure where there is none between a fifth and five times the cruise speed
+Result<SpeedRange> find_speed_range(const Aircraft& aircraft, double climb_angle_rad,
+                                    double bank_rad);
 
 }  // namespace vinerow

@@ -18,25 +18,28 @@ struct TrimPoint {
 
 class TrimTable {
  public:
-  /// Climb angles from what gliding without power gives to what full throttle climbs, banks up to
-  /// `max_bank_rad` either side.
+  /// Climb angles from what the least throttle gives to what full throttle climbs, banks up to
+  /// `max_bank_rad` either side, or as far as both hold. Where a bank leaves less room for climbing
+  /// than level wings do, the table holds the trim next to it, at the end of the throttle.
   /// @throws ConfigError "<who>: <why there is no trim in level flight>"
   TrimTable(const Aircraft& aircraft, double airspeed_mps, double max_bank_rad,
             const std::string& who);
 
-  /// Bilinear; climb angle and bank are limited to the table's. No heap.
+  /// Bilinear; climb angle and bank are limited to the table's, and taken as 0 where not finite.
+  /// No heap.
   TrimPoint at(double climb_angle_rad, double bank_rad) const;
 
   double airspeed_mps() const { return airspeed_mps_; }
   double climb_min_rad() const { return climb_min_rad_; }
   double climb_max_rad() const { return climb_max_rad_; }
+  double bank_max_rad() const { return bank_max_rad_; }
   const Trim& level() const { return level_; }
 
  private:
   double airspeed_mps_ = 0.0;
   double climb_min_rad_ = 0.0, climb_max_rad_ = 0.0, bank_max_rad_ = 0.0;
-  int climbs_ = 0, banks_ = 0;
-  std::vector<TrimPoint> points_;  // climbs_ x banks_, banks fastest
+  int climbs_ = 0, half_banks_ = 0;  // intervals of climb; of bank to one side
+  std::vector<TrimPoint> points_;    // climbs_ + 1 x 2 half_banks_ + 1, climbs fastest
   Trim level_;
 };
 

@@ -1,0 +1,64 @@
+#include "controllers/fixed_wing_lqr/fixed_wing_lqr.h"
+
+#include "controllers/parts/aircraft_ports.h"
+#include "controllers/parts/aircraft_weights.h"
+
+namespace vinerow {
+namespace {
+
+class FixedWingLqr final : public Controller {
+ public:
+  FixedWingLqr(const ParameterSet& parameters, const ControllerContext& context)
+      : ports_(context, "fixed_wing_lqr", read_aircraft_limits(parameters)) {
+    const AircraftLaws laws =
+        make_aircraft_laws(ports_.aircraft(), ports_.trims().level(), context.period.s(),
+                           read_aircraft_weights(parameters), context.part + " (fixed_wing_lqr)");
+    K_lon_ = laws.lon.K;
+    K_lat_ = laws.lat.K;
+  }
+
+  void connect(Ports& ports) override { ports_.connect(ports); }
+
+  void step(Time now) override {
+    if (!ports_.is_flying()) {
+      ports_.write_off(now);
+      return;
+    }
+    ports_.take_over();
+    if (ports_.is_launching()) {
+      ports_.write_launch(now);
+      return;
+    }
+    const Eigen::Vector2d lon = K_lon_ * ports_.deviation().lon;
+    ports_.write(now, {lon.x(), lon.y(), K_lat_.dot(ports_.deviation().lat)});
+  }
+
+  bool finished() const override { return ports_.has_ended(); }
+
+ private:
+  AircraftPorts ports_;
+  Eigen::Matrix<double, 2, 5> K_lon_;
+  Eigen::Matrix<double, 1, 5> K_lat_;
+};
+
+}  // namespace
+
+PartSpec fixed_wing_lqr_spec() {
+  PartSpec spec;
+  spec.name = "fixed_wing_lqr";
+  spec.description =
+      "Linear quadratic regulator about the reference's steady flight (paper A, section 2, without "
+      "constraints and tube) for vehicles on wings.";
+  spec.parameters = {aircraft_weight_parameter(), aircraft_limit_parameter()};
+  spec.default_rate_Hz = 20.0;
+  spec.reads = {"estimate", "reference"};
+  spec.writes = {"actuators", "deviation", "follower"};
+  return spec;
+}
+
+std::unique_ptr<Controller> make_fixed_wing_lqr(const ParameterSet& parameters,
+                                                const ControllerContext& context) {
+  return std::make_unique<FixedWingLqr>(parameters, context);
+}
+
+}  // namespace vinerow

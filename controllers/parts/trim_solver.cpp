@@ -1,0 +1,185 @@
+#include "controllers/parts/trim_solver.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+enum Unknown { kAlpha = 0, kBeta, kPitch, kTurnRate, kElevator, kAileron, kFree };
+
+constexpr int kMaxIterations = 60;
+/// Steps of the central differences: the terms here are smooth over about 0.1.
+constexpr double kStep = 1e-5;
+/// What counts as steady, m/s2 and rad/s2. Rounding leaves about 1e-13.
+constexpr double kSteady = 1e-9;
+/// No unknown (rad, rad/s, 1) moves further in one iteration.
+constexpr double kLongestStep = 0.3;
+
+constexpr double kSearchAlpha_rad = rad_from_deg(45.0);
+constexpr double kSearchStep_rad = rad_from_deg(0.25);
+
+AirState state_of(const Trim& trim) {
+  AirState x = AirState::Zero();
+  x.segment<3>(kAirU) << trim.u_mps, trim.v_mps, trim.w_mps;
+  x.segment<3>(kAirP) << trim.p_radps, trim.q_radps, trim.r_radps;
+  x(kAirPhi) = trim.roll_rad;
+  x(kAirTheta) = trim.pitch_rad;
+  return x;
+}
+
+Eigen::Vector3d velocity_at(double airspeed_mps, double alpha_rad) {
+  return {airspeed_mps * std::cos(alpha_rad), 0.0, airspeed_mps * std::sin(alpha_rad)};
+}
+
+/// Force across the path, upwards.
+double lift_of(const AirLoad& load, double alpha_rad) {
+  return load.force_B.x() * std::sin(alpha_rad) - load.force_B.z() * std::cos(alpha_rad);
+}
+
+}  // namespace
+
+Trim TrimSolver::expand(const Problem& problem, const Vector7& y) const {
+  const bool climb_is_free = problem.throttle.has_value();
+  Trim trim;
+  trim.request = problem.request;
+  if (climb_is_free) trim.request.climb_angle_rad = y(kFree);
+  trim.controls = {climb_is_free ? *problem.throttle : y(kFree), y(kElevator), y(kAileron)};
+  trim.alpha_rad = y(kAlpha);
+  trim.beta_rad = y(kBeta);
+  trim.roll_rad = problem.request.bank_rad;
+  trim.pitch_rad = y(kPitch);
+  trim.turn_rate_radps = y(kTurnRate);
+  const double speed = problem.request.airspeed_mps;
+  trim.u_mps = speed * std::cos(y(kAlpha)) * std::cos(y(kBeta));
+  trim.v_mps = speed * std::sin(y(kBeta));
+  trim.w_mps = speed * std::sin(y(kAlpha)) * std::cos(y(kBeta));
+  trim.p_radps = -y(kTurnRate) * std::sin(y(kPitch));
+  trim.q_radps = y(kTurnRate) * std::sin(trim.roll_rad) * std::cos(y(kPitch));
+  trim.r_radps = y(kTurnRate) * std::cos(trim.roll_rad) * std::cos(y(kPitch));
+  return trim;
+}
+
+TrimSolver::Vector7 TrimSolver::residual(const Problem& problem, const Vector7& y) {
+  const Trim trim = expand(problem, y);
+  const AirState rate = equations_.derivative(state_of(trim), trim.controls);
+  Vector7 left;
+  left << rate.head<6>(),
+      rate(kAirHeight) - trim.request.airspeed_mps * std::sin(trim.request.climb_angle_rad);
+  return left;
+}
+
+TrimSolver::Vector7 TrimSolver::search_start(const Problem& problem) {
+  const TrimRequest& request = problem.request;
+  Vector7 y = Vector7::Zero();
+  // From high throttle down: thrust grows faster than linearly, and below a windmilling propeller
+  // there may be no slope to follow.
+  const double throttle = problem.throttle.value_or(0.9 * aircraft_.throttle_max());
+  y(kFree) = problem.throttle ? request.climb_angle_rad : throttle;
+  y(kTurnRate) = aircraft_.gravity_mps2 * std::tan(request.bank_rad) / request.airspeed_mps;
+  // The first angle of attack that carries the weight, or the one that comes next to it.
+  const double wanted_N = aircraft_.model->mass_kg() * aircraft_.gravity_mps2 *
+                          std::cos(request.climb_angle_rad) / std::cos(request.bank_rad);
+  double most_N = -1.0;
+  for (double alpha = -0.25 * kSearchAlpha_rad; alpha < kSearchAlpha_rad;
+       alpha += kSearchStep_rad) {
+    const double lift_N = lift_of(equations_.load(velocity_at(request.airspeed_mps, alpha),
+                                                  Eigen::Vector3d::Zero(), {throttle, 0.0, 0.0}),
+                                  alpha);
+    if (lift_N <= most_N) continue;
+    most_N = lift_N;
+    y(kAlpha) = alpha;
+    if (lift_N >= wanted_N) break;
+  }
+  y(kPitch) = y(kAlpha) + request.climb_angle_rad;
+  return y;
+}
+
+bool TrimSolver::is_stalled(const Trim& trim) {
+  const auto lift = [&](double alpha) {
+    return lift_of(equations_.load(velocity_at(trim.request.airspeed_mps, alpha),
+                                   {trim.p_radps, trim.q_radps, trim.r_radps}, trim.controls),
+                   alpha);
+  };
+  return lift(trim.alpha_rad + kStep) <= lift(trim.alpha_rad - kStep);
+}
+
+std::optional<Trim> TrimSolver::solve_problem(const Problem& problem, const Trim* near) {
+  Vector7 y = near ? Vector7() : search_start(problem);
+  if (near) {
+    y << near->alpha_rad, near->beta_rad, near->pitch_rad, near->turn_rate_radps,
+        near->controls.elevator_rad, near->controls.aileron_rad,
+        problem.throttle ? near->request.climb_angle_rad : near->controls.throttle;
+  }
+  Vector7 left = residual(problem, y);
+  int iterations = 0;
+  while (iterations < kMaxIterations) {
+    ++iterations;
+    Eigen::Matrix<double, 7, 7> slope;
+    for (int i = 0; i < 7; ++i) {
+      const Vector7 step = kStep * Vector7::Unit(i);
+      slope.col(i) = (residual(problem, y + step) - residual(problem, y - step)) / (2.0 * kStep);
+    }
+    Vector7 step = -slope.colPivHouseholderQr().solve(left);
+    if (!step.allFinite()) return std::nullopt;
+    const double longest = step.cwiseAbs().maxCoeff();
+    if (longest > kLongestStep) step *= kLongestStep / longest;
+    // Shorter steps until one helps. The last digits come when none does any more.
+    double share = 1.0;
+    Vector7 next = y + step, next_left = residual(problem, next);
+    while (!(next_left.norm() < left.norm()) && share > 1e-3) {
+      share *= 0.5;
+      next = y + share * step;
+      next_left = residual(problem, next);
+    }
+    if (!(next_left.norm() < left.norm())) break;
+    y = next;
+    left = next_left;
+  }
+  if (!(left.cwiseAbs().maxCoeff() < kSteady)) return std::nullopt;
+  if (std::abs(y(kAlpha)) > 0.5 * kPi || std::abs(y(kPitch)) > 0.5 * kPi) return std::nullopt;
+  Trim trim = expand(problem, y);
+  if (is_stalled(trim)) return std::nullopt;
+  trim.iterations = iterations;
+  trim.residual = left.cwiseAbs().maxCoeff();
+  const AirLoad load = equations_.load({trim.u_mps, trim.v_mps, trim.w_mps},
+                                       {trim.p_radps, trim.q_radps, trim.r_radps}, trim.controls);
+  trim.load_factor =
+      lift_of(load, trim.alpha_rad) / (aircraft_.model->mass_kg() * aircraft_.gravity_mps2);
+  return trim;
+}
+
+std::optional<Trim> TrimSolver::solve(const TrimRequest& request, const Trim* near) {
+  return solve_problem(Problem{request, std::nullopt}, near);
+}
+
+std::optional<Trim> TrimSolver::solve_at_throttle(const TrimRequest& request, double throttle,
+                                                  const Trim* near) {
+  return solve_problem(Problem{request, throttle}, near);
+}
+
+TrimSolver::Lift TrimSolver::largest_lift(double airspeed_mps) {
+  Lift largest;
+  for (double alpha = 0.0; alpha <= kSearchAlpha_rad; alpha += kSearchStep_rad) {
+    const auto load = [&](double elevator_rad) {
+      return equations_.load(velocity_at(airspeed_mps, alpha), Eigen::Vector3d::Zero(),
+                             {aircraft_.throttle_max(), elevator_rad, 0.0});
+    };
+    // The elevator that leaves no pitching moment, by bisection.
+    double low = aircraft_.elevon_min_rad(), high = aircraft_.elevon_max_rad();
+    const double moment_low = load(low).torque_B.y();
+    if (moment_low * load(high).torque_B.y() > 0.0) continue;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      (load(middle).torque_B.y() * moment_low > 0.0 ? low : high) = middle;
+    }
+    const double lift_N = lift_of(load(low), alpha);
+    if (lift_N > largest.lift_N) largest = {lift_N, alpha};
+  }
+  return largest;
+}
+
+}  // namespace vinerow

@@ -1,6 +1,7 @@
 #include "vehicles/register.h"
 
 #include "vehicles/diff_drive_rover/diff_drive_rover.h"
+#include "vehicles/fixed_wing/fixed_wing.h"
 #include "vehicles/four_wheel_steering_rover/four_wheel_steering_rover.h"
 #include "vehicles/quadrotor/quadrotor.h"
 #include "vehicles/urdf_rover/urdf_rover.h"
@@ -9,6 +10,7 @@ namespace vinerow {
 
 void register_vehicles(Registry& registry) {
   registry.add_vehicle(vehicles::diff_drive_rover_spec(), vehicles::make_diff_drive_rover);
+  registry.add_vehicle(vehicles::fixed_wing_spec(), vehicles::make_fixed_wing);
   registry.add_vehicle(vehicles::four_wheel_steering_rover_spec(),
                        vehicles::make_four_wheel_steering_rover);
   registry.add_vehicle(vehicles::quadrotor_spec(), vehicles::make_quadrotor);

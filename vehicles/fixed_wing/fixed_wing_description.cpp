@@ -1,0 +1,52 @@
+#include <cmath>
+
+#include "vehicles/fixed_wing/fixed_wing.h"
+#include "vehicles/fixed_wing/fixed_wing_mesh.h"
+#include "vehicles/fixed_wing/fixed_wing_shapes.h"
+
+namespace vinerow::vehicles {
+
+void FixedWing::describe() {
+  const FixedWingParams& p = params_;
+  description_.type = "fixed_wing";
+  description_.mass_kg = p.mass_kg;
+  description_.height_above_ground_m = p.shape.belly_m;
+  description_.flight_model = model_;
+  describe_outline(p, description_);
+  const double limit_rad = p.elevon_limit_rad;
+  description_.actuators = {{"throttle", "", 0.0, 1.0},
+                            {"elevon_left_rad", "rad", -limit_rad, limit_rad},
+                            {"elevon_right_rad", "rad", -limit_rad, limit_rad}};
+  const double v = p.cruise_speed_mps;
+  description_.numbers = {
+      {"wing_span_m", p.wing.span_m},
+      {"wing_area_m2", p.wing.area_m2},
+      {"cruise_speed_mps", v},
+      {"stall_speed_mps", p.stall_speed_mps(gravity_mps2_)},
+      {"max_speed_mps", p.max_speed_mps},
+      {"max_bank_rad", p.max_bank_rad},
+      {"min_turning_radius_m", v * v / (gravity_mps2_ * std::tan(p.max_bank_rad))},
+      {"throttle_lag_s", p.propeller.lag_s},
+      {"elevon_lag_s", p.elevon_lag_s},
+      {"launch_throttle", p.launch.throttle},
+      {"landing_sink_limit_mps", p.landing_sink_limit_mps},
+      {"belly_height_m", p.shape.belly_m},
+      {"battery_capacity_J", p.battery.capacity_Wh * 3600.0},
+  };
+}
+
+void FixedWing::make_links() {
+  Material material;
+  material.name = "fixed_wing";
+  material.colour = {1.0f, 1.0f, 1.0f};  // the meshes carry their colours
+  material.roughness = 0.5f;
+  const auto add = [&](const char* name, TriangleMesh mesh) {
+    links_.push_back({name, std::make_shared<TriangleMesh>(std::move(mesh)), material});
+  };
+  add("body", make_fixed_wing_body(params_));
+  add("elevon_left", make_fixed_wing_elevon(params_, 1.0));
+  add("elevon_right", make_fixed_wing_elevon(params_, -1.0));
+  add("propeller", make_fixed_wing_propeller(params_));
+}
+
+}  // namespace vinerow::vehicles

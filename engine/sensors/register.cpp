@@ -1,5 +1,7 @@
 #include "engine/sensors/register.h"
 
+#include "engine/sensors/air_data.h"
+#include "engine/sensors/camera_trigger.h"
 #include "engine/sensors/encoders.h"
 #include "engine/sensors/gps.h"
 #include "engine/sensors/imu.h"
@@ -8,6 +10,8 @@
 namespace vinerow {
 
 void register_sensors(Registry& registry) {
+  registry.add_sensor(air_data_spec(), make_air_data);
+  registry.add_sensor(camera_trigger_spec(), make_camera_trigger);
   registry.add_sensor(encoders_spec(), make_encoders);
   registry.add_sensor(gps_spec(), make_gps);
   registry.add_sensor(imu_spec(), make_imu);

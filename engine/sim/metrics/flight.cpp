@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "engine/api/plan_stretch.h"
 #include "engine/math/angles.h"
-#include "engine/sim/metrics/plan_stretch.h"
 #include "engine/sim/metrics/spread.h"
 
 namespace vinerow {
@@ -42,12 +42,14 @@ class Flight final : public Metric {
   explicit Flight(const MetricContext& context)
       : scene_(context.scene),
         description_(context.vehicle_description),
-        vehicle_(context.vehicle_truth) {}
+        vehicle_(context.vehicle_truth),
+        has_wings_(description_->numbers.contains("wing_span_m")) {}
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
     plan_.connect(ports);
-    reference_ = ports.read_optional<ReferenceTrajectory>("reference");
+    // What has wings is told otherwise what to do (AirReference), which air_tracking judges.
+    if (!has_wings_) reference_ = ports.read_optional<ReferenceTrajectory>("reference");
     actuators_ = ports.read_optional<NamedValues>("actuators");
   }
 
@@ -79,18 +81,21 @@ class Flight final : public Metric {
 
   std::map<std::string, double> results() const override {
     if (!description_->flies()) return {};
-    return {{"altitude_error_rms_m", altitude_.rms()},
-            {"altitude_error_max_m", altitude_.max_or_nan()},
-            {"height_above_ground_min_m", row_height_m_.min_or_nan()},
-            {"height_above_ground_max_m", row_height_m_.max_or_nan()},
-            {"row_speed_mean_mps", share(speed_sum_mps_, speeds_)},
-            {"row_speed_error_max_mps", speed_error_.max_or_nan()},
-            {"return_clearance_min_m", return_clearance_m_.min_or_nan()},
-            {"hover_error_rms_m", hover_m_.rms()},
-            {"hover_error_max_m", hover_m_.max_or_nan()},
-            {"tilt_max_deg", deg_from_rad(tilt_rad_.max_or_nan())},
-            {"thrust_limit_share", share(static_cast<double>(limited_), airborne_)},
-            {"crashed", crashed() ? 1.0 : 0.0}};
+    std::map<std::string, double> results = {
+        {"altitude_error_rms_m", altitude_.rms()},
+        {"altitude_error_max_m", altitude_.max_or_nan()},
+        {"height_above_ground_min_m", row_height_m_.min_or_nan()},
+        {"height_above_ground_max_m", row_height_m_.max_or_nan()},
+        {"row_speed_mean_mps", share(speed_sum_mps_, speeds_)},
+        {"tilt_max_deg", deg_from_rad(tilt_rad_.max_or_nan())},
+        {"crashed", crashed() ? 1.0 : 0.0}};
+    if (has_wings_) return results;
+    results["row_speed_error_max_mps"] = speed_error_.max_or_nan();
+    results["return_clearance_min_m"] = return_clearance_m_.min_or_nan();
+    results["hover_error_rms_m"] = hover_m_.rms();
+    results["hover_error_max_m"] = hover_m_.max_or_nan();
+    results["thrust_limit_share"] = share(static_cast<double>(limited_), airborne_);
+    return results;
   }
 
  private:
@@ -147,6 +152,7 @@ class Flight final : public Metric {
   const SceneQuery* scene_;
   const VehicleDescription* description_;
   const Vehicle* vehicle_;
+  bool has_wings_;
   SignalReader<Odometry> truth_;
   PlanStretch plan_;
   SignalReader<ReferenceTrajectory> reference_;

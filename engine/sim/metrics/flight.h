@@ -2,7 +2,9 @@
 /// How a vehicle flies: height, speed, tilt, what its rotors had left, and whether it crashed.
 ///
 /// Vehicles that do not fly (VehicleDescription::flies) have no such results at all. Judged at the
-/// metric's rate, by the truth; after a crash nothing more is added. Results:
+/// metric's rate, by the truth; after a crash nothing more is added. Vehicles with wings do not
+/// hover, have no rotors and glide home: of them only the first two lines, the mean speed, the tilt
+/// and `crashed` are told (air_tracking tells the rest). Results:
 ///   altitude_error_rms_m, altitude_error_max_m: on the legs, true height less the plan's at the
 ///     nearest place; not measured where the plan is one for the ground
 ///   height_above_ground_min_m, height_above_ground_max_m: on the legs, of B's origin above the

@@ -6,7 +6,7 @@
 
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
-#include "engine/sim/metrics/plan_stretch.h"
+#include "engine/api/plan_stretch.h"
 #include "engine/sim/metrics/spread.h"
 
 namespace vinerow {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/sim/metrics/plan_stretch.h"
+#include "engine/api/plan_stretch.h"
 #include "engine/sim/metrics/spread.h"
 
 namespace vinerow {

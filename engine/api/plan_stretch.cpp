@@ -1,4 +1,4 @@
-#include "engine/sim/metrics/plan_stretch.h"
+#include "engine/api/plan_stretch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,13 @@ void PlanStretch::connect(Ports& ports) {
 
 bool PlanStretch::take_over() {
   if (!plan_.has_value() || !plan_.is_newer_than(plan_seen_)) return false;
-  if (plan_.value().points.size() < 2) return false;
-  points_ = plan_.value().points;
-  length_m_ = plan_.value().length_m;
+  return take_over(plan_.value());
+}
+
+bool PlanStretch::take_over(const PlannedPath& plan) {
+  if (plan.points.size() < 2) return false;
+  points_ = plan.points;
+  length_m_ = plan.length_m;
   std::vector<Eigen::Vector2d> line;
   line.reserve(points_.size());
   for (const PathPoint& point : points_) line.push_back(point.p_W.head<2>());
@@ -50,6 +54,20 @@ PlanStretch::Place PlanStretch::find(const Eigen::Vector3d& p_W) {
   const double from_m = points_[segment_].p_W.z(), to_m = points_[segment_ + 1].p_W.z();
   place.plan_z_m = from_m + place.fraction * (to_m - from_m);
   return place;
+}
+
+int PlanStretch::lane(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W) {
+  constexpr double kLeastSpeed_mps = 0.1, kLeastCosine = 0.5;
+  if (!has_plan()) return -1;
+  const Place place = find(p_W);
+  if (!is_leg(place.segment)) return -1;
+  const Eigen::Vector2d along =
+      (points_[place.segment + 1].p_W - points_[place.segment].p_W).head<2>();
+  const Eigen::Vector2d way = v_W.head<2>();
+  if (way.norm() > kLeastSpeed_mps && way.dot(along) < kLeastCosine * way.norm() * along.norm()) {
+    return -1;
+  }
+  return std::max(0, points_[place.segment].alley);
 }
 
 bool PlanStretch::is_steep(int segment) const {

@@ -1,5 +1,6 @@
 #pragma once
-/// Which stretch of its plan a vehicle is on: what metrics share that judge legs and turns apart.
+/// Which stretch of its plan a vehicle is on: what metrics share that judge legs and turns apart,
+/// and sensors that work on the legs only.
 ///
 /// A point belongs to the nearest segment of the plan's polyline; a segment's kind is that of its
 /// first point. Ways to and from the rows are neither leg nor turn.
@@ -33,6 +34,8 @@ class PlanStretch {
   /// Takes over a plan that was written since. Plans of fewer than two points are passed over.
   /// @returns whether there is another plan now
   bool take_over();
+  /// Takes over a plan from elsewhere, e.g. from a log. @returns as take_over()
+  bool take_over(const PlannedPath& plan);
 
   bool has_plan() const { return !points_.empty(); }
   /// It has a stretch that is vertical or leads home: its heights are those of a flight.
@@ -46,6 +49,11 @@ class PlanStretch {
   bool is(PathKind kind, int segment) const { return points_[segment].kind == kind; }
   bool is_leg(int segment) const { return is(PathKind::kLeg, segment); }
   bool is_turn(int segment) const { return is(PathKind::kTurn, segment); }
+  /// The lane that is flown or driven: the alley of the leg at the nearest place, 0 where a leg
+  /// tells none; -1 off the legs, and where the way leads more than 60 degrees off the leg's
+  /// direction (a way home across the lanes is on none of them). No heap.
+  /// @param v_W  velocity over ground, m/s; slower than 0.1 m/s has no direction
+  int lane(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W);
   /// Rises or falls more than it leads on, as at both ends of a way home.
   bool is_steep(int segment) const;
 

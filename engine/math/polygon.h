@@ -1,0 +1,34 @@
+#pragma once
+/// Polygons in the plane: area, what is inside, what two have in common. Corners in order, the last
+/// joins the first.
+
+#include <Eigen/Core>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace vinerow {
+
+using Polygon = std::vector<Eigen::Vector2d>;
+
+/// Positive where the corners run counter-clockwise; 0 for fewer than three. Shoelace formula.
+double signed_area_m2(const Polygon& polygon);
+
+/// By the even-odd rule; points on an edge may fall to either side.
+bool contains(const Polygon& polygon, const Eigen::Vector2d& p);
+
+/// Smallest convex polygon around the points, counter-clockwise, without corners on its edges.
+/// Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
+Polygon convex_hull(Polygon points);
+
+/// The part of `subject` inside `convex`. Where a subject that is not convex falls apart, its
+/// pieces hang together by edges of no width, which have no area. Source: Sutherland, Hodgman,
+/// "Reentrant polygon clipping", 1974.
+/// @param convex  counter-clockwise
+Polygon clip(const Polygon& subject, const Polygon& convex);
+
+/// The first two edges, by the index of their first corner, that cross or touch elsewhere than at a
+/// corner that they share. Nothing: the polygon is simple.
+std::optional<std::pair<int, int>> find_crossing(const Polygon& polygon);
+
+}  // namespace vinerow

@@ -1,0 +1,89 @@
+#include "engine/sensors/air_data.h"
+
+#include <cmath>
+
+#include "engine/sensors/delay_line.h"
+#include "engine/sensors/mounting.h"
+
+namespace vinerow {
+namespace {
+
+class AirDataProbe final : public Sensor {
+ public:
+  AirDataProbe(const ParameterSet& parameters, const SensorContext& context)
+      : name_(context.name),
+        vehicle_(context.vehicle_truth),
+        outages_(outages_of(parameters)),
+        line_(delay_of(parameters), context.period),
+        random_(context.random()),
+        noise_std_mps_(parameters.number("noise_std_mps")),
+        scale_(1.0 + parameters.number("scale_error")),
+        least_airspeed_mps_(parameters.number("min_airspeed_mps")) {
+    const double lag_s = parameters.number("lag_s");
+    kept_share_ = lag_s > 0.0 ? std::exp(-context.period.s() / lag_s) : 0.0;
+  }
+
+  void connect(Ports& ports) override { out_ = ports.write<AirData>(name_); }
+  Duration delay() const override { return line_.delay(); }
+  void deliver(Time) override { line_.deliver(out_); }
+
+  void step(Time now) override {
+    const Eigen::Vector3d truth_B = vehicle_->air_velocity_B();
+    lagged_B_ =
+        has_last_ ? Eigen::Vector3d(truth_B + kept_share_ * (lagged_B_ - truth_B)) : truth_B;
+    has_last_ = true;
+    AirData reading;
+    for (int axis = 0; axis < 3; ++axis) {
+      reading.v_air_B[axis] = scale_ * lagged_B_[axis] + noise_std_mps_ * random_.normal();
+    }
+    if (is_in_outage(outages_, now) || reading.v_air_B.norm() < least_airspeed_mps_) {
+      reading.v_air_B.setZero();
+    }
+    line_.push(now, reading, out_);
+  }
+
+ private:
+  std::string name_;
+  const Vehicle* vehicle_;
+  std::vector<Outage> outages_;
+  DelayLine<AirData> line_;
+  RandomStream random_;
+  double noise_std_mps_;
+  double scale_;
+  double least_airspeed_mps_;
+  double kept_share_ = 0.0;  ///< of the last reading's difference from the truth
+  Eigen::Vector3d lagged_B_ = Eigen::Vector3d::Zero();
+  bool has_last_ = false;
+  SignalWriter<AirData> out_;
+};
+
+}  // namespace
+
+PartSpec air_data_spec() {
+  PartSpec spec;
+  spec.name = "air_data";
+  spec.description =
+      "Pitot tube and vanes: velocity through the air with white noise, lag, delay and scale error";
+  spec.default_rate_Hz = 20.0;
+  // Defaults: Sensirion SDP3x data sheet (differential pressure, zero point 0.1 Pa, span 3 % of the
+  // reading, so 1.5 % of the speed; 0.4 m/s at 0.1 Pa and 1.225 kg/m3). Chosen: the noise, which is
+  // that of vanes at 12 m/s within one degree, and the speed below which vanes do not turn.
+  spec.parameters = {
+      number_parameter("noise_std_mps", "m/s", 0.2, 0.0, 50.0, "white noise of each axis"),
+      number_parameter("lag_s", "s", 0.05, 0.0, 60.0, "time constant of the tube and the vanes"),
+      number_parameter("scale_error", "", 0.0, -0.5, 0.5, "share by which it reads too much"),
+      number_parameter("min_airspeed_mps", "m/s", 2.0, 0.0, 100.0,
+                       "below this airspeed it reads zero"),
+      delay_parameter(),
+      outage_parameter()};
+  spec.reads = {"the vehicle's true velocity through the air"};
+  spec.writes = {"<name>: AirData"};
+  return spec;
+}
+
+std::unique_ptr<Sensor> make_air_data(const ParameterSet& parameters,
+                                      const SensorContext& context) {
+  return std::make_unique<AirDataProbe>(parameters, context);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,179 @@
+#include "engine/sensors/camera_trigger.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/api/plan_stretch.h"
+#include "engine/api/survey_camera.h"
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+#include "engine/sensors/mounting.h"
+
+namespace vinerow {
+namespace {
+
+/// Rays end here; pictures of what is farther are no survey's.
+constexpr double kFarthest_m = 10'000.0;
+constexpr SurfaceMask kGround = mask_of(SurfaceClass::kTerrain);
+
+class CameraTrigger final : public Sensor {
+ public:
+  CameraTrigger(const ParameterSet& parameters, const SensorContext& context)
+      : name_(context.name),
+        scene_(context.scene),
+        X_BS_(mounting_pose(parameters)),
+        camera_(read_survey_camera(parameters)),
+        on_lanes_(parameters.text("on") == "lanes"),
+        stabilised_(parameters.boolean("stabilised")) {
+    const double shortest_s = 1.0 / camera_.max_rate_Hz;
+    if (parameters.has("distance_m")) {
+      if (parameters.has("interval_s")) {
+        throw ConfigError(fmt::format(
+            "{}: interval_s = {} s and distance_m = {} m are both given, must be one "
+            "of them",
+            context.part, parameters.number("interval_s"), parameters.number("distance_m")));
+      }
+      distance_m_ = parameters.number("distance_m");
+    }
+    double interval_s = shortest_s;
+    if (parameters.has("interval_s")) interval_s = parameters.number("interval_s");
+    if (interval_s < shortest_s - 1e-9) {
+      throw ConfigError(fmt::format(
+          "{}: interval_s = {} s, must be at least {:.4g} s: camera '{}' takes at most {} pictures "
+          "per second",
+          context.part, interval_s, shortest_s, camera_.name, camera_.max_rate_Hz));
+    }
+    fastest_ = duration_from_s(shortest_s);
+    interval_ = duration_from_s(std::max(interval_s, shortest_s));
+    const double across = std::tan(camera_.half_angle_across_rad());
+    const double along = std::tan(camera_.half_angle_along_rad());
+    corners_S_ = {Eigen::Vector3d(1, across, along), Eigen::Vector3d(1, -across, along),
+                  Eigen::Vector3d(1, -across, -along), Eigen::Vector3d(1, across, -along)};
+    for (Eigen::Vector3d& corner : corners_S_) corner.normalize();
+  }
+
+  void connect(Ports& ports) override {
+    truth_ = ports.read<Odometry>("truth");
+    if (on_lanes_) {
+      // For the check that somebody plans: without lanes there would never be a picture.
+      static_cast<void>(ports.read<PlannedPath>("plan"));
+      plan_.connect(ports);
+    }
+    out_ = ports.write<CameraShot>(name_);
+  }
+  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
+
+  void step(Time now) override {
+    const Odometry& truth = truth_.value();
+    if (!is_due(now, truth)) return;
+    shot_.index += 1;
+    look(truth.X_WB);
+    shot_at_ = now;
+    shot_from_W_ = truth.X_WB.p.head<2>();
+    out_.write(now, shot_);
+  }
+
+ private:
+  bool is_due(Time now, const Odometry& truth) {
+    bool begins = shot_.index < 0;
+    if (on_lanes_) {
+      plan_.take_over();
+      const int lane = plan_.lane(truth.X_WB.p, truth.X_WB.q * truth.v_WB_B);
+      begins = lane != lane_;
+      lane_ = lane;
+      waits_for_lane_ = begins || waits_for_lane_;
+      if (lane < 0) return false;
+      begins = waits_for_lane_;
+    }
+    if (shot_.index >= 0) {
+      const Duration since = now - shot_at_;
+      if (since.ns < (begins ? fastest_ : interval_).ns) return false;
+      const double way_m = (truth.X_WB.p.head<2>() - shot_from_W_).norm();
+      if (!begins && way_m < distance_m_) return false;
+    }
+    waits_for_lane_ = false;
+    return true;
+  }
+
+  void look(const Pose& X_WB) {
+    shot_.X_WS = X_WB * X_BS_;
+    if (stabilised_) {
+      shot_.X_WS.q = quaternion_from_rpy({0.0, 0.0, yaw_from_quaternion(X_WB.q)}) * X_BS_.q;
+    }
+    const Pose& X_WS = shot_.X_WS;
+    const auto axis =
+        scene_->cast_ray(X_WS.p, X_WS.q * Eigen::Vector3d::UnitX(), kFarthest_m, kGround);
+    shot_.distance_m = axis ? axis->distance_m : 0.0;
+    shot_.gsd_m = camera_.gsd_m(shot_.distance_m);
+    shot_.on_ground = axis.has_value();
+    for (std::size_t i = 0; i < corners_S_.size(); ++i) {
+      const Eigen::Vector3d dir_W = X_WS.q * corners_S_[i];
+      const auto hit = scene_->cast_ray(X_WS.p, dir_W, kFarthest_m, kGround);
+      shot_.on_ground = shot_.on_ground && hit.has_value();
+      shot_.corners_W[i] = hit ? Eigen::Vector3d(X_WS.p + hit->distance_m * dir_W)
+                               : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    }
+  }
+
+  std::string name_;
+  const SceneQuery* scene_;
+  Pose X_BS_;
+  SurveyCamera camera_;
+  bool on_lanes_;
+  bool stabilised_;
+  Duration fastest_;
+  Duration interval_;
+  double distance_m_ = 0.0;  ///< 0: by time
+  std::array<Eigen::Vector3d, 4> corners_S_;
+  CameraShot shot_;  ///< the last
+  Time shot_at_;
+  Eigen::Vector2d shot_from_W_ = Eigen::Vector2d::Zero();
+  int lane_ = -1;
+  bool waits_for_lane_ = false;  ///< a lane has begun, and there is no picture of it yet
+  PlanStretch plan_;
+  SignalReader<Odometry> truth_;
+  SignalWriter<CameraShot> out_;
+};
+
+}  // namespace
+
+PartSpec camera_trigger_spec() {
+  PartSpec spec;
+  spec.name = "camera_trigger";
+  spec.description =
+      "Survey camera: pictures by time or by distance, each with its pose and its footprint on the "
+      "ground";
+  spec.default_rate_Hz = 20.0;
+  spec.parameters = mounting_parameters({0.0, 0.0, 0.0});
+  for (ParameterSpec& parameter : spec.parameters) {
+    // Straight down, upper edge of the picture ahead.
+    if (parameter.name == "rotation_deg") {
+      parameter.default_value = std::vector<double>{0.0, 90.0, 0.0};
+    }
+  }
+  for (ParameterSpec& parameter : survey_camera_parameters()) {
+    spec.parameters.push_back(std::move(parameter));
+  }
+  spec.parameters.push_back(optional(positive_parameter(
+      "interval_s", "s", 1.0, "time between pictures; default: as fast as the camera can")));
+  spec.parameters.push_back(optional(positive_parameter(
+      "distance_m", "m", 10.0, "distance over ground between pictures, instead of interval_s")));
+  spec.parameters.push_back(choice_parameter("on", "lanes", {"lanes", "always"},
+                                             "where it takes pictures: on the plan's legs only, or "
+                                             "all the time"));
+  spec.parameters.push_back(boolean_parameter(
+      "stabilised", false, "a gimbal takes the vehicle's roll and pitch out of the picture"));
+  spec.reads = {"truth", "plan (where on: lanes)"};
+  spec.writes = {"<name>: CameraShot"};
+  return spec;
+}
+
+std::unique_ptr<Sensor> make_camera_trigger(const ParameterSet& parameters,
+                                            const SensorContext& context) {
+  return std::make_unique<CameraTrigger>(parameters, context);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,32 @@
+#pragma once
+/// A camera that takes pictures of the ground by itself: every so often or every so far, on the
+/// lanes of the plan or always, never faster than it can. It draws nothing: it tells where each
+/// picture was taken and what of the ground it shows (CameraShot).
+///
+/// S looks along x, y is the picture's left and z up in it: as mounted by default straight down,
+/// with the picture's upper edge ahead and its long side across the track. A stabilised gimbal
+/// keeps that attitude in W while the vehicle rolls and pitches; only its heading is the vehicle's.
+///
+/// The corners are where rays meet the true ground, plants and walls not seen; a picture with a
+/// corner beyond the ground, or above the horizon, is not `on_ground`. `distance_m` and `gsd_m` are
+/// along the optical axis: gsd = distance sensor_width / (columns focal_length), across the track;
+/// both are zero where the axis meets no ground.
+///
+/// Triggering, at the sensor's ticks: at once when a lane begins; then when `interval_s` has gone
+/// by since the last picture, or the place over ground is `distance_m` from that of the last. A
+/// tick at which less than 1 / max_rate_Hz has gone by never triggers, so that the mean interval is
+/// the next whole number of ticks.
+
+#include <memory>
+
+#include "engine/api/registry.h"
+
+namespace vinerow {
+
+PartSpec camera_trigger_spec();
+/// @throws ConfigError if both interval_s and distance_m are given, or the interval is shorter than
+/// the camera's fastest
+std::unique_ptr<Sensor> make_camera_trigger(const ParameterSet& parameters,
+                                            const SensorContext& context);
+
+}  // namespace vinerow

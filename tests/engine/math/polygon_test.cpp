@@ -1,0 +1,88 @@
+#include "engine/math/polygon.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/core/random.h"
+
+namespace vinerow {
+namespace {
+
+using Eigen::Vector2d;
+
+const Polygon kUnit = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+/// An L of area 3: a square of 2 m without its upper right quarter.
+const Polygon kL = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+
+Polygon moved(Polygon polygon, const Vector2d& by) {
+  for (Vector2d& p : polygon) p += by;
+  return polygon;
+}
+
+TEST(Polygon, AreaHasTheSignOfTheTurn) {
+  EXPECT_DOUBLE_EQ(signed_area_m2(kUnit), 1.0);
+  EXPECT_DOUBLE_EQ(signed_area_m2(kL), 3.0);
+  EXPECT_DOUBLE_EQ(signed_area_m2({{0, 0}, {0, 1}, {1, 0}}), -0.5);
+  EXPECT_EQ(signed_area_m2({{0, 0}, {5, 5}}), 0.0);
+  EXPECT_NEAR(signed_area_m2(moved(kL, {1e7, -1e7})), 3.0, 1e-9);
+}
+
+TEST(Polygon, ContainsByTheEvenOddRule) {
+  EXPECT_TRUE(contains(kL, {0.5, 1.5}));
+  EXPECT_TRUE(contains(kL, {1.5, 0.5}));
+  EXPECT_FALSE(contains(kL, {1.5, 1.5}));
+  EXPECT_FALSE(contains(kL, {-0.5, 0.5}));
+}
+
+TEST(Polygon, TheHullLeavesOutWhatLiesInsideOrOnAnEdge) {
+  const Polygon hull =
+      convex_hull({{1, 1}, {0, 0}, {2, 0}, {1, 0}, {2, 2}, {0, 2}, {0, 0}, {0.5, 1}});
+  EXPECT_EQ(hull, (Polygon{{0, 0}, {2, 0}, {2, 2}, {0, 2}}));
+}
+
+TEST(Polygon, ClippingSquares) {
+  EXPECT_NEAR(signed_area_m2(clip(kUnit, moved(kUnit, {0.25, 0.5}))), 0.75 * 0.5, 1e-15);
+  EXPECT_NEAR(signed_area_m2(clip(kUnit, kUnit)), 1.0, 1e-15);
+  EXPECT_EQ(signed_area_m2(clip(kUnit, moved(kUnit, {1.5, 0}))), 0.0);
+  // A diamond of area 2 about the origin: a quarter of it, the triangle (0,0) (1,0) (0,1).
+  EXPECT_NEAR(signed_area_m2(clip(kUnit, {{1, 0}, {0, 1}, {-1, 0}, {0, -1}})), 0.5, 1e-15);
+}
+
+TEST(Polygon, ASubjectThatFallsApartKeepsItsArea) {
+  // A bar across the two arms of a U.
+  const Polygon u = {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
+  const Polygon bar = {{-1, 2}, {4, 2}, {4, 2.5}, {-1, 2.5}};
+  EXPECT_NEAR(signed_area_m2(clip(u, bar)), 2 * 0.5, 1e-15);
+}
+
+TEST(Polygon, ClippedTrianglesAgreeWithPointsCounted) {
+  RandomStream random(7, "", "polygon_test");
+  for (int round = 0; round < 20; ++round) {
+    const auto triangle = [&] {
+      Polygon p;
+      for (int i = 0; i < 3; ++i) p.emplace_back(random.uniform(0, 1), random.uniform(0, 1));
+      return convex_hull(p);
+    };
+    const Polygon a = triangle(), b = triangle();
+    constexpr int kPerSide = 400;
+    int both = 0;
+    for (int i = 0; i < kPerSide * kPerSide; ++i) {
+      const Vector2d p((i % kPerSide + 0.5) / kPerSide, (i / kPerSide + 0.5) / kPerSide);
+      both += contains(a, p) && contains(b, p);
+    }
+    // A boundary of length at most 4 errs by at most half a cell along it.
+    EXPECT_NEAR(signed_area_m2(clip(a, b)), both / double(kPerSide * kPerSide), 2.0 / kPerSide);
+    EXPECT_NEAR(signed_area_m2(clip(a, b)), signed_area_m2(clip(b, a)), 1e-14);
+  }
+}
+
+TEST(Polygon, FindsWhereItCrossesItself) {
+  EXPECT_FALSE(find_crossing(kUnit));
+  EXPECT_FALSE(find_crossing(kL));
+  EXPECT_EQ(find_crossing({{0, 0}, {2, 2}, {2, 0}, {0, 2}}), (std::pair{0, 2})) << "a bow tie";
+  EXPECT_EQ(find_crossing({{0, 0}, {2, 0}, {1, 0}, {1, 1}}), (std::pair{0, 1})) << "runs back";
+  EXPECT_EQ(find_crossing({{0, 0}, {4, 0}, {4, 2}, {2, 0}, {0, 2}}), (std::pair{0, 2}))
+      << "a corner on another edge";
+}
+
+}  // namespace
+}  // namespace vinerow

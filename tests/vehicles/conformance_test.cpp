@@ -1,8 +1,9 @@
 /// What every registered vehicle must do. A vehicle that needs parameters gets them in setups().
-/// Vehicles on wheels drive, those on rotors fly: each kind has requirements of its own.
+/// Vehicles on wheels drive, those on rotors and wings fly: each kind has requirements of its own.
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -46,6 +47,10 @@ std::vector<Setup> setups() {
       result.push_back({name + "_plus", name,
                         [](ParameterSet& set) { set.set("layout", std::string("plus")); }});
     }
+    if (name == "fixed_wing") {
+      result.push_back({name + "_catapult", name,
+                        [](ParameterSet& set) { set.set("launch", std::string("catapult")); }});
+    }
     if (name == "diff_drive_rover") {
       result.push_back({name + "_kinematic", name,
                         [](ParameterSet& set) { set.set("fidelity", std::string("kinematic")); }});
@@ -54,7 +59,8 @@ std::vector<Setup> setups() {
   return result;
 }
 
-/// A vehicle in a world of its own, driven by speeds of its sides or flown by those of its rotors.
+/// A vehicle in a world of its own, driven by speeds of its sides, flown by those of its rotors or
+/// by throttle and elevons.
 class Rig {
  public:
   Rig(const Setup& setup, WorldModel model, double yaw_rad = 0.0)
@@ -78,7 +84,9 @@ class Rig {
   }
 
   const VehicleDescription& about() const { return vehicle_->description(); }
-  bool flies() const { return about().numbers.contains("rotor_count"); }
+  bool flies() const { return about().flies(); }
+  bool has_wings() const { return about().numbers.contains("wing_span_m"); }
+  bool has_rotors() const { return about().numbers.contains("rotor_count"); }
   Vehicle& vehicle() { return *vehicle_; }
   SignalBus& bus() { return bus_; }
 
@@ -94,9 +102,18 @@ class Rig {
     return std::sqrt(about().mass_kg * 9.80665 / about().number("rotor_count", "the test") /
                      about().number("rotor_thrust_coefficient", "the test"));
   }
+  /// Of a vehicle on wings.
+  void fly(double throttle, double elevon_left_rad, double elevon_right_rad) {
+    values_ = {throttle, elevon_left_rad, elevon_right_rad};
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      values_[i] = std::clamp(values_[i], about().actuators[i].min, about().actuators[i].max);
+    }
+    vehicle_->actuate(values_);
+  }
   /// A moderate command: about a metre per second, or a take-off.
   void move() {
-    if (flies()) return spin(1.1 * hover_radps());
+    if (has_wings()) return fly(1.0, 0.0, 0.0);
+    if (has_rotors()) return spin(1.1 * hover_radps());
     drive(1.0, 0.6);
   }
   void rest() {
@@ -171,7 +188,8 @@ class Rig {
 class VehicleConformance : public testing::TestWithParam<Setup> {};
 /// Requirements of one kind only.
 class WheeledConformance : public VehicleConformance {};
-class FlyingConformance : public VehicleConformance {};
+class FlyingConformance : public VehicleConformance {};  // on rotors
+class WingedConformance : public VehicleConformance {};
 
 TEST_P(VehicleConformance, DescribesItselfCompletely) {
   Rig rig(GetParam(), make_flat_world());
@@ -183,7 +201,9 @@ TEST_P(VehicleConformance, DescribesItselfCompletely) {
   ASSERT_FALSE(about.actuators.empty());
   for (const ActuatorSpec& actuator : about.actuators) {
     EXPECT_LT(actuator.min, actuator.max) << actuator.name;
-    EXPECT_FALSE(actuator.unit.empty()) << actuator.name;
+    if (actuator.name != "throttle") {  // a share
+      EXPECT_FALSE(actuator.unit.empty()) << actuator.name;
+    }
   }
   for (const char* name : {"max_speed_mps", "min_turning_radius_m"}) {
     EXPECT_GE(about.number(name, "the test"), 0.0);
@@ -204,10 +224,13 @@ TEST_P(VehicleConformance, DescribesItselfCompletely) {
 
 TEST_P(VehicleConformance, StandsWhereItSays) {
   Rig rig(GetParam(), make_flat_world());
-  const double height = rig.about().height_above_ground_m;
+  // What has wings rests on its launcher.
+  const double height =
+      rig.has_wings() ? rig.truth().X_WB.p.z() : rig.about().height_above_ground_m;
   rig.run(1.0);
   EXPECT_NEAR(rig.truth().X_WB.p.z(), height, 1e-3);
-  EXPECT_NEAR(rig.vehicle().specific_force_B().z(), 9.80665, 1e-3);
+  const Eigen::Vector3d up_B = rig.truth().X_WB.q.conjugate() * Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(rig.vehicle().specific_force_B().dot(up_B), 9.80665, 1e-3);
   EXPECT_TRUE(rig.vehicle().crash().empty());
 }
 
@@ -288,7 +311,9 @@ TEST_P(VehicleConformance, SameInputsGiveTheSameBits) {
     RandomStream random(7, "rover", "commands");
     const double v = rig.about().number("max_speed_mps", "the test");
     for (int i = 0; i < 20; ++i) {
-      if (rig.flies()) {
+      if (rig.has_wings()) {
+        rig.fly(random.uniform(0.5, 1.0), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+      } else if (rig.has_rotors()) {
         rig.spin(rig.hover_radps() * random.uniform(0.9, 1.2));
       } else {
         rig.drive(random.uniform(-v, v), random.uniform(-v, v));
@@ -308,7 +333,7 @@ TEST_P(VehicleConformance, SameInputsGiveTheSameBits) {
 TEST_P(VehicleConformance, AStepAllocatesNothing) {
   Rig rig(GetParam(), make_flat_world());
   rig.move();
-  rig.run(0.1);
+  rig.run(rig.has_wings() ? 0.5 : 0.1);  // it has left its launcher
   std::vector<Pose> poses(rig.vehicle().links().size());
   rig.vehicle().publish(rig.now());  // the first write sizes the signals
   std::vector<double> values;
@@ -333,7 +358,9 @@ TEST_P(VehicleConformance, StaysFiniteAtItsActuatorLimitsOnRoughGround) {
             return 0.08 * std::sin(5.0 * x) * std::sin(4.0 * y) + 0.1 * x;
           }));
   for (int i = 0; i < 10; ++i) {
-    if (rig.flies()) {
+    if (rig.has_wings()) {
+      rig.fly(i % 3 ? 1.0 : 0.0, i % 2 ? 1.0 : -1.0, i % 5 < 2 ? 1.0 : -1.0);
+    } else if (rig.has_rotors()) {
       rig.spin(i % 2 ? 0.0 : 1e5);  // clamped to the limits; it falls on the ground and is wrecked
     } else {
       rig.drive(i % 2 ? 1e3 : -1e3, i % 3 ? 1e3 : -1e3);
@@ -372,6 +399,60 @@ TEST_P(VehicleConformance, PublishesEnergyThatGrows) {
   rig.vehicle().publish(rig.now());
   EXPECT_GT(battery.value().energy_used_J, 0.0);
   EXPECT_LT(battery.value().charge, 1.0);
+}
+
+TEST_P(WingedConformance, WaitsForItsThrottleThenFlies) {
+  Rig rig(GetParam(), make_flat_world());
+  const double needed = rig.about().number("launch_throttle", "the test");
+  const Eigen::Vector3d start = rig.truth().X_WB.p;
+  rig.fly(needed, 0.1, 0.1);
+  rig.run(1.0);
+  EXPECT_EQ(rig.truth().X_WB.p, start);
+  rig.fly(1.0, 0.0, 0.0);
+  rig.run(1.5);
+  EXPECT_GT(rig.truth().v_WB_B.x(), rig.about().number("stall_speed_mps", "the test"));
+  EXPECT_GT(rig.truth().X_WB.p.x(), 10.0);
+  EXPECT_GT(rig.truth().X_WB.p.z(), start.z());
+  EXPECT_LT(std::abs(rig.truth().X_WB.p.y()), 1e-6);
+  EXPECT_TRUE(rig.vehicle().crash().empty());
+}
+
+/// In calm air what it feels is its own motion.
+TEST_P(WingedConformance, TellsItsVelocityThroughTheAir) {
+  Rig rig(GetParam(), make_flat_world());
+  rig.move();
+  rig.run(1.0);
+  EXPECT_LT((rig.vehicle().air_velocity_B() - rig.truth().v_WB_B).norm(), 1e-12);
+}
+
+TEST_P(WingedConformance, TellsAControllerHowItFlies) {
+  Rig rig(GetParam(), make_flat_world());
+  const VehicleDescription& about = rig.about();
+  ASSERT_EQ(about.actuators.size(), 3u);
+  EXPECT_EQ(about.actuators[0].name, "throttle");
+  EXPECT_EQ(about.actuators[1].name, "elevon_left_rad");
+  EXPECT_EQ(about.actuators[2].name, "elevon_right_rad");
+  for (const char* name :
+       {"wing_span_m", "cruise_speed_mps", "stall_speed_mps", "max_bank_rad", "throttle_lag_s",
+        "elevon_lag_s", "launch_throttle", "landing_sink_limit_mps", "belly_height_m"}) {
+    EXPECT_GT(about.number(name, "the test"), 0.0) << name;
+  }
+  EXPECT_GT(about.number("cruise_speed_mps", "the test"),
+            about.number("stall_speed_mps", "the test"));
+  ASSERT_NE(about.flight_model, nullptr);
+  const FlightModel& model = *about.flight_model;
+  EXPECT_EQ(model.mass_kg(), about.mass_kg);
+  // More throttle pulls forward; elevons down pitch the nose down (+y of B), left down and right up
+  // roll to the right (+x of B).
+  AirPoint air;
+  air.v_air_B = {about.number("cruise_speed_mps", "the test"), 0.0, -1.0};
+  const auto load = [&](double throttle, double left_rad, double right_rad) {
+    const std::array<double, 3> actuators = {throttle, left_rad, right_rad};
+    return model.load(air, actuators);
+  };
+  EXPECT_GT(load(0.8, 0, 0).force_B.x(), load(0.5, 0, 0).force_B.x());
+  EXPECT_GT(load(0.5, 0.1, 0.1).torque_B.y(), load(0.5, 0, 0).torque_B.y());
+  EXPECT_GT(load(0.5, 0.1, -0.1).torque_B.x(), load(0.5, 0, 0).torque_B.x());
 }
 
 TEST_P(FlyingConformance, LiftsOffAtFullThrustAndKeepsLevel) {
@@ -427,10 +508,10 @@ TEST_P(FlyingConformance, TellsAControllerWhereItsRotorsAre) {
   }
 }
 
-std::vector<Setup> setups_that(bool fly) {
+std::vector<Setup> setups_that(const std::function<bool(const Rig&)>& fit) {
   std::vector<Setup> result;
   for (const Setup& setup : setups()) {
-    if (Rig(setup, make_flat_world()).flies() == fly) result.push_back(setup);
+    if (fit(Rig(setup, make_flat_world()))) result.push_back(setup);
   }
   return result;
 }
@@ -441,9 +522,15 @@ void PrintTo(const Setup& setup, std::ostream* out) {
 
 const auto kLabel = [](const auto& setup) { return setup.param.label; };
 INSTANTIATE_TEST_SUITE_P(Vehicles, VehicleConformance, testing::ValuesIn(setups()), kLabel);
-INSTANTIATE_TEST_SUITE_P(Vehicles, WheeledConformance, testing::ValuesIn(setups_that(false)),
-                         kLabel);
-INSTANTIATE_TEST_SUITE_P(Vehicles, FlyingConformance, testing::ValuesIn(setups_that(true)), kLabel);
+INSTANTIATE_TEST_SUITE_P(
+    Vehicles, WheeledConformance,
+    testing::ValuesIn(setups_that([](const Rig& rig) { return !rig.flies(); })), kLabel);
+INSTANTIATE_TEST_SUITE_P(
+    Vehicles, FlyingConformance,
+    testing::ValuesIn(setups_that([](const Rig& rig) { return rig.has_rotors(); })), kLabel);
+INSTANTIATE_TEST_SUITE_P(
+    Vehicles, WingedConformance,
+    testing::ValuesIn(setups_that([](const Rig& rig) { return rig.has_wings(); })), kLabel);
 
 }  // namespace
 }  // namespace vinerow::vehicles

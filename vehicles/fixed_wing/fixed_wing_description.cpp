@@ -31,6 +31,8 @@ void FixedWing::describe() {
       {"launch_throttle", p.launch.throttle},
       {"landing_sink_limit_mps", p.landing_sink_limit_mps},
       {"belly_height_m", p.shape.belly_m},
+      {"start_height_m",
+       p.launch.mode == LaunchMode::kAir ? p.launch.start_height_m : p.launch.height_m},
       {"battery_capacity_J", p.battery.capacity_Wh * 3600.0},
   };
 }

@@ -67,7 +67,7 @@ struct FixedWingParams {
   double elevon_limit_rad = rad_from_deg(25.0);
   double elevon_lag_s = 0.04;
   double elevon_rate_radps = 0.0;  ///< 0: no limit
-  BatteryParams battery{44.4, 6.0};
+  BatteryParams battery{22.2, 6.0};
   double cruise_speed_mps = 12.0;            ///< told to controllers
   double max_speed_mps = 20.0;               ///< told to controllers
   double max_bank_rad = rad_from_deg(45.0);  ///< told to controllers

@@ -5,74 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "controllers/parts/invariant_set.h"
 #include "controllers/parts/outer_minimal_set.h"
 #include "controllers/parts/series_support.h"
 #include "controllers/parts/zonotope.h"
 #include "engine/core/random.h"
+#include "tests/controllers/parts/wing_models.h"
 
 namespace vinerow::test {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
-
-struct Wing {
-  Eigen::MatrixXd A, B, E, K;                  // u = K x; E: per 1 m/s of gust
-  Eigen::VectorXd states, inputs;              // largest allowed ("relaxed" reading)
-  Eigen::VectorXd tight_states, tight_inputs;  // "full scale" reading
-
-  Eigen::MatrixXd closed() const { return A + B * K; }
-  Polytope constraints() const {
-    return Polytope::box(states).intersection(Polytope::box(inputs).linear_preimage(K));
-  }
-};
-
-/// States u m/s, w m/s, q rad/s, theta rad, h m; inputs throttle and elevator rad.
-Wing longitudinal() {
-  Wing wing{Eigen::MatrixXd(5, 5), Eigen::MatrixXd(5, 2), Eigen::MatrixXd(5, 2),
-            Eigen::MatrixXd(2, 5), Eigen::VectorXd(5),    Eigen::VectorXd(2),
-            Eigen::VectorXd(5),    Eigen::VectorXd(2)};
-  // clang-format off
-  wing.A << .9739,  .0496, -.0649, -.4818, 0,
-           -.0215,  .6433,  .3848, -.0451, 0,
-            .0614, -.3532,  .6485, -.0027, 0,
-            .0016, -.0100,  .0416,  1,     0,
-            .0073, -.0431,  .0023,  .5997, 1;
-  wing.B << .5764, .2057, -.0082, -2.0268, .0183, -5.0291, .0003, -.1361, .0021, .0138;
-  wing.E << .0261, -.0496, .0215, .3567, -.0614, .3532, -.0016, .0100, -.0009, -.0065;
-  wing.K << -.1192, -.0085, .0047, -.0048, -.0243,
-            -.0101, -.0418, .0597,  .7366,  .0246;
-  // clang-format on
-  wing.states << 2.4, 3.0, 150.0 * kDeg, 20.0 * kDeg, 15.0;
-  wing.inputs << 0.25, 10.0 * kDeg;
-  wing.tight_states << 1.2, 2.4, 90.0 * kDeg, 15.0 * kDeg, 15.0;
-  wing.tight_inputs << 0.2, 5.0 * kDeg;
-  return wing;
-}
-
-/// States v m/s, p rad/s, r rad/s, phi rad, psi rad; input aileron rad.
-Wing lateral() {
-  Wing wing{Eigen::MatrixXd(5, 5), Eigen::MatrixXd(5, 1), Eigen::MatrixXd(5, 1),
-            Eigen::MatrixXd(1, 5), Eigen::VectorXd(5),    Eigen::VectorXd(1),
-            Eigen::VectorXd(5),    Eigen::VectorXd(1)};
-  // clang-format off
-  wing.A << .9398,  .0756, -.5548,  .4745, 0,
-           -.4098,  .5872,  .2817, -.1097, 0,
-            .0564, -.0325,  .9531,  .0132, 0,
-           -.0111,  .0389,  .0127,  .9981, 0,
-            .0014, -.0009,  .0494,  .0002, 1;
-  wing.B << .2902, 5.2140, -.2609, .1413, -.0057;
-  wing.E << .0602, .4098, -.0564, .0111, -.0014;
-  wing.K << -.0290, -.0429, -.1258, -.5042, -.4278;
-  // clang-format on
-  wing.states << 5.0, 250.0 * kDeg, 120.0 * kDeg, 45.0 * kDeg, 30.0 * kDeg;
-  wing.inputs << 12.0 * kDeg;
-  wing.tight_states << 3.0, 120.0 * kDeg, 60.0 * kDeg, 30.0 * kDeg, 18.0 * kDeg;
-  wing.tight_inputs << 5.0 * kDeg;
-  return wing;
-}
 
 Eigen::VectorXd supports(const Support& S, const Eigen::MatrixXd& rows) {
   Eigen::VectorXd values(rows.rows());
@@ -81,11 +22,10 @@ Eigen::VectorXd supports(const Support& S, const Eigen::MatrixXd& rows) {
 }
 
 /// How many m/s of gust the limits leave room for.
-double largest_gust(const Support& S, const Wing& wing, const Eigen::VectorXd& states,
-                    const Eigen::VectorXd& inputs) {
+double largest_gust(const Support& S, const Wing& wing) {
   const Eigen::VectorXd x = supports(S, Eigen::MatrixXd::Identity(5, 5));
-  return std::min(states.cwiseQuotient(x).minCoeff(),
-                  inputs.cwiseQuotient(supports(S, wing.K)).minCoeff());
+  return std::min(wing.state_limit.cwiseQuotient(x).minCoeff(),
+                  wing.input_limit.cwiseQuotient(supports(S, wing.K)).minCoeff());
 }
 
 void expect_within(const Eigen::VectorXd& values, const Eigen::VectorXd& expected,
@@ -96,7 +36,7 @@ void expect_within(const Eigen::VectorXd& values, const Eigen::VectorXd& expecte
 }
 
 TEST(FixedWingSets, HalfWidthsOfTheTubeAreThePrototypes) {
-  const Wing lon = longitudinal(), lat = lateral();
+  const Wing lon = longitudinal_wing(), lat = lateral_wing();
   const Result<SeriesSupport> S_lon = SeriesSupport::make(lon.closed(), Zonotope(lon.E));
   const Result<SeriesSupport> S_lat = SeriesSupport::make(lat.closed(), Zonotope(lat.E));
   ASSERT_TRUE(S_lon && S_lat);
@@ -108,15 +48,15 @@ TEST(FixedWingSets, HalfWidthsOfTheTubeAreThePrototypes) {
   expect_within(supports(*S_lon, lon.K), Eigen::Vector2d(.1030, .0696), 3e-3);
   expect_within(supports(*S_lat, axes), x_lat, 3e-3);
   expect_within(supports(*S_lat, lat.K), Eigen::VectorXd::Constant(1, .1172), 3e-3);
-  EXPECT_NEAR(largest_gust(*S_lon, lon, lon.states, lon.inputs), 2.09, 0.01);
-  EXPECT_NEAR(largest_gust(*S_lat, lat, lat.states, lat.inputs), 1.79, 0.005);
-  EXPECT_NEAR(largest_gust(*S_lon, lon, lon.tight_states, lon.tight_inputs), 1.25, 0.005);
-  EXPECT_NEAR(largest_gust(*S_lat, lat, lat.tight_states, lat.tight_inputs), .745, 0.001);
+  EXPECT_NEAR(largest_gust(*S_lon, lon), 2.09, 0.01);
+  EXPECT_NEAR(largest_gust(*S_lat, lat), 1.79, 0.005);
+  EXPECT_NEAR(largest_gust(*S_lon, lon.with_tight_limits()), 1.25, 0.005);
+  EXPECT_NEAR(largest_gust(*S_lat, lat.with_tight_limits()), .745, 0.001);
 }
 
 TEST(FixedWingSets, AdversaryReachesTheHalfWidthsAndChanceDoesNot) {
   // Simulated: 600 gusts of +-1 m/s with the signs that push one output most.
-  for (const Wing& wing : {longitudinal(), lateral()}) {
+  for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
     const Eigen::MatrixXd A = wing.closed();
     const Result<SeriesSupport> S = SeriesSupport::make(A, Zonotope(wing.E));
     ASSERT_TRUE(S);
@@ -149,15 +89,22 @@ TEST(FixedWingSets, BoxAroundTheGustsIsSeveralTimesAsLarge) {
     double gust, tight_gust;
     int steps;
   };
+  double least_growth = 1e9, most_growth = 0.0;
   for (const Case& expected :
-       {Case{longitudinal(), .55, .27, 321}, Case{lateral(), .52, .22, 125}}) {
+       {Case{longitudinal_wing(), .55, .27, 321}, Case{lateral_wing(), .52, .22, 125}}) {
     const Wing& wing = expected.wing;
     const Eigen::VectorXd half = Zonotope(wing.E).half_widths();
     const Result<SeriesSupport> S = SeriesSupport::make(wing.closed(), Zonotope::box(half));
     ASSERT_TRUE(S);
-    EXPECT_NEAR(largest_gust(*S, wing, wing.states, wing.inputs), expected.gust, 0.006);
-    EXPECT_NEAR(largest_gust(*S, wing, wing.tight_states, wing.tight_inputs), expected.tight_gust,
-                0.005);
+    EXPECT_NEAR(largest_gust(*S, wing), expected.gust, 0.006);
+    EXPECT_NEAR(largest_gust(*S, wing.with_tight_limits()), expected.tight_gust, 0.005);
+    const Result<SeriesSupport> exact = SeriesSupport::make(wing.closed(), Zonotope(wing.E));
+    ASSERT_TRUE(exact);
+    Eigen::MatrixXd rows(5 + wing.K.rows(), 5);
+    rows << Eigen::MatrixXd::Identity(5, 5), wing.K;
+    const Eigen::VectorXd growth = supports(*S, rows).cwiseQuotient(supports(*exact, rows));
+    least_growth = std::min(least_growth, growth.minCoeff());
+    most_growth = std::max(most_growth, growth.maxCoeff());
     const Result<OuterMinimalSet> outer =
         OuterMinimalSet::make(wing.closed(), Polytope::box(half), {});
     ASSERT_TRUE(outer);
@@ -169,10 +116,13 @@ TEST(FixedWingSets, BoxAroundTheGustsIsSeveralTimesAsLarge) {
       EXPECT_LT(ratio, 1.0 / (1.0 - 0.02));
     }
   }
+  EXPECT_NEAR(least_growth, 1.4, 0.05);
+  EXPECT_NEAR(most_growth, 8.4, 0.1);
 }
 
 TEST(FixedWingSets, TerminalSetsNeedThePrototypesNumberOfSteps) {
-  for (const auto& [wing, steps] : {std::pair{longitudinal(), 13}, std::pair{lateral(), 16}}) {
+  for (const auto& [wing, steps] :
+       {std::pair{longitudinal_wing(), 13}, std::pair{lateral_wing(), 16}}) {
     const Eigen::MatrixXd A = wing.closed();
     const Zonotope W(wing.E);
     const Result<SeriesSupport> S = SeriesSupport::make(A, W);
@@ -195,7 +145,7 @@ TEST(FixedWingSets, TerminalSetsNeedThePrototypesNumberOfSteps) {
 }
 
 TEST(FixedWingSets, RobustSetIsWhatRandomAndWorstGustsStayIn) {
-  const Wing wing = lateral();
+  const Wing wing = lateral_wing();
   const Eigen::MatrixXd A = wing.closed();
   const Polytope X = wing.constraints();
   const Result<InvariantSet> robust = maximal_robust_invariant_set(A, X, Zonotope(wing.E));
@@ -204,7 +154,7 @@ TEST(FixedWingSets, RobustSetIsWhatRandomAndWorstGustsStayIn) {
   int inside = 0, steps_outside = 0;
   while (inside < 300) {
     Eigen::VectorXd x(5);
-    for (int j = 0; j < 5; ++j) x[j] = random.uniform(-1.0, 1.0) * wing.states[j];
+    for (int j = 0; j < 5; ++j) x[j] = random.uniform(-1.0, 1.0) * wing.state_limit[j];
     if (!robust->set.contains(x)) continue;
     ++inside;
     for (int k = 0; k < 100; ++k) {
@@ -216,9 +166,7 @@ TEST(FixedWingSets, RobustSetIsWhatRandomAndWorstGustsStayIn) {
 }
 
 TEST(FixedWingSets, LateralGustBeyondTheLimitIsRefusedWithBothNumbers) {
-  Wing wing = lateral();
-  wing.states = wing.tight_states;
-  wing.inputs = wing.tight_inputs;
+  const Wing wing = lateral_wing().with_tight_limits();
   const Result<InvariantSet> set =
       maximal_robust_invariant_set(wing.closed(), wing.constraints(), Zonotope(wing.E));
   ASSERT_FALSE(set);

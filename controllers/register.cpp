@@ -15,6 +15,7 @@
 #include "controllers/quadrotor_mpc/quadrotor_mpc.h"
 #include "controllers/quadrotor_pid/quadrotor_pid.h"
 #include "controllers/trajectory/trajectory.h"
+#include "controllers/waypoint_guidance/waypoint_guidance.h"
 
 namespace vinerow {
 
@@ -28,6 +29,7 @@ void register_controllers(Registry& registry) {
   registry.add_planner(waypoints_spec(), make_waypoints);
   registry.add_guidance(dwa_spec(), make_dwa);
   registry.add_guidance(trajectory_spec(), make_trajectory);
+  registry.add_guidance(waypoint_guidance_spec(), make_waypoint_guidance);
   registry.add_controller(pure_pursuit_spec(), make_pure_pursuit);
   registry.add_controller(path_follower_spec(), make_path_follower);
   registry.add_controller(four_wheel_steering_spec(), make_four_wheel_steering);

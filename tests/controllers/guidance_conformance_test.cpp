@@ -1,5 +1,6 @@
-// What every registered guidance keeps: those of ground vehicles, which write "local_command", and
-// those of flying vehicles, which write "reference".
+// What every registered guidance keeps: those of ground vehicles, which write "local_command",
+// those of rotorcraft, which write a ReferenceTrajectory "reference", and those of vehicles on
+// wings, which write an AirReference there.
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/dwa/course.h"
 #include "tests/controllers/trajectory/flight_world.h"
+#include "tests/controllers/waypoint_guidance/air_bench.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::test {
@@ -35,6 +37,32 @@ std::vector<std::string> guidances_that_write(const std::string& signal) {
     if (std::find(writes.begin(), writes.end(), signal) != writes.end()) names.push_back(name);
   }
   return names;
+}
+
+/// Those of them whose signal is of this type.
+std::vector<std::string> guidances_that_write(const std::string& signal, const std::string& type) {
+  std::vector<std::string> found;
+  const VehicleDescription vehicles[] = {make_quadrotor_description(), make_plane_description()};
+  for (const std::string& name : guidances_that_write(signal)) {
+    for (const VehicleDescription& vehicle : vehicles) {
+      ControllerContext context;
+      context.period = Duration{50'000'000};
+      context.vehicle_description = &vehicle;
+      const PartSpec& spec = all_parts().spec(PartKind::kGuidance, name);
+      try {
+        const auto guidance =
+            all_parts().make_guidance(name, ParameterSet(spec.parameters, spec.name), context);
+        SignalBus bus;
+        Ports ports(bus, "it", "it.guidance");
+        guidance->connect(ports);
+        if (bus.find("it/" + signal)->type() == type) found.push_back(name);
+        break;
+      } catch (const ConfigError&) {
+        // Not for this kind of vehicle.
+      }
+    }
+  }
+  return found;
 }
 
 constexpr Time tick(std::int64_t i) {
@@ -295,7 +323,103 @@ TEST_P(EveryFlightGuidance, RefusesVehiclesThatDoNotFly) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Guidances, EveryFlightGuidance,
-                         testing::ValuesIn(guidances_that_write("reference")),
+                         testing::ValuesIn(guidances_that_write("reference",
+                                                                "ReferenceTrajectory")),
+                         [](const auto& test) { return test.param; });
+
+/// A guidance of vehicles on wings, a square in the air and a launcher beside it.
+class EveryAirGuidance : public testing::TestWithParam<std::string> {
+ protected:
+  static PlannedPath make_flight() {
+    return make_waypoints({{100, 0, 40}, {300, 0, 40}, {300, 200, 45}, {100, 200, 40}});
+  }
+  static PlaneOptions on_launcher() {
+    PlaneOptions options;
+    options.is_flying = false;
+    options.wind = {1.0, -1.5};
+    return options;
+  }
+  static bool is_finite(const AirReference& r) {
+    return std::isfinite(r.airspeed_mps) && std::isfinite(r.course_rad) &&
+           std::isfinite(r.heading_rad) && std::isfinite(r.heading_rate_radps) &&
+           std::isfinite(r.bank_rad) && std::isfinite(r.height_m) &&
+           std::isfinite(r.climb_angle_rad) && r.wind_W.allFinite() &&
+           std::isfinite(r.cross_track_m) && std::isfinite(r.distance_m) &&
+           std::isfinite(r.remaining_m);
+  }
+};
+
+TEST_P(EveryAirGuidance, WaitsWithoutPlanOrEstimate) {
+  AirBench bench({}, on_launcher(), GetParam());
+  const AirReference blind = bench.step_blind();
+  EXPECT_EQ(blind.phase, AirReference::Phase::kWait);
+  EXPECT_FALSE(blind.power);
+  EXPECT_TRUE(is_finite(blind));
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.tick().phase, AirReference::Phase::kWait);
+  AirBench other({}, on_launcher(), GetParam());
+  other.give_plan(make_flight());
+  EXPECT_EQ(other.step_blind().phase, AirReference::Phase::kWait);
+  EXPECT_FALSE(other.step_blind().power);
+}
+
+TEST_P(EveryAirGuidance, TakesPlansOfOnePointAndOfNone) {
+  for (const int points : {0, 1}) {
+    AirBench bench({}, on_launcher(), GetParam());
+    PlannedPath plan;
+    plan.points.resize(static_cast<std::size_t>(points));
+    bench.give_plan(plan);
+    for (int i = 0; i < 60; ++i) EXPECT_EQ(bench.tick().phase, AirReference::Phase::kWait);
+  }
+}
+
+TEST_P(EveryAirGuidance, ReferencesAreFiniteComeToAnEndAndAreTheSameTwice) {
+  AirBench a({}, on_launcher(), GetParam()), b({}, on_launcher(), GetParam());
+  for (AirBench* bench : {&a, &b}) bench->give_plan(make_flight());
+  AirReference::Phase phase = AirReference::Phase::kWait;
+  double farthest_m = 0.0;
+  for (int i = 0; i < 12000 && phase != AirReference::Phase::kDone; ++i) {
+    const AirReference& x = a.tick();
+    const AirReference& y = b.tick();
+    ASSERT_TRUE(is_finite(x));
+    ASSERT_TRUE(x.phase == y.phase && x.power == y.power && x.heading_rad == y.heading_rad &&
+                x.bank_rad == y.bank_rad && x.height_m == y.height_m &&
+                x.climb_angle_rad == y.climb_angle_rad && x.wind_W == y.wind_W &&
+                x.cross_track_m == y.cross_track_m && x.distance_m == y.distance_m);
+    ASSERT_GE(x.remaining_m, 0.0);
+    phase = x.phase;
+    farthest_m = std::max(farthest_m, x.distance_m);
+  }
+  EXPECT_EQ(phase, AirReference::Phase::kDone);
+  EXPECT_NEAR(farthest_m, 600.0, 1.0);
+}
+
+TEST_P(EveryAirGuidance, AllocatesOnlyToTellAnEvent) {
+  AirBench bench({}, on_launcher(), GetParam());
+  bench.give_plan(make_flight());
+  bench.tick();
+  std::size_t allocations = 0;
+  for (int i = 0; i < 12000; ++i) {
+    const std::size_t told = bench.events().size();
+    AllocationCounter counter;
+    const AirReference& reference = bench.tick();
+    if (bench.events().size() == told) allocations += counter.count();
+    if (reference.phase == AirReference::Phase::kDone) break;
+  }
+  EXPECT_EQ(allocations, 0u);
+}
+
+TEST_P(EveryAirGuidance, RefusesVehiclesWithoutWings) {
+  try {
+    AirBench bench({}, on_launcher(), GetParam(), make_four_wheel_rover());
+    FAIL() << "must be refused";
+  } catch (const ConfigError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find("plane.guidance (" + GetParam() + ") needs 'wing_span_m'"), 0u) << text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Guidances, EveryAirGuidance,
+                         testing::ValuesIn(guidances_that_write("reference", "AirReference")),
                          [](const auto& test) { return test.param; });
 
 class EveryGuidance : public testing::TestWithParam<std::string> {};
@@ -311,9 +435,11 @@ TEST_P(EveryGuidance, DocumentsItsParametersAndSignals) {
 
 TEST_P(EveryGuidance, IsOfOneOfTheKindsTestedHere) {
   const auto ground = guidances_that_write("local_command");
-  const auto flight = guidances_that_write("reference");
+  const auto flight = guidances_that_write("reference", "ReferenceTrajectory");
+  const auto air = guidances_that_write("reference", "AirReference");
   EXPECT_EQ(std::count(ground.begin(), ground.end(), GetParam()) +
-                std::count(flight.begin(), flight.end(), GetParam()),
+                std::count(flight.begin(), flight.end(), GetParam()) +
+                std::count(air.begin(), air.end(), GetParam()),
             1);
 }
 

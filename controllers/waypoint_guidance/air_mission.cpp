@@ -1,0 +1,341 @@
+#include "controllers/waypoint_guidance/air_mission.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "controllers/parts/wind_triangle.h"
+
+namespace vinerow {
+
+using Phase = AirReference::Phase;
+
+AirMission::AirMission(const WaypointGuidanceParams& params)
+    : params_(params),
+      generator_(params.legs.turn),
+      pilot_(params.pilot),
+      airspeed_mps_(params.legs.airspeed_mps) {}
+
+void AirMission::take_plan(FlightLegs plan, const AirState& start) {
+  length_m_ = plan.length_m;
+  legs_ = std::move(plan.legs);
+  legs_.reserve(legs_.size() + 1);  // for the way to the plan
+  final_.resize(1);
+  start_ = start;
+}
+
+void AirMission::begin(const AirState& state) {
+  launch_ = state;
+  has_power_ = true;
+  const FlightLeg& first = legs_.front();
+  const double away_m = (first.frame.from_W().head<2>() - state.position).norm();
+  has_own_first_leg_ =
+      first.kind == PathKind::kTransit && legs_.size() > 1 && away_m < params_.join_m;
+  goal_W_ = has_own_first_leg_ ? first.frame.to_W() : first.frame.from_W();
+  if (is_flying(state)) {
+    join(state);
+  } else {
+    launch(state);
+  }
+}
+
+bool AirMission::is_flying(const AirState& state) const {
+  constexpr double kAirShare = 0.7, kGroundShare = 0.3;  // of the cruise speed
+  return state.airspeed_mps() > kAirShare * params_.cruise_mps &&
+         state.velocity.norm() > kGroundShare * params_.cruise_mps;
+}
+
+void AirMission::launch(const AirState& state) {
+  stage_ = Stage::kLaunch;
+  generator_.start(state.yaw_rad, state.bank_left_rad);
+  height_.start(state.height_m);
+  course_ = {state.yaw_rad, 0.0};
+  tell(false, fmt::format("launches on a heading of {:.0f} deg for {:.0f} m of plan",
+                          deg_from_rad(state.yaw_rad), length_m_));
+}
+
+void AirMission::join(const AirState& state) {
+  const LegFrame& frame = legs_.front().frame;
+  const double along_m = frame.along_m(state.position);
+  const double beyond_m = along_m - std::clamp(along_m, 0.0, frame.length_m());
+  const double away_m = std::hypot(frame.left_m(state.position), beyond_m);
+  is_launched_ = true;
+  if (away_m > params_.join_m) {
+    generator_.start(state.yaw_rad, state.bank_left_rad);
+    height_.start(state.height_m);
+    course_ = {unwrap_near(state.course_rad(), state.yaw_rad), 0.0};
+    stage_ = Stage::kLaunch;
+    tell(false, fmt::format("is in the air, {:.0f} m from the plan's first leg: flies to its start",
+                            away_m));
+    return;
+  }
+  // On the plan from the first moment: what the vehicle is off is a deviation.
+  stage_ = Stage::kLegs;
+  pilot_.start(legs_, 0, state, state.yaw_rad, false);
+  const double course_rad = unwrap_near(frame.course_rad(), state.yaw_rad);
+  course_ = {course_rad, 0.0};
+  airspeed_mps_ = legs_.front().airspeed_mps;
+  generator_.start(course_rad + calc_crab(course_rad, state.wind, airspeed_mps_).angle_rad);
+  height_.start(calc_height(legs_, 0, along_m, params_.kink_m).height_m);
+  tell(false, fmt::format("is in the air, {:.1f} m from the plan's first leg: follows {:.0f} m",
+                          away_m, length_m_));
+}
+
+void AirMission::advance(double dt_s, const AirState& state) {
+  news_.clear();
+  Wanted wanted;
+  switch (stage_) {
+    case Stage::kWait:
+      return;
+    case Stage::kLaunch:
+      wanted = fly_launch(state);
+      break;
+    case Stage::kClimb:
+      wanted = fly_climb(state);
+      break;
+    case Stage::kTransit:
+    case Stage::kLegs:
+      wanted = fly_legs(dt_s, state);
+      break;
+    case Stage::kLoiter:
+      wanted = fly_loiter(dt_s, state);
+      break;
+    case Stage::kDescend:
+      wanted = fly_descend(state);
+      break;
+    case Stage::kLand:
+      wanted = fly_land(dt_s, state);
+      break;
+    case Stage::kDone:
+      has_power_ = false;
+      return;
+  }
+  if (stage_ == Stage::kDone) {
+    has_power_ = false;
+    height_.start(height_.height_m());
+    return;
+  }
+  course_ = wanted.course;
+  watch_wind(dt_s, state);
+  const double heading_rad =
+      course_.course_rad + calc_crab(course_.course_rad, state.wind, airspeed_mps_).angle_rad;
+  generator_.advance(dt_s, heading_rad, course_.rate_radps, airspeed_mps_);
+  height_.advance(dt_s, wanted.height_m, wanted.rate_mps,
+                  -airspeed_mps_ * std::sin(wanted.descent_max_rad),
+                  airspeed_mps_ * std::sin(wanted.climb_max_rad));
+}
+
+AirMission::Wanted AirMission::hold() const {
+  return {{course_.course_rad, 0.0},
+          height_.height_m(),
+          0.0,
+          params_.legs.climb_max_rad,
+          params_.legs.descent_max_rad};
+}
+
+AirMission::Wanted AirMission::fly_launch(const AirState& state) {
+  Wanted wanted = hold();
+  is_launched_ = is_launched_ || state.height_m - launch_.height_m >= params_.launch_height_m;
+  if (is_launched_) {
+    // Straight ahead until the way to the plan can be flown: circles that it would not leave, or
+    // that have the waypoint inside, are not begun.
+    const Eigen::Vector2d way = goal_W_.head<2>() - state.position;
+    const double course_rad = state.course_rad();
+    const bool climbs = is_too_steep(state, 1.0);
+    const double left_m = -std::sin(course_rad) * way.x() + std::cos(course_rad) * way.y();
+    const double side = climbs ? params_.loiter_side : (left_m >= 0.0 ? 1.0 : -1.0);
+    const double radius_m =
+        climbs ? params_.loiter_radius_m : params_.legs.turn.radius_m(airspeed_mps_);
+    const LoiterCircle circle = LoiterCircle::tangent(state.position, course_rad, radius_m, side);
+    constexpr double kMargin = 1.4;
+    if (circle.away_m(goal_W_.head<2>()) > kMargin * radius_m) {
+      if (climbs) {
+        circle_ = circle;
+        stage_ = Stage::kClimb;
+        tell(false, fmt::format("circles to climb from {:.0f} m to where the way to the first "
+                                "waypoint at {:.0f} m can be flown",
+                                state.height_m, goal_W_.z()));
+      } else {
+        start_transit(state);
+      }
+    }
+  }
+  const double goal_m = std::max(goal_W_.z(), launch_.height_m + params_.launch_height_m);
+  const Eigen::Vector2d along(std::cos(launch_.yaw_rad), std::sin(launch_.yaw_rad));
+  const double slope = std::tan(params_.launch_climb_rad);
+  const double flown_m = std::max(0.0, along.dot(state.position - launch_.position));
+  wanted.height_m = launch_.height_m + slope * flown_m;
+  wanted.rate_mps = slope * std::max(0.0, along.dot(state.velocity));
+  if (wanted.height_m > goal_m) {
+    wanted.height_m = goal_m;
+    wanted.rate_mps = 0.0;
+  }
+  wanted.climb_max_rad = std::max(params_.launch_climb_rad, params_.legs.climb_max_rad);
+  return wanted;
+}
+
+bool AirMission::is_too_steep(const AirState& state, double share) const {
+  const double way_m = (goal_W_.head<2>() - state.position).norm();
+  const double rise_m = goal_W_.z() - height_.height_m();
+  return rise_m > share * way_m * std::tan(params_.legs.climb_max_rad);
+}
+
+AirMission::Wanted AirMission::fly_climb(const AirState& state) {
+  Wanted wanted = hold();
+  wanted.course = circle_.course(state, params_.pilot.cross_track_length_m, course_.course_rad);
+  wanted.height_m = goal_W_.z();
+  constexpr double kReserve = 0.9, kAhead_rad = 8.0 * kPi / 180.0;
+  const Eigen::Vector2d way = goal_W_.head<2>() - state.position;
+  const double off_rad = wrap_angle(std::atan2(way.y(), way.x()) - state.course_rad());
+  if (!is_too_steep(state, kReserve) && std::abs(off_rad) < kAhead_rad) start_transit(state);
+  return wanted;
+}
+
+void AirMission::start_transit(const AirState& state) {
+  stage_ = Stage::kTransit;
+  if (!has_own_first_leg_) {
+    FlightLeg way;
+    way.waypoint = 0;
+    way.airspeed_mps = params_.legs.airspeed_mps;
+    legs_.insert(legs_.begin(), way);  // into what take_plan() reserved
+  }
+  lay_transit(state);
+  pilot_.start(legs_, 0, state, course_.course_rad, true);
+}
+
+/// While it turns, the way to the plan begins where the vehicle is.
+void AirMission::lay_transit(const AirState& state) {
+  const Eigen::Vector3d here_W(state.position.x(), state.position.y(), height_.height_m());
+  if ((goal_W_ - here_W).head<2>().norm() < 1.0) return;
+  legs_.front().frame = LegFrame(here_W, goal_W_);
+  pilot_.aim(legs_.front().frame);
+}
+
+AirMission::Wanted AirMission::fly_legs(double dt_s, const AirState& state) {
+  if (stage_ == Stage::kTransit && pilot_.is_turning()) lay_transit(state);
+  const std::size_t before = pilot_.leg();
+  Wanted wanted = hold();
+  wanted.course = pilot_.advance(legs_, state, generator_, dt_s);
+  if (pilot_.leg() != before) stage_ = Stage::kLegs;
+  airspeed_mps_ = legs_[pilot_.leg()].airspeed_mps;
+  const HeightPoint height =
+      calc_height(legs_, pilot_.leg(), pilot_.ramp_along_m(), params_.kink_m);
+  wanted.height_m = height.height_m;
+  wanted.rate_mps = height.slope * pilot_.ramp_speed_mps();
+  if (pilot_.has_ended()) end_plan(state);
+  return wanted;
+}
+
+void AirMission::end_plan(const AirState& state) {
+  using End = WaypointGuidanceParams::End;
+  circling_s_ = 0.0;
+  switch (params_.end) {
+    case End::kStop:
+      stage_ = Stage::kDone;
+      tell(false, fmt::format("ends its mission in the air at the last waypoint, after {:.0f} m",
+                              length_m_));
+      return;
+    case End::kLoiter:
+      stage_ = Stage::kLoiter;
+      circle_ = {legs_.back().frame.to_W().head<2>(), params_.loiter_radius_m, params_.loiter_side};
+      tell(false, fmt::format("circles about the last waypoint for {:.0f} s", params_.loiter_s));
+      return;
+    case End::kLand:
+      lay_landing(state);
+  }
+}
+
+AirMission::Wanted AirMission::fly_loiter(double dt_s, const AirState& state) {
+  Wanted wanted = hold();
+  wanted.course = circle_.course(state, params_.pilot.cross_track_length_m, course_.course_rad);
+  wanted.height_m = legs_.back().frame.to_W().z();
+  circling_s_ += dt_s;
+  if (circling_s_ >= params_.loiter_s) {
+    stage_ = Stage::kDone;
+    tell(false, fmt::format("ends its mission in the air after {:.0f} s of circles", circling_s_));
+  }
+  return wanted;
+}
+
+Phase AirMission::phase() const {
+  switch (stage_) {
+    case Stage::kWait:
+      return Phase::kWait;
+    case Stage::kLaunch:
+      return is_launched_ ? Phase::kStraight : Phase::kLaunch;
+    case Stage::kTransit:
+    case Stage::kLegs:
+      return pilot_.is_turning() ? Phase::kTurn : Phase::kStraight;
+    case Stage::kClimb:
+    case Stage::kLoiter:
+    case Stage::kDescend:
+      return Phase::kLoiter;
+    case Stage::kLand:
+      return Phase::kLand;
+    case Stage::kDone:
+      break;
+  }
+  return Phase::kDone;
+}
+
+double AirMission::cross_track_m(const AirState& state) const {
+  switch (stage_) {
+    case Stage::kTransit:
+    case Stage::kLegs:
+      return legs_[pilot_.leg()].frame.left_m(state.position);
+    case Stage::kLand:
+      return final_.front().frame.left_m(state.position);
+    case Stage::kClimb:
+    case Stage::kLoiter:
+    case Stage::kDescend:
+      // Inside the circle is left of a circle to the left.
+      return circle_.side * (circle_.radius_m - circle_.away_m(state.position));
+    default:
+      return 0.0;
+  }
+}
+
+int AirMission::waypoint() const {
+  switch (stage_) {
+    case Stage::kWait:
+      return 0;
+    case Stage::kLaunch:
+    case Stage::kClimb:
+      return has_own_first_leg_ ? legs_.front().waypoint : 0;
+    case Stage::kTransit:
+    case Stage::kLegs:
+      return legs_[pilot_.leg()].waypoint;
+    default:
+      return legs_.back().waypoint;
+  }
+}
+
+double AirMission::distance_m(const AirState& state) const {
+  if (stage_ == Stage::kWait || stage_ == Stage::kLaunch || stage_ == Stage::kClimb) return 0.0;
+  if (stage_ != Stage::kTransit && stage_ != Stage::kLegs) return length_m_;
+  const FlightLeg& leg = legs_[pilot_.leg()];
+  const double share = leg.frame.along_m(state.position) / leg.frame.length_m();
+  return leg.start_m + leg.plan_length_m * std::clamp(share, 0.0, 1.0);
+}
+
+void AirMission::watch_wind(double dt_s, const AirState& state) {
+  constexpr double kPatience_s = 2.0;
+  const bool is_lying = stage_ == Stage::kLand && !has_power_;
+  const bool is_possible =
+      is_lying || calc_crab(course_.course_rad, state.wind, airspeed_mps_).is_possible;
+  against_s_ = is_possible ? 0.0 : against_s_ + dt_s;
+  if (has_told_wind_ || against_s_ < kPatience_s) return;
+  has_told_wind_ = true;
+  tell(true,
+       fmt::format("wind of {:.1f} m/s: no heading holds a course of {:.0f} deg at {:.1f} "
+                   "m/s through the air, points as far into it as helps",
+                   state.wind.norm(), deg_from_rad(wrap_angle(course_.course_rad)), airspeed_mps_));
+}
+
+void AirMission::tell(bool is_bad, std::string text) {
+  news_ = std::move(text);
+  is_bad_news_ = is_bad;
+}
+
+}  // namespace vinerow

@@ -1,0 +1,104 @@
+#pragma once
+/// From the launcher to the ground: which way of flying is on, and what it wants.
+///
+/// wait -> launch -> (circle up) -> legs -> (circle | circle down -> land) -> done. A vehicle that
+/// is in the air already begins on the plan's first leg, wherever it is beside it: what is between
+/// them is the controller's to remove.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controllers/waypoint_guidance/air_state.h"
+#include "controllers/waypoint_guidance/flight_legs.h"
+#include "controllers/waypoint_guidance/height_reference.h"
+#include "controllers/waypoint_guidance/landing_slope.h"
+#include "controllers/waypoint_guidance/leg_pilot.h"
+#include "controllers/waypoint_guidance/loiter_circle.h"
+#include "controllers/waypoint_guidance/waypoint_guidance_params.h"
+
+namespace vinerow {
+
+class AirMission {
+ public:
+  explicit AirMission(const WaypointGuidanceParams& params);
+
+  /// Before the first tick. Allocates. @param start  the first state known
+  void take_plan(FlightLegs plan, const AirState& start);
+  bool has_plan() const { return !legs_.empty(); }
+  /// Fast through the air and over the ground.
+  bool is_flying(const AirState& state) const;
+  /// Leaves the launcher, or the place in the air where it is.
+  void begin(const AirState& state);
+  /// One tick after begin(). Sentences about what happened are made only when something does.
+  void advance(double dt_s, const AirState& state);
+
+  const HeadingGenerator& heading() const { return generator_; }
+  const HeightReference& height() const { return height_; }
+  AirReference::Phase phase() const;
+  bool has_begun() const { return stage_ != Stage::kWait; }
+  bool has_power() const { return has_power_; }
+  double airspeed_mps() const { return airspeed_mps_; }
+  double cross_track_m(const AirState& state) const;
+  int waypoint() const;
+  double distance_m(const AirState& state) const;
+  double length_m() const { return length_m_; }
+  /// What happened in the last call, "" if nothing did; and whether it is bad.
+  const std::string& news() const { return news_; }
+  bool is_bad_news() const { return is_bad_news_; }
+
+ private:
+  enum class Stage { kWait, kLaunch, kClimb, kTransit, kLegs, kLoiter, kDescend, kLand, kDone };
+  /// What the ways of flying want at this tick.
+  struct Wanted {
+    WantedCourse course;
+    double height_m = 0.0;
+    double rate_mps = 0.0;
+    double climb_max_rad = 0.0;
+    double descent_max_rad = 0.0;
+  };
+  void launch(const AirState& state);
+  void join(const AirState& state);
+  Wanted hold() const;
+  Wanted fly_launch(const AirState& state);
+  Wanted fly_climb(const AirState& state);
+  Wanted fly_legs(double dt_s, const AirState& state);
+  Wanted fly_loiter(double dt_s, const AirState& state);
+  Wanted fly_descend(const AirState& state);
+  Wanted fly_land(double dt_s, const AirState& state);
+  bool is_too_steep(const AirState& state, double share) const;
+  void start_transit(const AirState& state);
+  void lay_transit(const AirState& state);
+  void end_plan(const AirState& state);
+  void lay_landing(const AirState& state);
+  bool is_on_final(const AirState& state) const;
+  void watch_wind(double dt_s, const AirState& state);
+  void tell(bool is_bad, std::string text);
+
+  WaypointGuidanceParams params_;
+  std::vector<FlightLeg> legs_;   // with a way to the plan in front, if there is one
+  std::vector<FlightLeg> final_;  // one leg: the glide
+  double length_m_ = 0.0;
+  AirState start_;
+  AirState launch_;
+  Eigen::Vector3d goal_W_ = Eigen::Vector3d::Zero();  // where the way to the plan ends
+  HeadingGenerator generator_;
+  HeightReference height_;
+  LegPilot pilot_;
+  LoiterCircle circle_;
+  LandingSlope slope_;
+  Stage stage_ = Stage::kWait;
+  bool has_power_ = false;
+  bool is_launched_ = false;        // the launch's height is reached
+  bool has_own_first_leg_ = false;  // in place of the plan's, whose first leg leads off the start
+  double airspeed_mps_ = 0.0;
+  double circling_s_ = 0.0;
+  double standing_s_ = 0.0;
+  double against_s_ = 0.0;
+  bool has_told_wind_ = false;
+  WantedCourse course_;
+  std::string news_;
+  bool is_bad_news_ = false;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,55 @@
+#pragma once
+/// A plan as straight legs for a vehicle on wings, and its height along them.
+
+#include <string>
+#include <vector>
+
+#include "controllers/parts/leg_frame.h"
+#include "controllers/waypoint_guidance/heading_generator.h"
+#include "engine/api/messages.h"
+#include "engine/core/result.h"
+
+namespace vinerow {
+
+struct FlightLeg {
+  LegFrame frame;
+  PathKind kind = PathKind::kTransit;
+  int waypoint = 0;            ///< index in the plan of the leg's end
+  double start_m = 0.0;        ///< of the leg along the plan
+  double plan_length_m = 0.0;  ///< of the plan that it stands for; 0 of ways to the plan
+  double airspeed_mps = 0.0;
+};
+
+struct FlightLegsOptions {
+  TurnLimits turn;
+  double airspeed_mps = 12.0;     ///< where the plan tells none
+  double least_airspeed_mps = 0;  ///< below it the plan's speeds are not flown
+  double most_airspeed_mps = 1e9;
+  double climb_max_rad = 0.17;
+  double descent_max_rad = 0.17;
+};
+
+struct FlightLegs {
+  std::vector<FlightLeg> legs;
+  double length_m = 0.0;              ///< in plan view
+  std::vector<std::string> warnings;  ///< what of the plan cannot be flown as it is
+};
+
+/// Points nearer to each other than this in plan view are one waypoint, the later one.
+constexpr double kSameWaypoint_m = 0.1;
+
+/// @returns the legs, or why there are none: "plan has 1 waypoint, needs two or more"
+Result<FlightLegs> make_flight_legs(const PlannedPath& plan, const FlightLegsOptions& options);
+
+struct HeightPoint {
+  double height_m = 0.0;
+  double slope = 0.0;  ///< per metre along the leg
+};
+
+/// The ramps of eq. 6 one after the other, with kinks rounded by parabolas. No heap.
+/// @param along_m  along leg `leg`; negative: on those before it, more than its length: after it
+/// @param kink_m   half the length of a parabola; less where half a leg is less
+HeightPoint calc_height(const std::vector<FlightLeg>& legs, std::size_t leg, double along_m,
+                        double kink_m);
+
+}  // namespace vinerow

@@ -1,0 +1,62 @@
+#include "controllers/waypoint_guidance/heading_generator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "controllers/parts/wind_triangle.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+
+double TurnLimits::radius_m(double airspeed_mps) const {
+  return airspeed_mps * airspeed_mps / (gravity_mps2 * std::tan(bank_rad));
+}
+
+double TurnLimits::rate_radps(double airspeed_mps) const {
+  return gravity_mps2 * std::tan(bank_rad) / airspeed_mps;
+}
+
+void HeadingGenerator::start(double heading_rad, double bank_left_rad) {
+  heading_rad_ = heading_rad;
+  bank_rad_ = told_rad_ = std::clamp(bank_left_rad, -limits_.bank_rad, limits_.bank_rad);
+  rate_radps_ = 0.0;
+}
+
+void HeadingGenerator::advance(double dt_s, double wanted_rad, double wanted_rate_radps,
+                               double airspeed_mps) {
+  const double turn_radps = limits_.gain_per_s * (wanted_rad - heading_rad_) + wanted_rate_radps;
+  const double bank_rad = std::clamp(std::atan(airspeed_mps * turn_radps / limits_.gravity_mps2),
+                                     -limits_.bank_rad, limits_.bank_rad);
+  const double most_rad = limits_.bank_rate_radps * dt_s;
+  told_rad_ += std::clamp(bank_rad - told_rad_, -most_rad, most_rad);
+  const double before_rad = bank_rad_;
+  bank_rad_ += (told_rad_ - bank_rad_) * (1.0 - std::exp(-dt_s / limits_.bank_lag_s));
+  const double mean_rad = 0.5 * (before_rad + bank_rad_);
+  heading_rad_ += dt_s * limits_.gravity_mps2 * std::tan(mean_rad) / airspeed_mps;
+  rate_radps_ = limits_.gravity_mps2 * std::tan(bank_rad_) / airspeed_mps;
+}
+
+PredictedTurn predict_turn(HeadingGenerator generator, const Eigen::Vector2d& position,
+                           double wanted_rad, double end_rad, const Eigen::Vector2d& wind,
+                           double airspeed_mps) {
+  constexpr double kStep_s = 0.05;
+  constexpr double kStraight_rad = 0.5 * kPi / 180.0;
+  PredictedTurn turn{position, position};
+  // Twice around at full bank and the time to come to rest: a bound, not a time it ever takes.
+  const double longest_s = 4.0 * kPi / generator.limits().rate_radps(airspeed_mps) + 20.0;
+  const int steps = static_cast<int>(longest_s / kStep_s);
+  for (int i = 0; i < steps; ++i) {
+    const double left_rad = std::abs(wanted_rad - generator.heading_rad());
+    if (left_rad < kStraight_rad && std::abs(generator.bank_left_rad()) < 4.0 * kStraight_rad) {
+      break;
+    }
+    const double before_rad = generator.heading_rad();
+    generator.advance(kStep_s, wanted_rad, 0.0, airspeed_mps);
+    const double mean_rad = 0.5 * (before_rad + generator.heading_rad());
+    turn.at_rest += kStep_s * calc_ground_velocity(mean_rad, wind, airspeed_mps);
+    if (left_rad > end_rad) turn.near_end = turn.at_rest;
+  }
+  return turn;
+}
+
+}  // namespace vinerow

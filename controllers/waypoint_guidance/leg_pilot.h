@@ -1,0 +1,80 @@
+#pragma once
+/// Flies along legs: straight, turn, straight (paper A, 2.1, the three phases of its figure 7).
+///
+/// Straight, law `smooth`: chi - atan(e / length) with e left of the leg, ahead of which flies the
+/// rate at which that changes; law `paper`: the bearing to the next waypoint where |e| is beyond
+/// the tolerance of eq. 3, else the leg's course. A turn begins where flying it would lead onto the
+/// next leg: `predicted` flies it ahead in the mean wind, `formula` is the tangent fly-by of the
+/// reference, L - s <= R tan(|dchi| / 2) + V (phi_max / (2 phi_rate) + lag). It ends when the
+/// vehicle's course is within 5 deg of the leg's.
+///
+/// Angles positive to the left, courses over ground. No heap.
+
+#include <vector>
+
+#include "controllers/waypoint_guidance/air_state.h"
+#include "controllers/waypoint_guidance/flight_legs.h"
+#include "controllers/waypoint_guidance/heading_generator.h"
+
+namespace vinerow {
+
+struct LegPilotOptions {
+  bool is_smooth = true;
+  bool is_predicted = true;
+  double cross_track_length_m = 15.0;
+  double tolerance_most_m = 4.0;   ///< eps_0 of eq. 3
+  double tolerance_least_m = 1.0;  ///< eps_min
+  double turn_end_rad = 0.0873;
+};
+
+class LegPilot {
+ public:
+  LegPilot() = default;
+  explicit LegPilot(const LegPilotOptions& options) : options_(options) {}
+
+  /// Begins on a leg. @param heading_rad  of the reference: the leg's course becomes the angle
+  /// nearest to it  @param turns  whether it has to turn onto the leg first
+  void start(const std::vector<FlightLeg>& legs, std::size_t leg, const AirState& state,
+             double heading_rad, bool turns);
+  /// The leg has been laid anew, e.g. from where the vehicle is now.
+  void aim(const LegFrame& frame);
+  /// Takes the next leg where it is time for it, then asks the law.
+  WantedCourse advance(const std::vector<FlightLeg>& legs, const AirState& state,
+                       const HeadingGenerator& generator, double dt_s);
+
+  std::size_t leg() const { return leg_; }
+  bool is_turning() const { return is_turning_; }
+  /// The last leg is flown to its end.
+  bool has_ended() const { return has_ended_; }
+  /// Where on the present leg's ramp it is, m; negative: still on that of legs before.
+  double ramp_along_m() const { return ramp_along_m_; }
+  double ramp_speed_mps() const { return ramp_speed_mps_; }
+
+ private:
+  bool is_time_to_turn(const std::vector<FlightLeg>& legs, const AirState& state,
+                       const HeadingGenerator& generator, double dt_s) const;
+  void take_next(const std::vector<FlightLeg>& legs, const AirState& state,
+                 const HeadingGenerator& generator);
+  void watch_turn(const FlightLeg& leg, const AirState& state, const HeadingGenerator& generator,
+                  double dt_s);
+  WantedCourse ask_law(const LegFrame& frame, const AirState& state) const;
+
+  LegPilotOptions options_;
+  std::size_t leg_ = 0;
+  bool is_turning_ = false;
+  bool has_ended_ = false;
+  double course_rad_ = 0.0;  // of the leg, not wrapped
+  double turned_s_ = 0.0;    // since the reference has turned, while the vehicle has not
+  // The turn's ramp: from here to there while the reference turns by so much.
+  double turn_from_m_ = 0.0;
+  double turn_to_m_ = 0.0;
+  double turn_angle_rad_ = 0.0;
+  double ramp_along_m_ = 0.0;
+  double ramp_speed_mps_ = 0.0;
+};
+
+/// Distance before the waypoint at which the tangent fly-by of the reference begins.
+double calc_fly_by_m(const TurnLimits& limits, double corner_rad, double ground_speed_mps,
+                     double airspeed_mps);
+
+}  // namespace vinerow

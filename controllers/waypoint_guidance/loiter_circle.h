@@ -1,0 +1,38 @@
+#pragma once
+/// Flying circles: the course that leads onto a circle and along it.
+///
+/// Source: R. Beard, T. McLain, "Small Unmanned Aircraft", 2012, eq. 10.13: chi = theta + dir (pi/2
+/// + atan((d - rho) / length)).
+
+#include "controllers/waypoint_guidance/air_state.h"
+
+namespace vinerow {
+
+struct LoiterCircle {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double radius_m = 30.0;
+  double side = 1.0;  ///< +1: to the left, counter-clockwise; -1: to the right
+
+  /// The circle that a vehicle is on whose course is this at this place.
+  static LoiterCircle tangent(const Eigen::Vector2d& place, double course_rad, double radius_m,
+                              double side) {
+    const Eigen::Vector2d left(-std::sin(course_rad), std::cos(course_rad));
+    return {place + side * radius_m * left, radius_m, side};
+  }
+
+  double away_m(const Eigen::Vector2d& p) const { return (p - centre).norm(); }
+
+  /// @param length_m  the course is 45 deg off the tangent where the circle is this far away
+  /// @param near_rad  the course wanted so far
+  WantedCourse course(const AirState& state, double length_m, double near_rad) const {
+    const Eigen::Vector2d out = state.position - centre;
+    const double off_m = out.norm() - radius_m;
+    const double angle_rad =
+        std::atan2(out.y(), out.x()) + side * (0.5 * kPi + std::atan(off_m / length_m));
+    // On the circle the course turns with the place; far away it stays.
+    const double share = 1.0 / (1.0 + (off_m / length_m) * (off_m / length_m));
+    return {unwrap_near(angle_rad, near_rad), side * share * state.velocity.norm() / radius_m};
+  }
+};
+
+}  // namespace vinerow

@@ -1,0 +1,16 @@
+#pragma once
+/// Guidance `waypoint_guidance`: a plan of waypoints becomes what a vehicle on wings is to hold now
+/// (paper A, eq. 1-7, in the form of the reference of paper A, section 2), from the launcher to the
+/// ground.
+
+#include <memory>
+
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+PartSpec waypoint_guidance_spec();
+std::unique_ptr<Guidance> make_waypoint_guidance(const ParameterSet& parameters,
+                                                 const ControllerContext& context);
+
+}  // namespace vinerow

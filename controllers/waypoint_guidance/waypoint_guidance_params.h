@@ -1,0 +1,49 @@
+#pragma once
+/// Parameters of guidance `waypoint_guidance`.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controllers/waypoint_guidance/flight_legs.h"
+#include "controllers/waypoint_guidance/leg_pilot.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+struct WaypointGuidanceParams {
+  enum class End { kLand, kLoiter, kStop };
+  FlightLegsOptions legs;  ///< with the turns' limits and the airspeed
+  LegPilotOptions pilot;
+  double cruise_mps = 12.0;  ///< of the vehicle
+  double stall_mps = 8.0;
+  double kink_m = 15.0;
+  std::string air_data;  ///< name of the sensor, "" = none
+  double wind_s = 10.0;
+  double start_s = 1.0;
+  double launch_climb_rad = 0.17;
+  double launch_height_m = 20.0;
+  double join_m = 60.0;
+  double loiter_radius_m = 30.0;
+  double loiter_side = 1.0;  ///< +1 left
+  double loiter_s = 60.0;
+  End end = End::kLand;
+  std::optional<Eigen::Vector2d> land_at_m;
+  std::optional<double> land_height_m;
+  std::optional<double> land_course_rad;
+  double standing_m = 0.0;  ///< of B above the ground at the start, on the launcher
+  double belly_m = 0.0;     ///< of B above the ground when lying
+  double approach_height_m = 30.0;
+  double approach_mps = 10.0;
+  double glide_rad = 0.0873;
+  double flare_m = 1.5;
+  double power_off_m = 1.0;
+};
+
+std::vector<ParameterSpec> waypoint_guidance_parameters();
+/// @throws ConfigError for a vehicle without wings, speeds below what the turns' bank takes, a bank
+/// beyond the vehicle's, circles smaller than it can fly, or words about a landing without one
+WaypointGuidanceParams read_waypoint_guidance_params(const ParameterSet& parameters,
+                                                     const ControllerContext& context);
+
+}  // namespace vinerow

@@ -1,0 +1,175 @@
+#include "tests/controllers/waypoint_guidance/air_bench.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/math/angles.h"
+
+namespace vinerow::test {
+
+VehicleDescription make_plane_description() {
+  VehicleDescription description;
+  description.type = "fixed_wing";
+  description.mass_kg = 1.2;
+  description.height_above_ground_m = 0.1;
+  description.actuators = {{"throttle", "", 0.0, 1.0},
+                           {"elevon_left_rad", "rad", -0.436, 0.436},
+                           {"elevon_right_rad", "rad", -0.436, 0.436}};
+  auto& tell = description.numbers;
+  tell["wing_span_m"] = 0.9;
+  tell["cruise_speed_mps"] = 12.0;
+  tell["stall_speed_mps"] = 8.4;
+  tell["max_bank_rad"] = rad_from_deg(45.0);
+  tell["max_speed_mps"] = 20.0;
+  tell["belly_height_m"] = 0.05;
+  return description;
+}
+
+Plane::Plane(const PlaneOptions& options)
+    : options_(options),
+      p_W_(options.start_W),
+      yaw_rad_(options.yaw_rad),
+      speed_mps_(options.is_flying ? options.speed_mps : 0.0),
+      has_left_(options.is_flying) {}
+
+void Plane::advance(const AirReference& reference, double dt_s) {
+  constexpr double kGravity = 9.80665, kLaunch_mps = 9.0, kBraking_mps2 = 4.0;
+  if (!has_left_) {
+    if (!reference.power) return;
+    has_left_ = true;
+    speed_mps_ = kLaunch_mps;
+  }
+  if (lies_) {
+    speed_mps_ = std::max(0.0, speed_mps_ - kBraking_mps2 * dt_s);
+    const Eigen::Vector2d along(std::cos(yaw_rad_), std::sin(yaw_rad_));
+    p_W_.head<2>() += dt_s * speed_mps_ * along;
+    climb_mps_ = 0.0;
+    return;
+  }
+  constexpr int kParts = 5;
+  const double h = dt_s / kParts;
+  for (int i = 0; i < kParts; ++i) {
+    const double wanted_mps = reference.power ? reference.airspeed_mps : 0.0;
+    speed_mps_ += h * std::clamp(wanted_mps - speed_mps_, -1.0, 3.0);
+    const double turn_radps =
+        reference.heading_rate_radps + 1.5 * (reference.heading_rad - yaw_rad_);
+    const double bank_rad = std::clamp(std::atan(speed_mps_ * turn_radps / kGravity), -0.8, 0.8);
+    bank_left_rad_ += h * (bank_rad - bank_left_rad_) / options_.bank_lag_s;
+    yaw_rad_ += h * kGravity * std::tan(bank_left_rad_) / speed_mps_;
+    const double climb_mps =
+        speed_mps_ * std::sin(reference.climb_angle_rad) + 0.5 * (reference.height_m - p_W_.z());
+    climb_mps_ += h * (std::clamp(climb_mps, -4.0, 4.0) - climb_mps_) / 0.3;
+    p_W_.x() += h * (speed_mps_ * std::cos(yaw_rad_) + options_.wind.x());
+    p_W_.y() += h * (speed_mps_ * std::sin(yaw_rad_) + options_.wind.y());
+    p_W_.z() += h * climb_mps_;
+  }
+  if (p_W_.z() <= options_.ground_m + 0.05 && climb_mps_ < 0.0) {
+    lies_ = true;
+    p_W_.z() = options_.ground_m + 0.05;
+    speed_mps_ = std::hypot(speed_mps_ * std::cos(yaw_rad_) + options_.wind.x(),
+                            speed_mps_ * std::sin(yaw_rad_) + options_.wind.y());
+  }
+}
+
+Odometry Plane::odometry() const {
+  Odometry odometry;
+  odometry.X_WB = {quaternion_from_rpy({-bank_left_rad_, 0.0, yaw_rad_}), p_W_};
+  const bool is_blown = has_left_ && !lies_;
+  Eigen::Vector3d v_W(speed_mps_ * std::cos(yaw_rad_), speed_mps_ * std::sin(yaw_rad_), climb_mps_);
+  if (is_blown) v_W.head<2>() += options_.wind;
+  odometry.v_WB_B = odometry.X_WB.q.conjugate() * v_W;
+  return odometry;
+}
+
+AirData Plane::air() const {
+  const Odometry now = odometry();
+  const Eigen::Vector3d wind_W(options_.wind.x(), options_.wind.y(), 0.0);
+  return {now.v_WB_B - now.X_WB.q.conjugate() * wind_W};
+}
+
+AirBench::AirBench(const Values& values, const PlaneOptions& options, const std::string& type,
+                   VehicleDescription vehicle)
+    : plane(options), vehicle_(std::move(vehicle)), has_air_data_(options.has_air_data) {
+  ControllerContext context;
+  context.vehicle = "plane";
+  context.part = "plane.guidance";
+  context.period = kTick;
+  context.vehicle_description = &vehicle_;
+  const PartSpec& spec = parts().spec(PartKind::kGuidance, type);
+  Values all = values;
+  if (has_air_data_ && type == "waypoint_guidance") all.emplace_back("air_data", "air");
+  guidance_ = parts().make_guidance(type, make_parameters(spec, all), context);
+  Ports world(bus_, "plane", "test");
+  estimate_ = world.write<Odometry>("estimate");
+  plan_ = world.write<PlannedPath>("plan");
+  air_ = world.write<AirData>("air");
+  Ports ports(bus_, "plane", "plane.guidance");
+  guidance_->connect(ports);
+  reference_ = world.read<AirReference>("reference");
+  news_ = world.read<Event>("guidance_event");
+}
+
+const AirReference& AirBench::step(const Odometry& estimate) {
+  estimate_.write(now_, estimate);
+  return step_blind();
+}
+
+const AirReference& AirBench::step_blind() {
+  guidance_->step(now_);
+  now_ = now_ + kTick;
+  if (news_.is_newer_than(news_seen_)) events_.push_back(news_.value());
+  return reference_.value();
+}
+
+const AirReference& AirBench::tick() {
+  if (has_air_data_) air_.write(now_, plane.air());
+  const AirReference& reference = step(plane.odometry());
+  plane.advance(reference, kTick.s());
+  return reference;
+}
+
+void AirBench::fly(double longest_s, const Each& each) {
+  while (time_s() < longest_s) {
+    const double now_s = time_s();
+    const Odometry seen = plane.odometry();
+    const AirReference& reference = tick();
+    if (each) each(now_s, seen, reference);
+    if (reference.phase == AirPhase::kDone) return;
+  }
+}
+
+bool AirBench::has_event(const std::string& words) const {
+  return std::any_of(events_.begin(), events_.end(), [&](const Event& event) {
+    return event.text.find(words) != std::string::npos;
+  });
+}
+
+PlannedPath make_waypoints(const std::vector<Eigen::Vector3d>& points) {
+  PlannedPath plan;
+  for (const Eigen::Vector3d& p_W : points) {
+    PathPoint point;
+    point.p_W = p_W;
+    plan.points.push_back(point);
+  }
+  return plan;
+}
+
+PlannedPath make_lanes(int count, double length_m, double spacing_m, double height_m,
+                       double yaw_rad) {
+  std::vector<Eigen::Vector3d> points;
+  const Eigen::AngleAxisd turn(yaw_rad, Eigen::Vector3d::UnitZ());
+  for (int i = 0; i < count; ++i) {
+    const double first = i % 2 == 0 ? 0.0 : length_m;
+    for (const double y : {first, length_m - first}) {
+      points.push_back(turn * Eigen::Vector3d(spacing_m * i, y, height_m));
+    }
+  }
+  PlannedPath plan = make_waypoints(points);
+  for (std::size_t i = 0; i < plan.points.size(); ++i) {
+    plan.points[i].kind = i % 2 == 0 ? PathKind::kLeg : PathKind::kTurn;
+    plan.points[i].alley = i % 2 == 0 ? static_cast<std::int32_t>(i / 2) : -1;
+  }
+  return plan;
+}
+
+}  // namespace vinerow::test

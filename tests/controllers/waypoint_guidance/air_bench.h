@@ -1,0 +1,90 @@
+#pragma once
+/// Guidances that write AirReference between their signals, and a point that flies coordinated
+/// turns in a uniform wind: the heading's rate is g tan(bank) / V, bank and climb follow with lags.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/api/registry.h"
+#include "tests/controllers/support/mission.h"
+
+namespace vinerow::test {
+
+using AirPhase = AirReference::Phase;
+
+/// The numbers of the aircraft of the reference of paper A, section 1.
+VehicleDescription make_plane_description();
+
+struct PlaneOptions {
+  Eigen::Vector3d start_W = {0.0, 0.0, 0.1};
+  double yaw_rad = 0.0;
+  bool is_flying = true;  ///< else it lies on a launcher until the reference wants power
+  Eigen::Vector2d wind = Eigen::Vector2d::Zero();
+  bool has_air_data = true;  ///< writes AirData "air"
+  double bank_lag_s = 0.2;
+  double speed_mps = 12.0;
+  double ground_m = 0.0;  ///< z where the fuselage lies, on flat ground
+};
+
+class Plane {
+ public:
+  explicit Plane(const PlaneOptions& options);
+  void advance(const AirReference& reference, double dt_s);
+  Odometry odometry() const;
+  AirData air() const;
+  double bank_left_rad() const { return bank_left_rad_; }
+
+ private:
+  PlaneOptions options_;
+  Eigen::Vector3d p_W_;
+  double yaw_rad_, bank_left_rad_ = 0.0, speed_mps_, climb_mps_ = 0.0;
+  bool has_left_, lies_ = false;
+};
+
+class AirBench {
+ public:
+  static constexpr Duration kTick{50'000'000};
+
+  explicit AirBench(const Values& values = {}, const PlaneOptions& plane = {},
+                    const std::string& type = "waypoint_guidance",
+                    VehicleDescription vehicle = make_plane_description());
+
+  void give_plan(const PlannedPath& plan) { plan_.write(now_, plan); }
+  /// A tick of the guidance with this estimate, or with the last one.
+  const AirReference& step(const Odometry& estimate);
+  const AirReference& step_blind();
+  /// One tick of guidance, then of the plane.
+  const AirReference& tick();
+  /// Ticks until kDone or longest_s; `each` sees what the guidance saw and wanted.
+  using Each = std::function<void(double time_s, const Odometry&, const AirReference&)>;
+  void fly(double longest_s, const Each& each = {});
+
+  Plane plane;
+  const std::vector<Event>& events() const { return events_; }
+  bool has_event(const std::string& words) const;
+  double time_s() const { return now_.s(); }
+
+ private:
+  VehicleDescription vehicle_;
+  bool has_air_data_;
+  SignalBus bus_;
+  SignalWriter<Odometry> estimate_;
+  SignalWriter<PlannedPath> plan_;
+  SignalWriter<AirData> air_;
+  SignalReader<AirReference> reference_;
+  SignalReader<Event> news_;
+  std::uint64_t news_seen_ = 0;
+  std::unique_ptr<Guidance> guidance_;
+  std::vector<Event> events_;
+  Time now_;
+};
+
+/// A plan of waypoints with straight legs.
+PlannedPath make_waypoints(const std::vector<Eigen::Vector3d>& points);
+/// Lanes of this length, northwards first, from the origin to the east, turned by yaw.
+PlannedPath make_lanes(int count, double length_m, double spacing_m, double height_m,
+                       double yaw_rad = 0.0);
+
+}  // namespace vinerow::test

@@ -32,7 +32,9 @@ void validate(const Wind& w) {
            "m", fmt::format("< wind.reference_height_m = {} m", w.reference_height_m));
   }
   demand_not_negative("power_exponent", w.power_exponent, "");
+  demand(true, "ground_speed_mps", w.ground_speed_mps, "m/s", "a finite number");
   demand_not_negative("turbulence", w.turbulence, "");
+  demand_not_negative("turbulence_limit_mps", w.turbulence_limit_mps, "m/s");
   demand_not_negative("shelter", w.shelter_attenuation, "");
   for (std::size_t i = 0; i < w.gusts.size(); ++i) {
     const WindGust& gust = w.gusts[i];

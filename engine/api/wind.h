@@ -12,7 +12,14 @@ namespace vinerow {
 enum class WindHeightLaw {
   kUniform,      ///< the same everywhere
   kLogarithmic,  ///< u(z) = u_ref ln(z / z0) / ln(z_ref / z0)
-  kPower         ///< u(z) = u_ref (z / z_ref)^exponent
+  kPower,        ///< u(z) = u_ref (z / z_ref)^exponent
+  kLinear        ///< from u_ground at the ground to u_ref at z_ref, and on like that above
+};
+
+/// How dense the air is.
+enum class Atmosphere {
+  kConstant,   ///< air_density_kgm3 everywhere
+  kStandard76  ///< US Standard Atmosphere 1976 at the altitude above the ellipsoid
 };
 
 /// A single pulse 1/2 amplitude (1 - cos(2 pi t / duration)).
@@ -28,17 +35,21 @@ struct WindGust {
 };
 
 struct Wind {
-  double air_density_kgm3 = 1.225;
-  double mean_speed_mps = 0.0;    ///< at reference_height_m above the ground
-  double from_azimuth_rad = 0.0;  ///< where it comes from, clockwise from north
+  Atmosphere atmosphere = Atmosphere::kConstant;
+  double air_density_kgm3 = 1.225;  ///< with Atmosphere::kConstant
+  double mean_speed_mps = 0.0;      ///< at reference_height_m above the ground
+  double from_azimuth_rad = 0.0;    ///< where it comes from, clockwise from north
   double reference_height_m = 10.0;
   WindHeightLaw height_law = WindHeightLaw::kLogarithmic;
   double roughness_length_m = 0.1;
   double power_exponent = 0.2;
+  double ground_speed_mps = 0.0;  ///< of the linear law, at the ground; < 0: the other way
   /// Scales the standard deviations of the Dryden turbulence (MIL-F-8785C, low altitude); 0: none.
   double turbulence = 0.0;
   /// Wind at 20 ft that sets them, m/s; < 0: what the mean wind has at that height.
   double turbulence_wind_mps = -1.0;
+  /// Largest length of the turbulence's vector: what is beyond is cut to it; 0: no limit.
+  double turbulence_limit_mps = 0.0;
   std::vector<WindGust> gusts;
   /// Gusts that come by chance: one per this time on average, s, from any side; 0: none.
   double random_gust_interval_s = 0.0;
@@ -50,8 +61,10 @@ struct Wind {
   double shelter_attenuation = 0.0;
 
   bool calm() const {
-    return mean_speed_mps == 0.0 && (turbulence == 0.0 || turbulence_wind_mps <= 0.0) &&
-           gusts.empty() && random_gust_interval_s == 0.0;
+    const bool still_ground = height_law != WindHeightLaw::kLinear || ground_speed_mps == 0.0;
+    return mean_speed_mps == 0.0 && still_ground &&
+           (turbulence == 0.0 || turbulence_wind_mps <= 0.0) && gusts.empty() &&
+           random_gust_interval_s == 0.0;
   }
 };
 

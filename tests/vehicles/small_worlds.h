@@ -10,6 +10,8 @@
 
 namespace vinerow::vehicles::test {
 
+constexpr double kGravity = 9.80665;
+
 /// Height field around the origin, `size_m` wide and deep.
 inline WorldModel make_world(double size_m, double cell_m,
                              const std::function<double(double, double)>& height) {
@@ -46,6 +48,24 @@ inline Pose pose_on_ground(const WorldModel& world, double x, double y, double y
   pose.q = quaternion_on_slope(yaw_rad, normal);
   pose.p = Eigen::Vector3d(x, y, world.terrain->height_m(x, y)) + height_m * normal;
   return pose;
+}
+
+/// Mesh box with the half extents given, standing at p_W.
+inline MeshInstance make_box(const std::string& name, const Eigen::Vector3f& half,
+                             const Eigen::Vector3d& p_W, SurfaceClass surface) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (int k = 0; k < 8; ++k) {
+    mesh->vertices.emplace_back(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
+                                k & 4 ? half.z() : -half.z());
+  }
+  mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  MeshInstance instance;
+  instance.name = name;
+  instance.mesh = mesh;
+  instance.X_WM.p = p_W;
+  instance.surface = surface;
+  return instance;
 }
 
 inline physics::PhysicsSettings settings_with_step(std::int64_t step_ns) {

@@ -54,6 +54,19 @@ TEST_P(WorldWind, IsCalmUnlessGiven) {
   EXPECT_EQ(calm->wind.air_density_kgm3, 1.225);
 }
 
+TEST_P(WorldWind, ReadsShearLimitAndAtmosphere) {
+  const Wind plain = build()->wind;
+  EXPECT_EQ(plain.atmosphere, Atmosphere::kConstant);
+  EXPECT_EQ(plain.turbulence_limit_mps, 0.0);
+  wind_.set("height_law", std::string("linear")).set("ground_speed_mps", -6.0);
+  wind_.set("turbulence_limit_mps", 1.0).set("atmosphere", std::string("us76"));
+  const Wind wind = build()->wind;
+  EXPECT_EQ(wind.height_law, WindHeightLaw::kLinear);
+  EXPECT_EQ(wind.ground_speed_mps, -6.0);
+  EXPECT_EQ(wind.turbulence_limit_mps, 1.0);
+  EXPECT_EQ(wind.atmosphere, Atmosphere::kStandard76);
+}
+
 TEST_P(WorldWind, ReadsEveryValue) {
   wind_.set("mean_speed_mps", 3.0).set("from_deg", 250.0).set("reference_height_m", 8.0);
   wind_.set("height_law", std::string("power")).set("roughness_length_m", 0.03);

@@ -65,7 +65,7 @@ std::string part_name(const FixedWingParams& p, const Vector3d& p_B) {
   const double root = p.shape.root_chord_m;
   if (p_B.y() > kHalfWidth * root) return "its left wing";
   if (p_B.y() < -kHalfWidth * root) return "its right wing";
-  return p_B.x() > p.shape.leading_edge_m ? "its nose" : "its belly";
+  return p_B.x() > p.shape.leading_edge_m + 0.5 * kNose * root ? "its nose" : "its belly";
 }
 
 }  // namespace

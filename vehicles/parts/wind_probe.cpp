@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vehicles/parts/atmosphere.h"
+
 namespace vinerow::vehicles {
 namespace {
 
@@ -31,17 +33,24 @@ double mean_wind_mps(const Wind& wind, double height_m) {
       if (height_m <= 0.0) return 0.0;
       return wind.mean_speed_mps *
              std::pow(height_m / wind.reference_height_m, wind.power_exponent);
+    case WindHeightLaw::kLinear:
+      return wind.ground_speed_mps + (wind.mean_speed_mps - wind.ground_speed_mps) *
+                                         std::max(0.0, height_m) / wind.reference_height_m;
   }
   return wind.mean_speed_mps;
 }
 
 double turbulence_wind_mps(const Wind& wind) {
   return wind.turbulence_wind_mps >= 0.0 ? wind.turbulence_wind_mps
-                                         : mean_wind_mps(wind, kTwentyFeet_m);
+                                         : std::abs(mean_wind_mps(wind, kTwentyFeet_m));
 }
 
 WindProbe::WindProbe(const WorldModel& world, const SceneQuery& scene, RandomStream random)
     : wind_(checked(world.wind)),
+      origin_altitude_m_(world.origin.altitude_m),
+      density_kgm3_(wind_->atmosphere == Atmosphere::kStandard76
+                        ? calc_standard_density_kgm3(origin_altitude_m_)
+                        : wind_->air_density_kgm3),
       terrain_(world.terrain ? &*world.terrain : nullptr),
       scene_(&scene),
       calm_(wind_->calm()),
@@ -90,6 +99,9 @@ void WindProbe::move_knots(Time now, double height_m, double airspeed_mps) {
 
 const Eigen::Vector3d& WindProbe::sample(Time now, const Eigen::Vector3d& p_W,
                                          const Eigen::Vector3d& v_W, Duration dt) {
+  if (wind_->atmosphere == Atmosphere::kStandard76) {
+    density_kgm3_ = calc_standard_density_kgm3(origin_altitude_m_ + p_W.z());
+  }
   if (calm_) return wind_W_;
   const bool tick = !started_ || now >= next_time_;
   find_ground(p_W, tick);
@@ -118,7 +130,9 @@ const Eigen::Vector3d& WindProbe::sample(Time now, const Eigen::Vector3d& p_W,
   if (wind_20ft_mps_ > 0.0) {
     const double share = static_cast<double>((now - knot_time_).ns) /
                          static_cast<double>((next_time_ - knot_time_).ns);
-    const Eigen::Vector3d uvw = knot_ + share * (next_knot_ - knot_);
+    Eigen::Vector3d uvw = knot_ + share * (next_knot_ - knot_);
+    const double longest_mps = wind_->turbulence_limit_mps, length_mps = uvw.norm();
+    if (longest_mps > 0.0 && length_mps > longest_mps) uvw *= longest_mps / length_mps;
     turbulence_W_ = {uvw.x() * downwind_.x() - uvw.y() * downwind_.y(),
                      uvw.x() * downwind_.y() + uvw.y() * downwind_.x(), uvw.z()};
   }

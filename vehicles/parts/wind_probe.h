@@ -1,6 +1,7 @@
 #pragma once
 /// The wind that one vehicle feels: mean wind by the world's height law, Dryden turbulence,
-/// 1-cosine gusts, shelter between the rows. Formulae, sources and figures: docs/wind.md.
+/// 1-cosine gusts, shelter between the rows; and how dense the air is. Formulae, sources and
+/// figures: docs/wind.md.
 ///
 /// Every part that wants the wind has a probe of its own: turbulence is drawn along the way of
 /// that vehicle through the air (frozen field), so neighbours do not share it. The mean wind and
@@ -25,8 +26,9 @@
 
 namespace vinerow::vehicles {
 
-/// Mean wind at a height above the ground without shelter, m/s, >= 0. Continues as 0 below the
-/// roughness length (logarithmic) or the ground (power); uniform has no ground.
+/// Mean wind at a height above the ground without shelter, m/s; < 0 only by the linear law.
+/// Continues as 0 below the roughness length (logarithmic) or the ground (power), as on the ground
+/// below it (linear); uniform has no ground.
 double mean_wind_mps(const Wind& wind, double height_m);
 
 /// Wind at 20 ft that sets the turbulence: the given one, else the mean wind there.
@@ -51,9 +53,10 @@ class WindProbe {
   const Eigen::Vector3d& sample(Time now, const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
                                 Duration dt);
 
-  /// No wind at all, ever: sample() need not be called.
-  bool calm() const { return calm_; }
-  double air_density_kgm3() const { return wind_->air_density_kgm3; }
+  /// No wind at all, ever, and the same density everywhere: sample() need not be called.
+  bool calm() const { return calm_ && wind_->atmosphere == Atmosphere::kConstant; }
+  /// At the place of the last sample; before the first at W's origin.
+  double air_density_kgm3() const { return density_kgm3_; }
 
   /// Parts of the last sample, in W, m/s, after shelter: they sum up to it.
   const Eigen::Vector3d& mean_W() const { return mean_W_; }
@@ -65,6 +68,8 @@ class WindProbe {
   void move_knots(Time now, double height_m, double airspeed_mps);
 
   const Wind* wind_;
+  double origin_altitude_m_;
+  double density_kgm3_;
   const HeightField* terrain_;
   const SceneQuery* scene_;
   bool calm_;

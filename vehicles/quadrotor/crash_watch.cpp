@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vehicles/parts/touch_judge.h"
 #include "vehicles/quadrotor/quadrotor_shapes.h"
 
 namespace vinerow::vehicles {
@@ -40,25 +41,11 @@ std::string judge_ground(const QuadrotorParams& params, const Vector3d& p_B, dou
 
 std::string judge_contacts(const physics::PhysicsWorld& world, physics::BodyId body,
                            const physics::BodyState& before, const QuadrotorParams& params) {
-  for (const physics::Contact& contact : world.contacts()) {
-    const bool mine = contact.body.index == body.index;
-    if (!mine && contact.other.index != body.index) continue;
-    const Vector3d arm_W = contact.p_W - before.X_WB.p;
-    const Vector3d p_B = before.X_WB.q.conjugate() * arm_W;
-    const double speed_mps = (before.v_WB_W + before.w_WB_W.cross(arm_W)).norm();
-    if (contact.other.index >= 0) {
-      const physics::BodyId other = mine ? contact.other : contact.body;
-      return fmt::format("hit {} with {} at {:.1f} m/s", world.body_name(other),
-                         part_name(params, p_B), speed_mps);
-    }
-    if (contact.surface != SurfaceClass::kTerrain) {
-      return fmt::format("hit {} '{}' with {} at {:.1f} m/s", to_string(contact.surface),
-                         world.contact_name(contact), part_name(params, p_B), speed_mps);
-    }
-    std::string reason = judge_ground(params, p_B, tilt_of(before), speed_mps);
-    if (!reason.empty()) return reason;
-  }
-  return {};
+  return judge_touches(
+      world, body, before, [&](const Vector3d& p_B) { return part_name(params, p_B); },
+      [&](const GroundTouch& touch) {
+        return judge_ground(params, touch.p_B, tilt_of(before), touch.speed_mps);
+      });
 }
 
 std::string judge_foot(const FootContact& contact, const physics::BodyState& body,

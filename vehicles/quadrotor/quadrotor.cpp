@@ -28,14 +28,6 @@ Vector3d calc_body_drag_W(double drag_area_m2, double air_density_kgm3, const Ve
   return (0.5 * air_density_kgm3 * drag_area_m2 * air_W.norm()) * air_W;
 }
 
-/// q turned on by a small rotation vector in W.
-Quaterniond turned(const Quaterniond& q, const Vector3d& rotation_W) {
-  Quaterniond turn;
-  turn.w() = 1.0;
-  turn.vec() = 0.5 * rotation_W;
-  return (turn * q).normalized();
-}
-
 }  // namespace
 
 Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& context)
@@ -77,7 +69,7 @@ void Quadrotor::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   // The loads given are means over the step.
   spec.force_sampling = physics::ForceSampling::kHeld;
   body_id_ = world.add_body(spec);
-  body_ = body_before_ = world.state(body_id_);
+  motion_.reset(world.state(body_id_));
   specific_force_B_ = X_WB.q.conjugate() * Vector3d(0.0, 0.0, world.settings().gravity_mps2);
   probe_.emplace(world.world_model(), world.scene(), random_);
   foliage_.start(world.world_model());
@@ -86,9 +78,7 @@ void Quadrotor::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
 void Quadrotor::set_motion(const physics::BodyState& body,
                            const std::array<double, kRotors>& speeds_radps) {
   world_->set_state(body_id_, body);
-  body_ = body_before_ = body;
-  acceleration_W_.setZero();
-  spin_change_W_.setZero();
+  motion_.reset(body);
   for (std::size_t i = 0; i < kRotors; ++i) {
     rotors_[i].speed_radps = actuator_states_[i] = commands_radps_[i] = speeds_radps[i];
   }
@@ -106,9 +96,9 @@ double Quadrotor::rotor_momentum_Nms() const {
 }
 
 Vector3d Quadrotor::angular_momentum_W() const {
-  const Vector3d w_B = body_.X_WB.q.conjugate() * body_.w_WB_W;
+  const Vector3d w_B = body().X_WB.q.conjugate() * body().w_WB_W;
   const Vector3d rotors_B(0.0, 0.0, rotor_momentum_Nms());
-  return body_.X_WB.q * (params_.inertia_kgm2.cwiseProduct(w_B) + rotors_B);
+  return body().X_WB.q * (params_.inertia_kgm2.cwiseProduct(w_B) + rotors_B);
 }
 
 void Quadrotor::actuate(std::span<const double> values) {
@@ -145,14 +135,14 @@ void Quadrotor::tell(Event::Level level, std::string text) {
 }
 
 void Quadrotor::feel_wind(Time now, Duration dt) {
-  if (!probe_->calm()) wind_W_ = probe_->sample(now, body_.X_WB.p, body_.v_WB_W, dt);
+  if (!probe_->calm()) wind_W_ = probe_->sample(now, body().X_WB.p, body().v_WB_W, dt);
 }
 
 void Quadrotor::feel_ground() {
   for (RotorState& rotor : rotors_) rotor.thrust_ratio = 1.0;
   const double feet_reach_m = params_.stand_height_m + params_.gear_radius_m + kFeetLook_m;
   const double reach_m = std::max(ground_effect_.reach_m(), feet_reach_m);
-  const Vector3d& p_W = body_.X_WB.p;
+  const Vector3d& p_W = body().X_WB.p;
   const auto hit = world_->probe_ground(p_W, -Vector3d::UnitZ(), reach_m);
   ground_is_near_ = hit && hit->distance_m < feet_reach_m;
   if (!hit || ground_effect_.reach_m() <= 0.0) return;
@@ -164,7 +154,7 @@ void Quadrotor::feel_ground() {
     ground_W.z() = terrain->height_m(p_W.x(), p_W.y());
     normal_W = terrain->normal_W(p_W.x(), p_W.y());
   }
-  const Vector3d normal_B = body_.X_WB.q.conjugate() * normal_W;
+  const Vector3d normal_B = body().X_WB.q.conjugate() * normal_W;
   const double height_m = normal_W.dot(p_W - ground_W);
   for (std::size_t i = 0; i < kRotors; ++i) {
     rotors_[i].thrust_ratio =
@@ -178,11 +168,11 @@ void Quadrotor::press_feet(Vector3d& force_W, Vector3d& torque_W) {
       feet_[i].stands = false;
       continue;
     }
-    const auto contact = press_foot(params_.foot, *world_, body_, feet_B_[i], feet_[i]);
+    const auto contact = press_foot(params_.foot, *world_, body(), feet_B_[i], feet_[i]);
     if (!contact) continue;
     force_W += contact->force_W;
-    torque_W += (contact->p_W - body_.X_WB.p).cross(contact->force_W);
-    if (crash_.empty()) crash_ = judge_foot(*contact, body_, params_);
+    torque_W += (contact->p_W - body().X_WB.p).cross(contact->force_W);
+    if (crash_.empty()) crash_ = judge_foot(*contact, body(), params_);
   }
 }
 
@@ -221,15 +211,14 @@ void Quadrotor::before_physics(Time now, Duration dt) {
   feel_ground();
 
   // The middle of the step, from what the last step changed.
-  const Vector3d v_W = body_.v_WB_W + 0.5 * dt_s * acceleration_W_;
-  const Vector3d w_W = body_.w_WB_W + 0.5 * dt_s * spin_change_W_;
-  const Quaterniond q = turned(body_.X_WB.q, 0.5 * dt_s * w_W);
-  const Eigen::Matrix3d R_WB = q.toRotationMatrix();
-  const Vector3d air_W = wind_W_ - v_W;
+  const physics::BodyState middle = motion_.middle(dt_s);
+  const Vector3d& w_W = middle.w_WB_W;
+  const Eigen::Matrix3d R_WB = middle.X_WB.q.toRotationMatrix();
+  const Vector3d air_W = wind_W_ - middle.v_WB_W;
 
   Load load = run_rotors(dt_s, R_WB.transpose() * air_W, R_WB.transpose() * w_W);
   const Vector3d momentum_W =
-      turned(body_.X_WB.q, dt_s * w_W) * Vector3d(0.0, 0.0, rotor_momentum_Nms());
+      turned_on(body().X_WB.q, dt_s * w_W) * Vector3d(0.0, 0.0, rotor_momentum_Nms());
   Vector3d force_W = R_WB * load.force_B +
                      calc_body_drag_W(params_.body_drag_area_m2, probe_->air_density_kgm3(), air_W);
   Vector3d torque_W = R_WB * load.torque_B - (momentum_W - booked_momentum_W_) / dt_s;
@@ -246,17 +235,14 @@ void Quadrotor::before_physics(Time now, Duration dt) {
 }
 
 void Quadrotor::after_physics(Time now, Duration dt) {
-  body_before_ = body_;
-  body_ = world_->state(body_id_);
-  acceleration_W_ = (body_.v_WB_W - body_before_.v_WB_W) / dt.s();
-  spin_change_W_ = (body_.w_WB_W - body_before_.w_WB_W) / dt.s();
-  Vector3d f_W = acceleration_W_;
+  motion_.take(world_->state(body_id_), dt.s());
+  Vector3d f_W = motion_.acceleration_W();
   f_W.z() += world_->settings().gravity_mps2;
-  specific_force_B_ = body_.X_WB.q.conjugate() * f_W;
+  specific_force_B_ = body().X_WB.q.conjugate() * f_W;
   if (crash_.empty()) {
-    crash_ = judge_contacts(*world_, body_id_, body_before_, params_);
-    if (crash_.empty() && foliage_.touches(world_->scene(), body_, dt.s())) {
-      crash_ = fmt::format("touched the canopy at {:.1f} m/s", body_.v_WB_W.norm());
+    crash_ = judge_contacts(*world_, body_id_, motion_.before(), params_);
+    if (crash_.empty() && foliage_.touches(world_->scene(), body(), dt.s())) {
+      crash_ = fmt::format("touched the canopy at {:.1f} m/s", body().v_WB_W.norm());
     }
   }
   if (!news_.empty() && event_writer_.connected()) {
@@ -266,17 +252,17 @@ void Quadrotor::after_physics(Time now, Duration dt) {
 }
 
 void Quadrotor::read_truth(Odometry& truth) const {
-  const Quaterniond q_BW = body_.X_WB.q.conjugate();
-  truth.X_WB = body_.X_WB;
-  truth.v_WB_B = q_BW * body_.v_WB_W;
-  truth.w_WB_B = q_BW * body_.w_WB_W;
+  const Quaterniond q_BW = body().X_WB.q.conjugate();
+  truth.X_WB = body().X_WB;
+  truth.v_WB_B = q_BW * body().v_WB_W;
+  truth.w_WB_B = q_BW * body().w_WB_W;
 }
 
 void Quadrotor::read_links(std::vector<Pose>& X_WL) const {
-  X_WL[0] = body_.X_WB;
+  X_WL[0] = body().X_WB;
   for (std::size_t i = 0; i < kRotors; ++i) {
     const Eigen::AngleAxisd turn(rotors_[i].angle_rad, Vector3d::UnitZ());
-    X_WL[1 + i] = body_.X_WB * Pose{Quaterniond(turn), hubs_B_[i]};
+    X_WL[1 + i] = body().X_WB * Pose{Quaterniond(turn), hubs_B_[i]};
   }
 }
 

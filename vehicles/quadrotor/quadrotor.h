@@ -25,6 +25,7 @@
 #include "engine/api/registry.h"
 #include "engine/physics/physics_world.h"
 #include "vehicles/parts/foliage_watch.h"
+#include "vehicles/parts/mid_step.h"
 #include "vehicles/parts/wind_probe.h"
 #include "vehicles/quadrotor/quadrotor_params.h"
 
@@ -62,7 +63,7 @@ class Quadrotor final : public Vehicle {
 
   const QuadrotorParams& params() const { return params_; }
   const std::array<RotorState, kRotors>& rotors() const { return rotors_; }
-  const physics::BodyState& body() const { return body_; }
+  const physics::BodyState& body() const { return motion_.body(); }
   const BatteryState& battery() const { return battery_; }
   physics::BodyId body_id() const { return body_id_; }
   const FoliageWatch& foliage_watch() const { return foliage_; }
@@ -103,9 +104,7 @@ class Quadrotor final : public Vehicle {
   physics::PhysicsWorld* world_ = nullptr;
   physics::BodyId body_id_;
   std::optional<WindProbe> probe_;
-  physics::BodyState body_, body_before_;
-  Eigen::Vector3d acceleration_W_ = Eigen::Vector3d::Zero();     // mean over the last step
-  Eigen::Vector3d spin_change_W_ = Eigen::Vector3d::Zero();      // angular acceleration, likewise
+  MidStep motion_;
   Eigen::Vector3d booked_momentum_W_ = Eigen::Vector3d::Zero();  // of the rotors, given to the body
   Eigen::Vector3d wind_W_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d specific_force_B_ = Eigen::Vector3d::Zero();

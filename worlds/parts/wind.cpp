@@ -33,6 +33,7 @@ std::vector<ParameterSpec> random_gust_fields() {
 
 WindHeightLaw height_law_of(const std::string& name) {
   if (name == "uniform") return WindHeightLaw::kUniform;
+  if (name == "linear") return WindHeightLaw::kLinear;
   return name == "power" ? WindHeightLaw::kPower : WindHeightLaw::kLogarithmic;
 }
 
@@ -48,24 +49,31 @@ ParameterSpec wind_parameter() {
                         "where the wind comes from, clockwise from north"),
        positive_parameter("reference_height_m", "m", d.reference_height_m,
                           "above the ground, of mean_speed_mps"),
-       choice_parameter("height_law", "logarithmic", {"uniform", "logarithmic", "power"},
+       choice_parameter("height_law", "logarithmic", {"uniform", "logarithmic", "power", "linear"},
                         "how the mean wind grows with height"),
        positive_parameter("roughness_length_m", "m", d.roughness_length_m,
                           "of the logarithmic law, below reference_height_m: 0.03 grass, 0.1 low "
                           "crops, 0.25 high crops (Wieringa 1992)"),
        number_parameter("power_exponent", "", d.power_exponent, 0, 1, "of the power law"),
+       number_parameter("ground_speed_mps", "m/s", d.ground_speed_mps, -kStorm_mps, kStorm_mps,
+                        "of the linear law: wind at the ground; < 0 blows the other way"),
        number_parameter("turbulence", "", d.turbulence, 0, 10,
                         "factor on the Dryden turbulence of MIL-F-8785C, low altitude; 0: none"),
        optional(number_parameter("turbulence_wind_mps", "m/s", 0, 0, kStorm_mps,
                                  "wind at 20 ft that sets the turbulence; default: the mean wind "
                                  "there")),
+       number_parameter("turbulence_limit_mps", "m/s", d.turbulence_limit_mps, 0, kStorm_mps,
+                        "largest length of the turbulence's vector; 0: no limit"),
        group_list_parameter("gusts", gust_fields(), "1-cosine pulses at given times"),
        group_parameter("random_gusts", random_gust_fields(),
                        "1-cosine pulses at random times, the same for all vehicles"),
        number_parameter("shelter", "", d.shelter_attenuation, 0, 5,
                         "attenuation a of exp(-a (1 - z/top)) across the rows of a block; 0: "
                         "none, 1.2: vines of leaf area index 2 (Goudriaan 1977)"),
-       positive_parameter("air_density_kgm3", "kg/m3", d.air_density_kgm3, "of the air")},
+       choice_parameter("atmosphere", "constant", {"constant", "us76"},
+                        "density everywhere alike, or US Standard Atmosphere 1976"),
+       positive_parameter("air_density_kgm3", "kg/m3", d.air_density_kgm3,
+                          "of a constant atmosphere")},
       "wind that every vehicle feels; absent: calm");
 }
 
@@ -73,6 +81,7 @@ Wind read_wind(const ParameterSet& parameters, std::uint64_t seed) {
   Wind wind;
   if (!parameters.has("wind")) return wind;
   const ParameterSet& given = parameters.group("wind");
+  if (given.text("atmosphere") == "us76") wind.atmosphere = Atmosphere::kStandard76;
   wind.air_density_kgm3 = given.number("air_density_kgm3");
   wind.mean_speed_mps = given.number("mean_speed_mps");
   wind.from_azimuth_rad = rad_from_deg(given.number("from_deg"));
@@ -80,10 +89,12 @@ Wind read_wind(const ParameterSet& parameters, std::uint64_t seed) {
   wind.height_law = height_law_of(given.text("height_law"));
   wind.roughness_length_m = given.number("roughness_length_m");
   wind.power_exponent = given.number("power_exponent");
+  wind.ground_speed_mps = given.number("ground_speed_mps");
   wind.turbulence = given.number("turbulence");
   if (given.has("turbulence_wind_mps")) {
     wind.turbulence_wind_mps = given.number("turbulence_wind_mps");
   }
+  wind.turbulence_limit_mps = given.number("turbulence_limit_mps");
   for (const ParameterSet& pulse : given.groups("gusts")) {
     WindGust gust;
     gust.start_s = pulse.number("at_s");

@@ -9,8 +9,9 @@
 namespace vinerow::worlds {
 
 /// The group `wind`: `mean_speed_mps`, `from_deg`, `reference_height_m`, `height_law`,
-/// `roughness_length_m`, `power_exponent`, `turbulence`, `turbulence_wind_mps`, `gusts`,
-/// `random_gusts`, `shelter`, `air_density_kgm3`. Absent: calm.
+/// `roughness_length_m`, `power_exponent`, `ground_speed_mps`, `turbulence`, `turbulence_wind_mps`,
+/// `turbulence_limit_mps`, `gusts`, `random_gusts`, `shelter`, `atmosphere`, `air_density_kgm3`.
+/// Absent: calm.
 ParameterSpec wind_parameter();
 
 /// @param parameters  with wind_parameter()

@@ -9,8 +9,6 @@
 
 namespace vinerow::vehicles::test {
 
-constexpr double kGravity = 9.80665;
-
 /// Trim of the reference of paper A, section 1: level flight at 12 m/s.
 struct PageTrim {
   double alpha_rad = rad_from_deg(7.35);

@@ -11,32 +11,12 @@
 
 namespace vinerow::vehicles::test {
 
-constexpr double kGravity = 9.80665;
-
 /// No air: what is left are thrust and weight.
 inline QuadrotorParams without_air(QuadrotorParams params = {}) {
   params.rotor_drag_Ns_per_m = 0.0;
   params.body_drag_area_m2 = 0.0;
   params.ground_effect = GroundEffectModel::kNone;
   return params;
-}
-
-/// Mesh box with the half extents given, standing at p_W.
-inline MeshInstance make_box(const std::string& name, const Eigen::Vector3f& half,
-                             const Eigen::Vector3d& p_W, SurfaceClass surface) {
-  auto mesh = std::make_shared<TriangleMesh>();
-  for (int k = 0; k < 8; ++k) {
-    mesh->vertices.emplace_back(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
-                                k & 4 ? half.z() : -half.z());
-  }
-  mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  MeshInstance instance;
-  instance.name = name;
-  instance.mesh = mesh;
-  instance.X_WM.p = p_W;
-  instance.surface = surface;
-  return instance;
 }
 
 /// Level and at rest.

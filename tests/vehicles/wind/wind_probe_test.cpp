@@ -46,12 +46,80 @@ TEST(MeanWind, FollowsTheHeightLaws) {
   EXPECT_EQ(mean_wind_mps(wind, 0.0), 0.0);
 }
 
+TEST(MeanWind, ShearsEvenlyFromTheGround) {
+  Wind wind = west_wind(6.0);
+  wind.height_law = WindHeightLaw::kLinear;
+  EXPECT_NEAR(mean_wind_mps(wind, 2.5), 1.5, 1e-12);
+  wind.ground_speed_mps = -2.0;  // turns round at a quarter of the reference height
+  EXPECT_NEAR(mean_wind_mps(wind, 0.0), -2.0, 1e-12);
+  EXPECT_NEAR(mean_wind_mps(wind, -5.0), -2.0, 1e-12);
+  EXPECT_NEAR(mean_wind_mps(wind, 2.5), 0.0, 1e-12);
+  EXPECT_NEAR(mean_wind_mps(wind, 30.0), 22.0, 1e-12);
+  EXPECT_NEAR(turbulence_wind_mps(wind), -2.0 + 8.0 * 0.6096, 1e-12);
+  WindRig rig(wind);
+  EXPECT_LT((rig.sample(kStep, {0, 0, 0}) - Vector3d(-2.0, 0, 0)).norm(), 1e-12);
+  wind.mean_speed_mps = 0.0;
+  EXPECT_FALSE(wind.calm());
+  wind.ground_speed_mps = 0.0;
+  EXPECT_TRUE(wind.calm());
+}
+
 TEST(MeanWind, SetsTheTurbulenceAt20FeetUnlessTold) {
   Wind wind = west_wind(6.0);
   wind.height_law = WindHeightLaw::kLogarithmic;
   EXPECT_NEAR(turbulence_wind_mps(wind), 6.0 * std::log(60.96) / std::log(100.0), 1e-12);
   wind.turbulence_wind_mps = 2.0;
   EXPECT_EQ(turbulence_wind_mps(wind), 2.0);
+}
+
+/// A bounded disturbance: its direction stays, its length is cut; what is shorter stays as it is.
+TEST(WindProbe, LimitsTheTurbulencesLength) {
+  Wind wind = west_wind(0.0);
+  wind.turbulence = 1.0;
+  wind.turbulence_wind_mps = 6.0;
+  WindRig free(wind);
+  wind.turbulence_limit_mps = 1.0;
+  WindRig limited(wind);
+  int cut = 0, kept = 0;
+  double longest = 0.0;
+  for (int i = 0; i < 60'000; ++i) {
+    const Vector3d at(0, 0, 40.0);
+    const Vector3d all = free.sample(kStep, at), some = limited.sample(kStep, at);
+    longest = std::max(longest, all.norm());
+    if (all.norm() > 1.0) {
+      ++cut;
+      ASSERT_LT((some - all / all.norm()).norm(), 1e-12);
+    } else {
+      ++kept;
+      ASSERT_EQ(some, all);
+    }
+  }
+  EXPECT_GT(longest, 1.3);
+  EXPECT_GT(cut, 1000);
+  EXPECT_GT(kept, 1000);
+}
+
+/// US Standard Atmosphere 1976, table I: density at geometric altitudes.
+TEST(WindProbe, TellsTheDensityOfTheStandardAtmosphere) {
+  Wind wind = west_wind(0.0);
+  EXPECT_TRUE(WindRig(wind).probe->calm());
+  wind.atmosphere = Atmosphere::kStandard76;
+  wind.air_density_kgm3 = 9.0;  // counts for nothing
+  WindRig rig(wind);
+  EXPECT_FALSE(rig.probe->calm());
+  EXPECT_TRUE(wind.calm());  // there is no wind all the same
+  const double table[][2] = {{0.0, 1.2250},       {1'000.0, 1.1117},    {5'000.0, 0.73643},
+                             {11'000.0, 0.36480}, {20'000.0, 0.088910}, {32'000.0, 0.013555}};
+  for (const auto& [altitude_m, density] : table) {
+    EXPECT_EQ(rig.sample(kStep, {0, 0, altitude_m}), Vector3d::Zero());
+    EXPECT_NEAR(rig.probe->air_density_kgm3(), density, 0.6e-4 * density) << altitude_m;
+  }
+  // W's origin is up there itself.
+  rig.world.origin.altitude_m = 1'000.0;
+  WindProbe high(rig.world, rig.scene, RandomStream(1, "drone", "wind"));
+  EXPECT_NEAR(high.air_density_kgm3(), 1.1117, 0.6e-4);
+  high.sample({}, {0, 0, 4'000.0}, Vector3d::Zero(), kStep);
+  EXPECT_NEAR(high.air_density_kgm3(), 0.73643, 0.6e-4);
 }
 
 TEST(WindProbe, BlowsFromWhereItIsSaid) {

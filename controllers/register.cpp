@@ -4,17 +4,21 @@
 #include "controllers/estimation/gps_pose.h"
 #include "controllers/estimation/odometry_filter.h"
 #include "controllers/four_wheel_steering/four_wheel_steering.h"
+#include "controllers/mpc_nominal/mpc_nominal.h"
 #include "controllers/path_follower/path_follower.h"
 #include "controllers/planning/coverage.h"
+#include "controllers/planning/mission_route.h"
 #include "controllers/planning/row_flight.h"
 #include "controllers/planning/rrt_quartile.h"
 #include "controllers/planning/rrt_star.h"
+#include "controllers/planning/survey.h"
 #include "controllers/planning/waypoints.h"
 #include "controllers/pure_pursuit/pure_pursuit.h"
 #include "controllers/quadrotor_lqr/quadrotor_lqr.h"
 #include "controllers/quadrotor_mpc/quadrotor_mpc.h"
 #include "controllers/quadrotor_pid/quadrotor_pid.h"
 #include "controllers/trajectory/trajectory.h"
+#include "controllers/trmpc/trmpc.h"
 #include "controllers/waypoint_guidance/waypoint_guidance.h"
 
 namespace vinerow {
@@ -23,9 +27,11 @@ void register_controllers(Registry& registry) {
   registry.add_estimator(gps_pose_spec(), make_gps_pose);
   registry.add_estimator(odometry_filter_spec(), make_odometry_filter);
   registry.add_planner(coverage_spec(), make_coverage);
+  registry.add_planner(mission_route_spec(), make_mission_route);
   registry.add_planner(row_flight_spec(), make_row_flight);
   registry.add_planner(rrt_quartile_spec(), make_rrt_quartile);
   registry.add_planner(rrt_star_spec(), make_rrt_star);
+  registry.add_planner(survey_spec(), make_survey);
   registry.add_planner(waypoints_spec(), make_waypoints);
   registry.add_guidance(dwa_spec(), make_dwa);
   registry.add_guidance(trajectory_spec(), make_trajectory);
@@ -36,6 +42,8 @@ void register_controllers(Registry& registry) {
   registry.add_controller(quadrotor_lqr_spec(), make_quadrotor_lqr);
   registry.add_controller(quadrotor_pid_spec(), make_quadrotor_pid);
   registry.add_controller(quadrotor_mpc_spec(), make_quadrotor_mpc);
+  registry.add_controller(mpc_nominal_spec(), make_mpc_nominal);
+  registry.add_controller(trmpc_spec(), make_trmpc);
 }
 
 }  // namespace vinerow

@@ -1,0 +1,322 @@
+#include "controllers/planning/mission_route.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "controllers/planning/mission_items.h"
+#include "controllers/planning/survey_heights.h"
+#include "controllers/planning/survey_params.h"
+#include "controllers/planning/survey_route.h"
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kSame_m = 1e-3;
+
+class MissionRoute final : public Planner {
+ public:
+  MissionRoute(const ParameterSet& parameters, const PlannerContext& context,
+               const std::string& who)
+      : mission_(io::read_mission(parameters.text("file"))),
+        origin_(context.origin),
+        scene_(context.scene),
+        vehicle_(*context.vehicle_description),
+        climb_slope_(parameters.number("climb_slope")),
+        ramp_error_m_(parameters.number("ramp_error_m")),
+        keeps_fences_(parameters.text("fences") == "keep") {
+    winged_ = !vehicle_.numbers.contains("rotor_count");
+    const auto radius = vehicle_.numbers.find("min_turning_radius_m");
+    constexpr double kUsualRadius_m = 25.0;
+    radius_m_ = radius == vehicle_.numbers.end() ? kUsualRadius_m : radius->second;
+    mission_places_ = place_mission(mission_, origin_, winged_, who);
+  }
+
+  const PlanReport* report() const override { return &report_; }
+
+  Result<PlannedPath> plan(const Pose& start) override {
+    report_ = {};
+    path_ = {};
+    start_ = start;
+    ground_ = make_ground(scene_, start.p.z() - vehicle_.height_above_ground_m);
+    find_home();
+    if (const auto fault = lay_way()) return Failure{*fault};
+    set_kinds();
+    if (const auto fault = check()) return Failure{*fault};
+    measure();
+    return path_;
+  }
+
+ private:
+  /// Home is where the vehicle starts: an autopilot takes it from there, not from the file.
+  void find_home() {
+    home_m_ = ground_(start_.p.head<2>()).value_or(start_.p.z() - vehicle_.height_above_ground_m);
+  }
+
+  Result<double> height_of(const MissionPlace& place) const {
+    using Reference = MissionPlace::Reference;
+    switch (place.reference) {
+      case Reference::kWorld:
+        return place.altitude_m;
+      case Reference::kHome:
+        return home_m_ + place.altitude_m;
+      case Reference::kKeep:
+        return path_.points.back().p_W.z();
+      case Reference::kGround:
+        break;
+    }
+    const auto ground_m = ground_(place.p_W);
+    if (!ground_m) {
+      return Failure{
+          fmt::format("item {} is {:g} m above the terrain at ({:.1f}, {:.1f}), where there "
+                      "is none",
+                      place.item, place.altitude_m, place.p_W.x(), place.p_W.y())};
+    }
+    return *ground_m + place.altitude_m;
+  }
+
+  void add(const Vector3d& p_W, PathKind kind, const MissionPlace& place) {
+    if (!path_.points.empty() && (path_.points.back().p_W - p_W).norm() < kSame_m) {
+      path_.points.back().speed_mps = place.speed_mps;
+      camera_.back() = place.camera;
+      return;
+    }
+    PathPoint point;
+    point.p_W = p_W;
+    point.kind = kind;
+    point.speed_mps = place.speed_mps;
+    path_.points.push_back(point);
+    camera_.push_back(place.camera);
+    items_.push_back(place.item);
+  }
+
+  std::optional<std::string> lay_way() {
+    camera_.clear();
+    items_.clear();
+    MissionPlace begin;
+    begin.speed_mps = mission_places_.first_speed_mps;
+    add(start_.p, winged_ ? PathKind::kTransit : PathKind::kVertical, begin);
+    bool is_first = true;
+    const MissionPlace* before = nullptr;
+    for (const MissionPlace& place : mission_places_.places) {
+      using Task = MissionPlace::Task;
+      if (place.task == Task::kReturn || (place.task == Task::kLand && !place.has_place)) {
+        // Home, or down where it is, at the height it has.
+        const double height_m = path_.points.back().p_W.z();
+        Vector3d p = path_.points.back().p_W;
+        if (place.task == Task::kReturn) p << start_.p.head<2>(), height_m;
+        if (path_.points.size() > 1) path_.points.back().kind = PathKind::kReturn;
+        add(p, PathKind::kReturn, place);
+        land(place);
+        continue;
+      }
+      const auto height_m = height_of(place);
+      if (!height_m) return height_m.reason();
+      Vector3d p(place.p_W.x(), place.p_W.y(), *height_m);
+      if (!place.has_place) p.head<2>() = path_.points.back().p_W.head<2>();  // a bare take-off
+      if (place.task == Task::kLand) p.z() = path_.points.back().p_W.z();
+      if (is_first && !winged_) {
+        add({start_.p.x(), start_.p.y(), p.z()}, PathKind::kTransit, place);
+      } else if (is_first && !place.has_place) {
+        continue;  // wings climb on the way to the first waypoint
+      } else if (is_first) {
+        climb_to(p, place);
+      }
+      is_first = false;
+      const bool follows_ground = before != nullptr && before->has_place && place.has_place &&
+                                  before->reference == MissionPlace::Reference::kGround &&
+                                  place.reference == MissionPlace::Reference::kGround;
+      if (follows_ground) follow_ground(*before, place);
+      add(p, PathKind::kLeg, place);
+      if (place.task == Task::kLand) land(place);
+      before = &place;
+    }
+    return path_.points.size() < 2 ? std::optional<std::string>("there is nothing to fly")
+                                   : std::nullopt;
+  }
+
+  /// Laps beside the start where the way to the first place is too short to climb.
+  void climb_to(const Vector3d& p, const MissionPlace& place) {
+    const double rise_m = p.z() - start_.p.z();
+    const double needed_m = rise_m / climb_slope_, direct_m = (p - start_.p).head<2>().norm();
+    if (needed_m <= direct_m) return;
+    MissionPlace lap = place;
+    lap.camera = false;
+    double way_m = 0.0;
+    Vector2d at = start_.p.head<2>();
+    constexpr double kMore = 1.001;
+    for (const Vector2d& corner : make_climb_laps(at, yaw_from_quaternion(start_.q), p.head<2>(),
+                                                  kMore * needed_m, radius_m_, true)) {
+      way_m += (corner - at).norm();
+      at = corner;
+      const double height_m = std::min(start_.p.z() + climb_slope_ * way_m, p.z());
+      add({corner.x(), corner.y(), height_m}, PathKind::kTransit, lap);
+    }
+  }
+
+  /// Points between two places above the terrain, so that ramps follow it.
+  void follow_ground(const MissionPlace& from, const MissionPlace& to) {
+    const auto profile = GroundProfile::make({from.p_W, to.p_W}, ground_);
+    if (!profile || profile->length_m() < kSame_m) return;
+    std::vector<double> wanted_m;
+    for (const auto& sample : profile->samples()) {
+      const double share = sample.distance_m / profile->length_m();
+      wanted_m.push_back(sample.ground_m + from.altitude_m +
+                         share * (to.altitude_m - from.altitude_m));
+    }
+    const std::vector<int> points = split_ramps(*profile, wanted_m, 2, ramp_error_m_);
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      const auto& sample = profile->samples()[points[i]];
+      add({sample.p_W.x(), sample.p_W.y(), wanted_m[points[i]]}, PathKind::kLeg, from);
+    }
+  }
+
+  /// Rotorcraft go straight down; how wings land is their guidance's business.
+  void land(const MissionPlace& place) {
+    if (winged_) return;
+    path_.points.back().kind = PathKind::kVertical;
+    Vector3d p = path_.points.back().p_W;
+    p.z() = ground_(p.head<2>()).value_or(home_m_) + vehicle_.height_above_ground_m;
+    add(p, PathKind::kVertical, place);
+  }
+
+  /// Where the camera works it is a leg; without any camera every stretch is one.
+  void set_kinds() {
+    auto& points = path_.points;
+    const std::size_t n = points.size();
+    std::size_t first = n, last = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool is_leg = points[i].kind == PathKind::kLeg &&
+                          (camera_[i] || !mission_places_.uses_camera) && i + 1 < n;
+      if (points[i].kind == PathKind::kLeg && !is_leg) points[i].kind = PathKind::kTurn;
+      if (!is_leg) continue;
+      first = std::min(first, i);
+      last = i;
+    }
+    constexpr double kBend_rad = 0.5;
+    int alley = -1;
+    for (std::size_t i = 0; i < n; ++i) {
+      PathPoint& point = points[i];
+      const Vector2d way = i + 1 < n ? Vector2d((points[i + 1].p_W - point.p_W).head<2>())
+                                     : Vector2d((point.p_W - points[i - 1].p_W).head<2>());
+      const double before_rad = i > 0 ? points[i - 1].yaw_rad : 0.0;
+      point.yaw_rad = way.norm() < kSame_m ? before_rad : std::atan2(way.y(), way.x());
+      if (point.kind == PathKind::kTurn && (i < first || i > last)) {
+        point.kind = i < first ? PathKind::kTransit : PathKind::kReturn;
+      }
+      if (point.kind != PathKind::kLeg) continue;
+      const bool goes_on = i > 0 && points[i - 1].kind == PathKind::kLeg &&
+                           std::abs(wrap_angle(point.yaw_rad - before_rad)) < kBend_rad;
+      point.alley = goes_on ? alley : ++alley;
+    }
+    const std::size_t end = n - 1;
+    if (points[end].kind != PathKind::kVertical) {
+      points[end].kind = points[end - 1].kind;
+      points[end].alley = points[end - 1].alley;
+    }
+  }
+
+  /// Ways into the ground or out of the fences.
+  std::optional<std::string> check() {
+    constexpr double kLook_m = 2.0;
+    double least_m = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < path_.points.size(); ++i) {
+      const PathPoint &a = path_.points[i], &b = path_.points[i + 1];
+      const std::string leg =
+          i == 0 ? fmt::format("the way to item {}", items_[1])
+                 : fmt::format("the way from item {} to item {}", items_[i], items_[i + 1]);
+      if (keeps_fences_) {
+        if (const auto fence =
+                find_broken_fence(mission_, origin_, a.p_W.head<2>(), b.p_W.head<2>())) {
+          return fmt::format("{} breaks {}; 'fences: ignore' flies it all the same", leg, *fence);
+        }
+      }
+      if (i == 0 || a.kind == PathKind::kVertical) continue;
+      const Vector3d way = b.p_W - a.p_W;
+      const int steps = std::max(1, static_cast<int>(std::ceil(way.head<2>().norm() / kLook_m)));
+      for (int k = 0; k <= steps; ++k) {
+        const Vector3d p = a.p_W + static_cast<double>(k) / steps * way;
+        const auto ground_m = ground_(p.head<2>());
+        if (!ground_m) continue;
+        if (p.z() < *ground_m) {
+          return fmt::format("{} goes {:.1f} m below the ground at ({:.1f}, {:.1f})", leg,
+                             *ground_m - p.z(), p.x(), p.y());
+        }
+        if (a.kind != PathKind::kTransit) least_m = std::min(least_m, p.z() - *ground_m);
+      }
+    }
+    if (std::isfinite(least_m)) report_.numbers["height_above_ground_min_m"] = least_m;
+    return std::nullopt;
+  }
+
+  void measure() {
+    path_.length_m = 0.0;
+    for (std::size_t i = 1; i < path_.points.size(); ++i) {
+      path_.length_m += (path_.points[i].p_W - path_.points[i - 1].p_W).norm();
+    }
+    report_.numbers["items"] = static_cast<double>(mission_.items.size());
+    report_.numbers["waypoints"] = static_cast<double>(path_.points.size());
+    report_.numbers["length_m"] = path_.length_m;
+    report_.numbers["ignored_items"] = mission_places_.ignored_items;
+    report_.numbers["loiters"] = mission_places_.loiters;
+  }
+
+  const io::MissionFile mission_;
+  const GeoOrigin origin_;
+  const SceneQuery* scene_;
+  const VehicleDescription& vehicle_;
+  double climb_slope_, ramp_error_m_;
+  bool keeps_fences_;
+  bool winged_ = true;
+  double radius_m_ = 25.0;
+  MissionPlaces mission_places_;
+
+  Pose start_;
+  GroundHeight ground_;
+  double home_m_ = 0.0;
+  PlannedPath path_;
+  std::vector<bool> camera_;  // at each point: works from there on
+  std::vector<int> items_;    // at each point: the mission's item
+  PlanReport report_;
+};
+
+}  // namespace
+
+PartSpec mission_route_spec() {
+  PartSpec spec;
+  spec.name = "mission_file";
+  spec.description =
+      "A mission from QGroundControl (.plan) or Mission Planner (QGC WPL 110), flown leg by leg; "
+      "docs/survey.md lists the commands.";
+  spec.parameters = {
+      required(path_parameter("file", "the mission: a .plan or a QGC WPL 110 text")),
+      number_parameter("climb_slope", "", 0.12, 0.001, 10.0,
+                       "at which wings climb to the first waypoint, rise over run; laps are added "
+                       "where the way there is too short"),
+      positive_parameter("ramp_error_m", "m", 2.0,
+                         "by which ramps between places above the terrain may miss it"),
+      choice_parameter("fences", "keep", {"keep", "ignore"},
+                       "keep: a way that breaks one of the mission's fences is refused"),
+  };
+  spec.reads = {"estimate"};
+  spec.writes = {"plan"};
+  return spec;
+}
+
+std::unique_ptr<Planner> make_mission_route(const ParameterSet& parameters,
+                                            const PlannerContext& context) {
+  const std::string who = context.part + " (mission_file)";
+  if (!context.vehicle_description->flies()) {
+    throw ConfigError(fmt::format("{} plans flights, but vehicle type '{}' does not fly", who,
+                                  context.vehicle_description->type));
+  }
+  return std::make_unique<MissionRoute>(parameters, context, who);
+}
+
+}  // namespace vinerow

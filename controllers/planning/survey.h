@@ -1,0 +1,17 @@
+#pragma once
+/// Planner `survey`: lanes over a parcel for pictures from the air (paper A, section 2).
+
+#include <memory>
+
+#include "engine/api/part.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+PartSpec survey_spec();
+
+/// The report's numbers are SurveyPlan::numbers. @throws ConfigError as read_survey_request(), and
+/// for vehicles that do not fly
+std::unique_ptr<Planner> make_survey(const ParameterSet& parameters, const PlannerContext& context);
+
+}  // namespace vinerow

@@ -1,0 +1,384 @@
+#include "controllers/planning/survey_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "controllers/parts/pose2.h"
+#include "controllers/planning/survey_forecast.h"
+#include "controllers/planning/survey_order.h"
+#include "controllers/planning/survey_route.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kMmPerM = 1e3, kM2PerHa = 1e4;
+
+/// "point 3 of the polygon at (x, y) lies 12.3 m outside the terrain"
+std::optional<std::string> find_corner_outside(const Polygon2& polygon,
+                                               const GroundHeight& ground) {
+  Vector2d middle = Vector2d::Zero();
+  for (const Vector2d& p : polygon) middle += p / static_cast<double>(polygon.size());
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d& p = polygon[i];
+    if (ground(p)) continue;
+    const std::string point =
+        fmt::format("point {} of the polygon at ({:.1f}, {:.1f})", i + 1, p.x(), p.y());
+    // Where the terrain begins on the way to the polygon's middle.
+    constexpr int kSteps = 2000;
+    const Vector2d way = middle - p;
+    for (int k = 1; k <= kSteps; ++k) {
+      const double share = static_cast<double>(k) / kSteps;
+      if (!ground(p + share * way)) continue;
+      return fmt::format(
+          "{} lies outside the terrain, which begins {:.1f} m from there towards the "
+          "polygon's middle",
+          point, share * way.norm());
+    }
+    return fmt::format(
+        "{} lies outside the terrain, and so does the way to the polygon's middle at "
+        "({:.1f}, {:.1f})",
+        point, middle.x(), middle.y());
+  }
+  return std::nullopt;
+}
+
+class SurveyPlanner {
+ public:
+  SurveyPlanner(const SurveyRequest& request, const Pose& start_W, const GroundHeight& ground)
+      : request_(request), start_W_(start_W), ground_(ground) {}
+
+  Result<SurveyPlan> plan() {
+    const bool is_sound = !find_polygon_fault(request_.polygon_W);
+    if (request_.lane_yaw_rad) {
+      plan_.frame.yaw_rad = *request_.lane_yaw_rad;
+    } else if (is_sound) {
+      plan_.frame.yaw_rad = choose_lane_yaw_rad(request_.polygon_W);
+    }
+    if (const auto fault = find_survey_fault(request_, plan_.frame.yaw_rad)) return Failure{*fault};
+    if (const auto fault = find_corner_outside(request_.polygon_W, ground_)) return Failure{*fault};
+    cut();
+    route();
+    if (const auto fault = climb()) return Failure{*fault};
+    fly();
+    take_pictures();
+    std::optional<Vector2d> bare_W;
+    const SurveyForecast forecast = forecast_survey(request_, plan_.shots, ground_, bare_W);
+    if (bare_W) {
+      return Failure{
+          fmt::format("the polygon has no terrain at ({:.1f}, {:.1f})", bare_W->x(), bare_W->y())};
+    }
+    set("covered_share", forecast.covered_share);
+    set("views_min", forecast.least_views);
+    set("views_mean", forecast.mean_views);
+    return std::move(plan_);
+  }
+
+ private:
+  void set(const char* name, double value) { plan_.numbers[name] = value; }
+
+  void cut() {
+    const SurveyCamera& camera = request_.camera;
+    const double height_m = request_.height_m;
+    LaneNeeds needs;
+    needs.footprint_width_m = camera.footprint_width_m(height_m);
+    needs.footprint_length_m = camera.footprint_length_m(height_m);
+    needs.spacing_m = (1.0 - request_.side_overlap) * needs.footprint_width_m;
+    needs.end_margin = request_.end_margin;
+    needs.edge_margin = request_.edge_margin;
+    plan_.lanes = cut_lanes(request_.polygon_W, plan_.frame, needs);
+
+    // Often enough where ramps run low, but not more often than the camera can.
+    const Vector2d along = plan_.frame.along();
+    const double up_mps = *calc_ground_speed_mps(request_.speed_mps, request_.wind_W, along);
+    const double down_mps = *calc_ground_speed_mps(request_.speed_mps, request_.wind_W, -along);
+    const double fastest_mps = std::max(up_mps, down_mps);
+    const double lowest_m = std::max(0.5 * height_m, height_m - request_.ramp_error_m);
+    plan_.photo_distance_m =
+        std::max((1.0 - request_.forward_overlap) * camera.footprint_length_m(lowest_m),
+                 fastest_mps / camera.max_rate_Hz);
+    for (SurveyLane& lane : plan_.lanes) {
+      for (LanePiece& piece : lane.pieces) {
+        const double length_m = piece.to_m - piece.from_m;
+        const double whole_m =
+            plan_.photo_distance_m * std::ceil(length_m / plan_.photo_distance_m - 1e-9);
+        piece.from_m -= 0.5 * (whole_m - length_m);
+        piece.to_m += 0.5 * (whole_m - length_m);
+      }
+    }
+    const double spacing_m = plan_.lanes.size() > 1
+                                 ? plan_.lanes[1].across_m - plan_.lanes[0].across_m
+                                 : needs.footprint_width_m;
+    set("area_ha", std::abs(polygon_area_m2(request_.polygon_W)) / kM2PerHa);
+    set("lanes", static_cast<double>(plan_.lanes.size()));
+    set("lane_spacing_m", spacing_m);
+    const double bearing_deg = 90.0 - deg_from_rad(plan_.frame.yaw_rad);
+    set("lane_bearing_deg", std::fmod(bearing_deg + 360.0, 180.0));
+    set("height_m", height_m);
+    set("footprint_width_m", needs.footprint_width_m);
+    set("footprint_length_m", needs.footprint_length_m);
+    set("gsd_mm", kMmPerM * camera.gsd_m(height_m));
+    set("side_overlap", camera.side_overlap(height_m, spacing_m));
+    set("forward_overlap", camera.forward_overlap(height_m, plan_.photo_distance_m));
+    set("photo_distance_m", plan_.photo_distance_m);
+    set("photo_interval_s", plan_.photo_distance_m / fastest_mps);
+    set("ground_speed_max_mps", fastest_mps);
+    set("ground_speed_min_mps", std::min(up_mps, down_mps));
+  }
+
+  void route() {
+    task_.start_W = start_W_.p.head<2>();
+    task_.returns = request_.returns;
+    task_.turn_radius_m = calc_turn_radius_m(request_);
+    // Rolling in and out takes about three quarters of a second (paper A's reference, section 2:
+    // phi / 2 phi' + tau), settling on the line about one.
+    constexpr double kSettle_s = 2.0;
+    task_.run_out_m = request_.run_out_m.value_or(
+        task_.turn_radius_m + kSettle_s * (request_.speed_mps + request_.wind_W.norm()));
+    OrderTask order_task;
+    for (const SurveyLane& lane : plan_.lanes) {
+      order_task.lanes.push_back(
+          {lane.across_m, lane.low_m() - task_.run_out_m, lane.high_m() + task_.run_out_m});
+    }
+    order_task.turn_radius_m = task_.turn_radius_m;
+    order_task.start = order_task.home = plan_.frame.to_lane(task_.start_W);
+    const LaneOrder order = request_.order == SurveyRequest::Order::kSnake
+                                ? order_lanes_as_snake(order_task)
+                                : order_lanes(order_task);
+    plan_.order = order.lanes;
+    route_ = make_survey_route(task_, plan_.frame, plan_.lanes, order);
+    set("turn_radius_m", task_.turn_radius_m);
+    set("run_out_m", task_.run_out_m);
+    set("wide_turns", route_.wide_turns);
+    int skipped = 0;
+    for (std::size_t i = 1; i < plan_.order.size(); ++i) {
+      skipped += std::abs(plan_.order[i] - plan_.order[i - 1]) > 1;
+    }
+    set("skipping_turns", skipped);
+    set("corners", 2.0 * static_cast<double>(plan_.lanes.size()) + 2.0 * route_.wide_turns);
+  }
+
+  Result<GroundProfile> make_profile(const std::vector<RoutePoint>& points) const {
+    std::vector<Vector2d> line;
+    for (const RoutePoint& point : points) line.push_back(point.p_W);
+    return GroundProfile::make(line, ground_);
+  }
+
+  /// Heights, and laps to reach the first lane's.
+  std::optional<std::string> climb() {
+    auto profile = make_profile(route_.points);
+    if (!profile) return profile.reason();
+    wanted_m_ = make_wanted_heights(*profile, request_.height_m, request_.max_slope);
+    const std::size_t first = route_.first_lane_point;
+    const auto distance_to = [](const GroundProfile& line, std::size_t point) {
+      return line.samples()[line.at_point(point)].distance_m;
+    };
+    const double there_m = wanted_m_[profile->at_point(first)];
+    const double needed_m = std::abs(there_m - start_W_.p.z()) / request_.max_slope;
+    const bool has_room = needed_m <= distance_to(*profile, first);
+    Climb best;
+    if (has_room) {
+      best = try_climb(route_, std::move(profile).value());
+    } else {
+      // A little more than needed: on the way to the first lane the terrain has its say, too.
+      constexpr double kMore = 1.01, kMore_m = 5.0;
+      const double direct_m = distance_to(*profile, 1);
+      const double way_m = kMore * needed_m + kMore_m - (distance_to(*profile, first) - direct_m);
+      for (const bool to_left : {true, false}) {
+        SurveyRoute route = route_;
+        std::vector<RoutePoint> laps;
+        for (const Vector2d& p :
+             make_climb_laps(task_.start_W, yaw_from_quaternion(start_W_.q), route.points[1].p_W,
+                             way_m, task_.turn_radius_m, to_left)) {
+          laps.push_back({p, PathKind::kTransit, -1});
+        }
+        route.points.insert(route.points.begin() + 1, laps.begin(), laps.end());
+        route.first_lane_point += laps.size();
+        auto longer = make_profile(route.points);
+        if (!longer) return longer.reason();
+        Climb climb = try_climb(std::move(route), std::move(longer).value());
+        if (climb.clearance_m > best.clearance_m) best = std::move(climb);
+      }
+    }
+    constexpr double kLaunched_m = 30.0;  // nearer to the start the launch has its own way
+    if (best.clearance_m <= 0.0 && best.where_m > kLaunched_m) {
+      return fmt::format(
+          "the climb from ({:.1f}, {:.1f}) at {:.0f} % meets the ground at ({:.1f}, {:.1f}), "
+          "{:.0f} m "
+          "along: start with another heading, from higher ground or with a larger max_slope",
+          task_.start_W.x(), task_.start_W.y(), 100.0 * request_.max_slope, best.meets_W.x(),
+          best.meets_W.y(), best.where_m);
+    }
+    if (!(best.length_m <= distance_to(*best.profile, best.route.first_lane_point + 1))) {
+      return fmt::format(
+          "the flight cannot get from {:.1f} m to the {:.1f} m of the first lane at "
+          "{:.0f} %",
+          start_W_.p.z(), there_m, 100.0 * request_.max_slope);
+    }
+    route_ = std::move(best.route);
+    profile_ = std::move(best.profile);
+    wanted_m_ = std::move(best.wanted_m);
+    climb_m_ = best.length_m;
+    set("climb_way_m", climb_m_);
+    set("climb_laps_way_m",
+        has_room ? 0.0 : distance_to(*profile_, route_.first_lane_point) - needed_way(route_));
+    set("climb_clearance_min_m", best.clearance_m);
+    return std::nullopt;
+  }
+
+  double needed_way(const SurveyRoute& route) const {
+    return (route.points[route.first_lane_point].p_W - task_.start_W).norm();
+  }
+
+  struct Climb {
+    SurveyRoute route;
+    std::optional<GroundProfile> profile;
+    std::vector<double> wanted_m;
+    double length_m = 0.0;
+    double clearance_m = -std::numeric_limits<double>::infinity();
+    double where_m = 0.0;  ///< of the least clearance
+    Vector2d meets_W = {0, 0};
+  };
+
+  Climb try_climb(SurveyRoute route, GroundProfile profile) const {
+    Climb climb;
+    climb.wanted_m = make_wanted_heights(profile, request_.height_m, request_.max_slope);
+    climb.length_m = begin_heights_at(profile, start_W_.p.z(), request_.max_slope, climb.wanted_m);
+    climb.clearance_m = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < profile.samples().size(); ++i) {
+      const GroundProfile::Sample& sample = profile.samples()[i];
+      const double clearance_m = climb.wanted_m[i] - sample.ground_m;
+      if (sample.distance_m > climb.length_m && i > 1) break;
+      if (clearance_m >= climb.clearance_m) continue;
+      climb.clearance_m = clearance_m;
+      climb.where_m = sample.distance_m;
+      climb.meets_W = sample.p_W;
+    }
+    climb.route = std::move(route);
+    climb.profile = std::move(profile);
+    return climb;
+  }
+
+  /// Waypoints, lengths and times.
+  void fly() {
+    const auto& samples = profile_->samples();
+    const std::vector<int> split =
+        split_ramps(*profile_, wanted_m_, route_.points.size(), request_.ramp_error_m);
+    std::size_t leg = 0;
+    double time_s = 0.0, slope = 0.0;
+    std::map<PathKind, double> ways_m;
+    ramp_m_.assign(samples.size(), 0.0);
+    for (std::size_t k = 0; k < split.size(); ++k) {
+      const int at = split[k];
+      while (leg + 2 < route_.points.size() && at >= profile_->at_point(leg + 1)) ++leg;
+      const Vector2d way = route_.points[leg + 1].p_W - route_.points[leg].p_W;
+      PathPoint point;
+      point.p_W << samples[at].p_W, wanted_m_[at];
+      point.yaw_rad = std::atan2(way.y(), way.x());
+      point.speed_mps = request_.speed_mps;
+      point.kind = route_.points[leg].kind;
+      point.alley = route_.points[leg].lane;
+      if (k + 1 == split.size()) point.kind = route_.points.back().kind, point.alley = -1;
+      plan_.path.points.push_back(point);
+      ramp_m_[at] = wanted_m_[at];
+      if (k + 1 == split.size()) break;
+      const int next = split[k + 1];
+      const double length_m = samples[next].distance_m - samples[at].distance_m;
+      const double rise_m = wanted_m_[next] - wanted_m_[at];
+      for (int i = at; i < next; ++i) {
+        const double share = (samples[i].distance_m - samples[at].distance_m) / length_m;
+        ramp_m_[i] = wanted_m_[at] + share * rise_m;
+      }
+      ways_m[point.kind] += length_m;
+      plan_.path.length_m += std::hypot(length_m, rise_m);
+      const auto speed_mps =
+          calc_ground_speed_mps(request_.speed_mps, request_.wind_W, way.normalized());
+      time_s += length_m / speed_mps.value_or(request_.speed_mps);
+      if (samples[at].distance_m >= climb_m_) slope = std::max(slope, std::abs(rise_m / length_m));
+    }
+    set("waypoints", static_cast<double>(split.size()));
+    set("ramp_points", static_cast<double>(split.size() - route_.points.size()));
+    set("length_m", plan_.path.length_m);
+    set("lane_way_m", ways_m[PathKind::kLeg]);
+    set("turn_way_m", ways_m[PathKind::kTurn]);
+    set("flight_time_s", time_s);
+    set("slope_max", slope);
+    measure_heights();
+  }
+
+  void measure_heights() {
+    const auto& samples = profile_->samples();
+    double error_m = 0.0, low_m = 1e9, high_m = -1e9, above_m = 0.0;
+    for (std::size_t leg = 0; leg + 1 < route_.points.size(); ++leg) {
+      for (int i = profile_->at_point(leg); i <= profile_->at_point(leg + 1); ++i) {
+        if (samples[i].distance_m < climb_m_) continue;
+        const double height_m = ramp_m_[i] - samples[i].ground_m;
+        error_m = std::max(error_m, std::abs(ramp_m_[i] - wanted_m_[i]));
+        above_m = std::max(above_m, wanted_m_[i] - samples[i].ground_m - request_.height_m);
+        if (route_.points[leg].kind != PathKind::kLeg) continue;
+        low_m = std::min(low_m, height_m);
+        high_m = std::max(high_m, height_m);
+      }
+    }
+    const SurveyCamera& camera = request_.camera;
+    set("ramp_error_m", error_m);
+    set("steep_terrain_extra_m", above_m);
+    set("height_above_ground_min_m", low_m);
+    set("height_above_ground_max_m", high_m);
+    set("gsd_min_mm", kMmPerM * camera.gsd_m(low_m));
+    set("gsd_max_mm", kMmPerM * camera.gsd_m(high_m));
+    set("forward_overlap_min", camera.forward_overlap(low_m, plan_.photo_distance_m));
+    set("side_overlap_min", camera.side_overlap(low_m, plan_.numbers["lane_spacing_m"]));
+    set("samples_beyond_terrain", profile_->beyond_terrain());
+  }
+
+  void take_pictures() {
+    const auto& samples = profile_->samples();
+    for (std::size_t leg = 0; leg + 1 < route_.points.size(); ++leg) {
+      if (route_.points[leg].kind != PathKind::kLeg) continue;
+      const Vector2d from = route_.points[leg].p_W, way = route_.points[leg + 1].p_W - from;
+      const int count = static_cast<int>(std::lround(way.norm() / plan_.photo_distance_m));
+      int i = profile_->at_point(leg);
+      const double begin_m = samples[i].distance_m;
+      for (int k = 0; k <= count; ++k) {
+        const double at_m = begin_m + k * plan_.photo_distance_m;
+        while (i + 1 < profile_->at_point(leg + 1) && samples[i + 1].distance_m < at_m) ++i;
+        const double share = std::clamp(
+            (at_m - samples[i].distance_m) / (samples[i + 1].distance_m - samples[i].distance_m),
+            0.0, 1.0);
+        const auto mix = [&](double a, double b) { return a + share * (b - a); };
+        SurveyShot shot;
+        shot.p_W << from + k * plan_.photo_distance_m * way.normalized(),
+            mix(ramp_m_[i], ramp_m_[i + 1]);
+        shot.yaw_rad = std::atan2(way.y(), way.x());
+        shot.height_m = shot.p_W.z() - mix(samples[i].ground_m, samples[i + 1].ground_m);
+        shot.lane = route_.points[leg].lane;
+        plan_.shots.push_back(shot);
+      }
+    }
+    set("shots", static_cast<double>(plan_.shots.size()));
+  }
+
+  const SurveyRequest& request_;
+  const Pose start_W_;
+  const GroundHeight& ground_;
+  SurveyPlan plan_;
+  RouteTask task_;
+  SurveyRoute route_;
+  std::optional<GroundProfile> profile_;
+  std::vector<double> wanted_m_, ramp_m_;  // at the profile's samples
+  double climb_m_ = 0.0;
+};
+
+}  // namespace
+
+Result<SurveyPlan> plan_survey(const SurveyRequest& request, const Pose& start_W,
+                               const GroundHeight& ground) {
+  return SurveyPlanner(request, start_W, ground).plan();
+}
+
+}  // namespace vinerow

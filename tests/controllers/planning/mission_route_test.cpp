@@ -1,0 +1,240 @@
+#include "controllers/planning/mission_route.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "controllers/planning/survey_mission.h"
+#include "engine/core/error.h"
+#include "engine/io/geo.h"
+#include "engine/io/qgc_plan.h"
+#include "engine/io/qgc_wpl.h"
+#include "engine/math/angles.h"
+#include "tests/controllers/support/mission.h"
+#include "tests/support/data.h"
+
+namespace vinerow::test {
+namespace {
+
+using Eigen::Vector2d;
+
+VehicleDescription plane() {
+  VehicleDescription vehicle;
+  vehicle.type = "fixed_wing";
+  vehicle.numbers = {
+      {"wing_span_m", 0.9}, {"min_turning_radius_m", 21.0}, {"stall_speed_mps", 8.4}};
+  return vehicle;
+}
+
+VehicleDescription quadrotor() {
+  VehicleDescription vehicle;
+  vehicle.type = "quadrotor";
+  vehicle.numbers = {{"rotor_count", 4.0}};
+  vehicle.height_above_ground_m = 0.2;
+  return vehicle;
+}
+
+struct MissionFlight {
+  std::string file;
+  GeoOrigin origin{rad_from_deg(47.3977507), rad_from_deg(8.5456075), 488.0};
+  VehicleDescription vehicle = plane();
+  Pose start{Eigen::Quaterniond::Identity(), {0, 0, 0.0}};
+  Values values = {};
+};
+
+std::unique_ptr<Planner> make(const MissionFlight& setup) {
+  PlannerContext context;
+  context.part = "plane.planner";
+  context.vehicle_description = &setup.vehicle;
+  context.origin = setup.origin;
+  Values values = setup.values;
+  values.emplace_back("file", setup.file);
+  const PartSpec spec = mission_route_spec();
+  return make_mission_route(make_parameters(spec, values), context);
+}
+
+PlannedPath plan(const MissionFlight& setup) {
+  const auto planner = make(setup);
+  auto path = planner->plan(setup.start);
+  EXPECT_TRUE(path.ok()) << (path ? "" : path.reason());
+  return path ? *path : PlannedPath{};
+}
+
+std::string refusal(const MissionFlight& setup) {
+  try {
+    const auto path = make(setup)->plan(setup.start);
+    return path ? "none" : path.reason();
+  } catch (const ConfigError& e) {
+    return e.what();
+  }
+}
+
+std::string kinds_of(const PlannedPath& path) {
+  std::string kinds;
+  for (const PathPoint& point : path.points) kinds += "LTtVR"[static_cast<int>(point.kind)];
+  return kinds;
+}
+
+std::string write_items(const std::vector<io::MissionItem>& items) {
+  io::MissionFile mission;
+  mission.planned_home = io::Geodetic{rad_from_deg(47.3977507), rad_from_deg(8.5456075), 488.0};
+  mission.items = items;
+  const auto file = std::filesystem::temp_directory_path() /
+                    (std::string("vinerow_route_") +
+                     testing::UnitTest::GetInstance()->current_test_info()->name() + ".plan");
+  io::write_qgc_plan(mission, file);
+  return file;
+}
+
+io::MissionItem at(int command, double east_m, double north_m, double altitude_m, int frame = 3) {
+  const io::LocalFrame frame_W(MissionFlight().origin);
+  const io::Geodetic g = frame_W.to_geodetic({east_m, north_m, 0.0});
+  return {command,
+          frame,
+          {0, 0, 0, std::nan(""), deg_from_rad(g.latitude_rad), deg_from_rad(g.longitude_rad),
+           altitude_m}};
+}
+
+const std::string kSamples = "mavsdk/cpp/src/mavsdk/plugins/mission_raw/test_plans/";
+
+TEST(MissionRoute, FliesTheSampleOfQGroundControl) {
+  VINEROW_OUTSIDE_DATA(file, kSamples + "qgroundcontrol_sample.plan");
+  MissionFlight setup{file};
+  setup.start.p = {-300, 0, 0};  // far enough to climb 50 m at 12 % in one lap or so
+  const PlannedPath path = plan(setup);
+  const auto& end = path.points;
+  // The last places are the three waypoints and home again.
+  ASSERT_GE(end.size(), 6u);
+  const std::size_t n = end.size();
+  EXPECT_NEAR((end[n - 1].p_W - Eigen::Vector3d(-300, 0, 50)).norm(), 0.0, 1e-6);
+  // 47.39827842 north of 47.3977507 by 58.7 m (111.19 km a degree), the take-off at the origin.
+  EXPECT_NEAR(end[n - 2].p_W.y(), 58.67, 0.1);
+  EXPECT_NEAR(end[n - 2].p_W.x(), 0.05, 0.1);
+  EXPECT_NEAR(end[n - 4].p_W.x(), 75.85, 0.1);
+  for (std::size_t i = n - 5; i < n; ++i) EXPECT_NEAR(end[i].p_W.z(), 50.0, 1e-6);
+  for (std::size_t i = 1; i < n; ++i) {
+    const Eigen::Vector3d way = end[i].p_W - end[i - 1].p_W;
+    EXPECT_LE(way.z(), 0.12 * way.head<2>().norm() + 1e-6);
+    EXPECT_EQ(end[i].speed_mps, 15.0);  // the plan's cruise speed
+  }
+}
+
+TEST(MissionRoute, FliesTheSurveyOfQGroundControl) {
+  VINEROW_OUTSIDE_DATA(file, kSamples + "qgroundcontrol_sample_with_survey.plan");
+  MissionFlight setup{file};
+  setup.origin.latitude_rad = rad_from_deg(47.3977);
+  setup.origin.longitude_rad = rad_from_deg(8.5462);
+  setup.start.p = {600, 0, 0};
+  const PlannedPath path = plan(setup);
+  // To the survey, two transects with the camera on in between, and no way home.
+  EXPECT_EQ(kinds_of(path), "tLLLLLLLL");
+  EXPECT_EQ(path.points.back().alley, path.points[6].alley);
+  EXPECT_NE(path.points[1].alley, path.points[6].alley);
+  EXPECT_EQ(make(setup)->plan(setup.start).value().points.size(), 9u);
+}
+
+TEST(MissionRoute, FliesTheTextOfMissionPlannerAndKeepsFences) {
+  VINEROW_OUTSIDE_DATA(text, kSamples + "mission_planner_sample.txt");
+  MissionFlight setup{text};
+  setup.origin.altitude_m = 5.0;  // frame 5: above mean sea level
+  setup.vehicle = quadrotor();
+  const PlannedPath path = plan(setup);
+  EXPECT_EQ(kinds_of(path), "VtLLRVV");
+  EXPECT_NEAR(path.points[1].p_W.z(), 10.0, 1e-3);
+  EXPECT_NEAR(path.points.back().p_W.z(), 0.0, 1e-9);  // down to where it stood
+
+  VINEROW_OUTSIDE_DATA(fences, "px4_missions/multicopter_mission_geofence_avoid.plan");
+  setup.file = fences;
+  setup.origin = MissionFlight().origin;
+  EXPECT_NE(refusal(setup).find("breaks exclusion polygon 1 at ("), std::string::npos)
+      << refusal(setup);
+  setup.values = {{"fences", std::string("ignore")}};
+  EXPECT_EQ(refusal(setup), "none");
+}
+
+TEST(MissionRoute, RefusesWhatHasNothingToFly) {
+  VINEROW_OUTSIDE_DATA(file, kSamples + "qgroundcontrol_sample_with_digicam_control.plan");
+  EXPECT_NE(refusal({file}).find("has 1 items, none of them a waypoint: there is nothing to fly"),
+            std::string::npos);
+}
+
+TEST(MissionRoute, FramesTellWhatHeightsAreMeasuredFrom) {
+  MissionFlight setup{write_items({at(16, 900, 0, 50, 3), at(16, 1000, 0, 560, 0),
+                                   at(16, 1100, 0, 40, 10), at(16, 1100, 100, 70, 6)})};
+  setup.start.p = {0, 0, 3.0};
+  const PlannedPath path = plan(setup);  // flat ground 3 m high
+  ASSERT_EQ(path.points.size(), 5u);
+  EXPECT_NEAR(path.points[1].p_W.z(), 53.0, 1e-6);
+  EXPECT_NEAR(path.points[2].p_W.z(), 560.0 - 488.0 - 0.08,
+              0.01);  // the Earth falls away: d^2 / 2R
+  EXPECT_NEAR(path.points[3].p_W.z(), 43.0, 1e-6);
+  EXPECT_NEAR(path.points[4].p_W.z(), 73.0, 1e-6);
+}
+
+TEST(MissionRoute, RefusesByNumberAndName) {
+  io::MissionItem jump{177, 2, {1, 5, 0, 0, 0, 0, 0}};
+  EXPECT_NE(refusal({write_items({at(16, 900, 0, 50), jump})})
+                .find("item 2 of '/tmp/vinerow_route_RefusesByNumberAndName.plan', 177 DO_JUMP, "
+                      "cannot be flown"),
+            std::string::npos);
+  MissionFlight far{write_items({at(16, 900, 0, 50)})};
+  far.origin.latitude_rad = rad_from_deg(44.7);
+  EXPECT_NE(refusal(far).find("km from the world's origin (44.700000, 8.545607), must be within 20 "
+                              "km; an origin with latitude_deg = 47.39"),
+            std::string::npos)
+      << refusal(far);
+  EXPECT_NE(refusal(far).find("lies 299."), std::string::npos) << refusal(far);  // 2.698 deg
+  EXPECT_NE(refusal({write_items({at(16, 900, 0, 50), at(16, 1000, 0, -3)})})
+                .find("the way from item 1 to item 2 goes"),
+            std::string::npos);
+  MissionFlight rover{write_items({at(16, 900, 0, 50)})};
+  rover.vehicle = VehicleDescription{};
+  rover.vehicle.type = "rover";
+  EXPECT_NE(refusal(rover).find("vehicle type 'rover' does not fly"), std::string::npos);
+}
+
+TEST(MissionRoute, SpeedsCountFromWhereTheyAreSaid) {
+  const io::MissionItem slow{178, 2, {0, 11.0, -1, 0, 0, 0, 0}},
+      climb{178, 2, {2, 3.0, -1, 0, 0, 0, 0}};
+  const PlannedPath path = plan(
+      {write_items({at(16, 900, 0, 50), slow, climb, at(16, 1000, 0, 50), at(16, 1100, 0, 50)})});
+  EXPECT_EQ(path.points[0].speed_mps, 15.0);
+  EXPECT_EQ(path.points[1].speed_mps, 11.0);
+  EXPECT_EQ(path.points[2].speed_mps, 11.0);
+}
+
+/// A survey written and read again is the same flight.
+TEST(MissionRoute, SurveysComeBackFromBothFormats) {
+  SurveyRequest request;
+  request.polygon_W = {{0, 0}, {260, 20}, {240, 300}, {20, 280}};
+  const GroundHeight ground = [](const Vector2d&) { return std::optional<double>(-0.2); };
+  const MissionFlight setup;
+  const Pose start{Eigen::Quaterniond::Identity(), {-400, -100, -0.2}};
+  const SurveyPlan survey = plan_survey(request, start, ground).value();
+  io::MissionFile mission = make_survey_mission(survey, setup.origin, -0.2, true);
+  for (const bool text : {false, true}) {
+    const auto file = std::filesystem::temp_directory_path() /
+                      (text ? "vinerow_survey.waypoints" : "vinerow_survey.plan");
+    if (text) {
+      io::write_qgc_wpl(mission, file);
+    } else {
+      io::write_qgc_plan(mission, file);
+    }
+    MissionFlight again{file};
+    again.start = start;
+    again.values = {{"climb_slope", 10.0}};  // the survey's own laps are there already
+    const PlannedPath path = plan(again);
+    ASSERT_EQ(path.points.size(), survey.path.points.size());
+    EXPECT_EQ(kinds_of(path), kinds_of(survey.path));
+    for (std::size_t i = 0; i < path.points.size(); ++i) {
+      EXPECT_NEAR((path.points[i].p_W - survey.path.points[i].p_W).norm(), 0.0, text ? 1e-2 : 1e-3)
+          << i;
+      EXPECT_EQ(path.points[i].speed_mps, 12.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vinerow::test

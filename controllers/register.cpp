@@ -3,6 +3,8 @@
 #include "controllers/dwa/dwa.h"
 #include "controllers/estimation/gps_pose.h"
 #include "controllers/estimation/odometry_filter.h"
+#include "controllers/fixed_wing_lqr/fixed_wing_lqr.h"
+#include "controllers/fixed_wing_pid/fixed_wing_pid.h"
 #include "controllers/four_wheel_steering/four_wheel_steering.h"
 #include "controllers/mpc_nominal/mpc_nominal.h"
 #include "controllers/path_follower/path_follower.h"
@@ -39,6 +41,8 @@ void register_controllers(Registry& registry) {
   registry.add_controller(pure_pursuit_spec(), make_pure_pursuit);
   registry.add_controller(path_follower_spec(), make_path_follower);
   registry.add_controller(four_wheel_steering_spec(), make_four_wheel_steering);
+  registry.add_controller(fixed_wing_lqr_spec(), make_fixed_wing_lqr);
+  registry.add_controller(fixed_wing_pid_spec(), make_fixed_wing_pid);
   registry.add_controller(quadrotor_lqr_spec(), make_quadrotor_lqr);
   registry.add_controller(quadrotor_pid_spec(), make_quadrotor_pid);
   registry.add_controller(quadrotor_mpc_spec(), make_quadrotor_mpc);

@@ -54,7 +54,12 @@ std::string say_elevons(const Aircraft& aircraft, const AircraftControls& contro
 std::string say_lift(const Aircraft& aircraft, TrimSolver& solver, const TrimRequest& request) {
   const double needed_N = aircraft.model->mass_kg() * aircraft.gravity_mps2 *
                           std::cos(request.climb_angle_rad) / std::cos(request.bank_rad);
-  const TrimSolver::Lift most = solver.largest_lift(request.airspeed_mps);
+  const TrimSolver::Lift most = solver.largest_lift(request.airspeed_mps, request.climb_angle_rad);
+  if (most.lift_N <= 0.0) {
+    return fmt::format("the elevons, {:.1f} to {:.1f} deg, balance it at no incidence",
+                       deg_from_rad(aircraft.elevon_min_rad()),
+                       deg_from_rad(aircraft.elevon_max_rad()));
+  }
   std::string said = fmt::format(
       "it takes {:.1f} N of lift and the wings give at most {:.1f} N at {:.1f} deg of "
       "incidence",

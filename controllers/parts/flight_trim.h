@@ -11,7 +11,8 @@ namespace vinerow {
 struct TrimRequest {
   double airspeed_mps = 12.0;
   double climb_angle_rad = 0.0;  ///< of the path through the air
-  double bank_rad = 0.0;         ///< phi, positive with the right wing down
+  /// Of the coordinated turn, right wing down > 0; it sets the turn rate, g tan(bank) / airspeed.
+  double bank_rad = 0.0;
 };
 
 /// All in the signs of aviation, see aircraft.h.
@@ -29,9 +30,9 @@ struct Trim {
 };
 
 /// Newton's method with central differences on the equations of six degrees of freedom: no
-/// acceleration, no angular acceleration, the climb angle and the bank as asked. Side slip and turn
-/// rate follow: without a rudder a turn slips a little, so its rate is g tan(bank) / V within about
-/// 1 % only.
+/// acceleration, no angular acceleration, climb angle and turn rate as asked. Side slip and roll
+/// follow: without a rudder a turn slips a little, and roll differs from the coordinated turn's by
+/// up to about 2 deg.
 /// @returns a failure in one sentence where there is none: stall, throttle or elevons out of range,
 /// with the numbers and the speeds that would do: "no steady flight at 7.00 m/s, climb 0.0 deg,
 /// bank 0.0 deg: it takes 11.8 N of lift and the wings give at most 8.3 N at 17.3 deg of incidence;

@@ -9,18 +9,20 @@
 namespace vinerow {
 namespace {
 
-enum Unknown { kAlpha = 0, kBeta, kPitch, kTurnRate, kElevator, kAileron, kFree };
+enum Unknown { kAlpha = 0, kBeta, kRoll, kPitch, kElevator, kAileron, kFree };
 
 constexpr int kMaxIterations = 60;
 /// Steps of the central differences: the terms here are smooth over about 0.1.
 constexpr double kStep = 1e-5;
 /// What counts as steady, m/s2 and rad/s2. Rounding leaves about 1e-13.
 constexpr double kSteady = 1e-9;
-/// No unknown (rad, rad/s, 1) moves further in one iteration.
+constexpr double kExact = 1e-12;
+/// No unknown (rad, 1) moves further in one iteration.
 constexpr double kLongestStep = 0.3;
 
 constexpr double kSearchAlpha_rad = rad_from_deg(45.0);
 constexpr double kSearchStep_rad = rad_from_deg(0.25);
+constexpr int kBalanceRounds = 3;
 
 AirState state_of(const Trim& trim) {
   AirState x = AirState::Zero();
@@ -40,6 +42,26 @@ double lift_of(const AirLoad& load, double alpha_rad) {
   return load.force_B.x() * std::sin(alpha_rad) - load.force_B.z() * std::cos(alpha_rad);
 }
 
+/// Sets `value` between `low` and `high` so that the function of it is zero.
+/// @returns false where both ends have the same sign; then `value` is the end nearer to zero
+template <class Function>
+bool bisect(double& value, double low, double high, Function&& function) {
+  const auto at = [&](double x) {
+    value = x;
+    return function();
+  };
+  const double at_low = at(low), at_high = at(high);
+  if (at_low * at_high > 0.0) {
+    value = std::abs(at_low) < std::abs(at_high) ? low : high;
+    return false;
+  }
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (low + high);
+    (at(middle) * at_low > 0.0 ? low : high) = middle;
+  }
+  return true;
+}
+
 }  // namespace
 
 Trim TrimSolver::expand(const Problem& problem, const Vector7& y) const {
@@ -50,16 +72,17 @@ Trim TrimSolver::expand(const Problem& problem, const Vector7& y) const {
   trim.controls = {climb_is_free ? *problem.throttle : y(kFree), y(kElevator), y(kAileron)};
   trim.alpha_rad = y(kAlpha);
   trim.beta_rad = y(kBeta);
-  trim.roll_rad = problem.request.bank_rad;
+  trim.roll_rad = y(kRoll);
   trim.pitch_rad = y(kPitch);
-  trim.turn_rate_radps = y(kTurnRate);
   const double speed = problem.request.airspeed_mps;
+  const double turn = aircraft_.gravity_mps2 * std::tan(problem.request.bank_rad) / speed;
+  trim.turn_rate_radps = turn;
   trim.u_mps = speed * std::cos(y(kAlpha)) * std::cos(y(kBeta));
   trim.v_mps = speed * std::sin(y(kBeta));
   trim.w_mps = speed * std::sin(y(kAlpha)) * std::cos(y(kBeta));
-  trim.p_radps = -y(kTurnRate) * std::sin(y(kPitch));
-  trim.q_radps = y(kTurnRate) * std::sin(trim.roll_rad) * std::cos(y(kPitch));
-  trim.r_radps = y(kTurnRate) * std::cos(trim.roll_rad) * std::cos(y(kPitch));
+  trim.p_radps = -turn * std::sin(y(kPitch));
+  trim.q_radps = turn * std::sin(trim.roll_rad) * std::cos(y(kPitch));
+  trim.r_radps = turn * std::cos(trim.roll_rad) * std::cos(y(kPitch));
   return trim;
 }
 
@@ -79,7 +102,7 @@ TrimSolver::Vector7 TrimSolver::search_start(const Problem& problem) {
   // there may be no slope to follow.
   const double throttle = problem.throttle.value_or(0.9 * aircraft_.throttle_max());
   y(kFree) = problem.throttle ? request.climb_angle_rad : throttle;
-  y(kTurnRate) = aircraft_.gravity_mps2 * std::tan(request.bank_rad) / request.airspeed_mps;
+  y(kRoll) = request.bank_rad;
   // The first angle of attack that carries the weight, or the one that comes next to it.
   const double wanted_N = aircraft_.model->mass_kg() * aircraft_.gravity_mps2 *
                           std::cos(request.climb_angle_rad) / std::cos(request.bank_rad);
@@ -110,13 +133,13 @@ bool TrimSolver::is_stalled(const Trim& trim) {
 std::optional<Trim> TrimSolver::solve_problem(const Problem& problem, const Trim* near) {
   Vector7 y = near ? Vector7() : search_start(problem);
   if (near) {
-    y << near->alpha_rad, near->beta_rad, near->pitch_rad, near->turn_rate_radps,
+    y << near->alpha_rad, near->beta_rad, near->roll_rad, near->pitch_rad,
         near->controls.elevator_rad, near->controls.aileron_rad,
         problem.throttle ? near->request.climb_angle_rad : near->controls.throttle;
   }
   Vector7 left = residual(problem, y);
   int iterations = 0;
-  while (iterations < kMaxIterations) {
+  while (iterations < kMaxIterations && !(left.cwiseAbs().maxCoeff() < kExact)) {
     ++iterations;
     Eigen::Matrix<double, 7, 7> slope;
     for (int i = 0; i < 7; ++i) {
@@ -161,22 +184,29 @@ std::optional<Trim> TrimSolver::solve_at_throttle(const TrimRequest& request, do
   return solve_problem(Problem{request, throttle}, near);
 }
 
-TrimSolver::Lift TrimSolver::largest_lift(double airspeed_mps) {
+TrimSolver::Lift TrimSolver::largest_lift(double airspeed_mps, double climb_angle_rad) {
+  const double weight_N =
+      aircraft_.model->mass_kg() * aircraft_.gravity_mps2 * std::sin(climb_angle_rad);
   Lift largest;
   for (double alpha = 0.0; alpha <= kSearchAlpha_rad; alpha += kSearchStep_rad) {
-    const auto load = [&](double elevator_rad) {
-      return equations_.load(velocity_at(airspeed_mps, alpha), Eigen::Vector3d::Zero(),
-                             {aircraft_.throttle_max(), elevator_rad, 0.0});
+    AircraftControls controls;
+    const auto load = [&] {
+      return equations_.load(velocity_at(airspeed_mps, alpha), Eigen::Vector3d::Zero(), controls);
     };
-    // The elevator that leaves no pitching moment, by bisection.
-    double low = aircraft_.elevon_min_rad(), high = aircraft_.elevon_max_rad();
-    const double moment_low = load(low).torque_B.y();
-    if (moment_low * load(high).torque_B.y() > 0.0) continue;
-    for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (low + high);
-      (load(middle).torque_B.y() * moment_low > 0.0 ? low : high) = middle;
+    const auto moment = [&] { return load().torque_B.y(); };
+    const auto pull = [&] {
+      const AirLoad at = load();
+      return at.force_B.x() * std::cos(alpha) + at.force_B.z() * std::sin(alpha) - weight_N;
+    };
+    // Elevator without pitching moment and throttle without acceleration, in turns.
+    bool is_balanced = true;
+    for (int i = 0; i < kBalanceRounds && is_balanced; ++i) {
+      is_balanced = bisect(controls.elevator_rad, aircraft_.elevon_min_rad(),
+                           aircraft_.elevon_max_rad(), moment);
+      bisect(controls.throttle, aircraft_.throttle_min(), aircraft_.throttle_max(), pull);
     }
-    const double lift_N = lift_of(load(low), alpha);
+    if (!is_balanced) continue;
+    const double lift_N = lift_of(load(), alpha);
     if (lift_N > largest.lift_N) largest = {lift_N, alpha};
   }
   return largest;

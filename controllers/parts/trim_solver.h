@@ -1,10 +1,10 @@
 #pragma once
 /// Newton's method for steady flight, whatever the actuators can do; flight_trim.h asks that too.
 ///
-/// Unknowns: angle of attack, side slip, pitch, turn rate, elevator, aileron, and either the
-/// throttle (climb angle given) or the climb angle (throttle given). Equations: no acceleration, no
-/// angular acceleration, and the climb angle. In a steady turn p, q, r are the turn rate's
-/// components in body axes.
+/// Unknowns: angle of attack, side slip, roll, pitch, elevator, aileron, and either the throttle
+/// (climb angle given) or the climb angle (throttle given). Equations: no acceleration, no angular
+/// acceleration, and the climb angle. In a steady turn p, q, r are the components of the turn rate,
+/// g tan(bank) / V, in body axes.
 
 #include <optional>
 
@@ -25,13 +25,13 @@ class TrimSolver {
   std::optional<Trim> solve_at_throttle(const TrimRequest& request, double throttle,
                                         const Trim* near = nullptr);
 
-  /// Largest lift (across the path, with the thrust's share) in straight flight, as far as the
-  /// elevons hold the attitude.
+  /// Largest lift (across the path, with the thrust's share) in straight flight at constant speed,
+  /// as far as elevons and throttle hold that; 0 where the elevons balance it nowhere.
   struct Lift {
     double lift_N = 0.0;
     double alpha_rad = 0.0;
   };
-  Lift largest_lift(double airspeed_mps);
+  Lift largest_lift(double airspeed_mps, double climb_angle_rad);
 
  private:
   using Vector7 = Eigen::Matrix<double, 7, 1>;

@@ -14,7 +14,7 @@ namespace vinerow {
 namespace {
 
 /// Spacing of the table, at most. Between its points the interpolated trim leaves less than
-/// 0.02 m/s2 (trim_table_test.cpp).
+/// 0.005 m/s2 or rad/s2 (trim_table_test.cpp).
 constexpr double kClimbStep_rad = rad_from_deg(2.0);
 constexpr double kBankStep_rad = rad_from_deg(2.5);
 constexpr double kLeastBankStep_rad = rad_from_deg(0.01);
@@ -60,11 +60,16 @@ class TableMaker {
     return ClimbRange{*least, *most};
   }
 
-  TrimPoint at(const ClimbRange& range, double climb_rad, double bank_rad) {
+  /// @param neighbour  the trim found last, for the start; set to the one found
+  TrimPoint at(const ClimbRange& range, double climb_rad, double bank_rad,
+               std::optional<Trim>& neighbour) {
     if (climb_rad <= range.least.request.climb_angle_rad) return point_of(range.least);
     if (climb_rad >= range.most.request.climb_angle_rad) return point_of(range.most);
-    const std::optional<Trim> trim =
-        in_range(solver_.solve({airspeed_mps_, climb_rad, bank_rad}, nullptr));
+    const TrimRequest request{airspeed_mps_, climb_rad, bank_rad};
+    std::optional<Trim> trim;
+    if (neighbour) trim = in_range(solver_.solve(request, &*neighbour));
+    if (!trim) trim = in_range(solver_.solve(request));
+    neighbour = trim;
     // A propeller that only windmills below some throttle leaves a last stretch to the glide.
     return point_of(trim ? *trim : range.least);
   }
@@ -119,9 +124,10 @@ TrimTable::TrimTable(const Aircraft& aircraft, double airspeed_mps, double max_b
   for (int j = -half_banks_; j <= half_banks_; ++j) {
     const double bank_rad = bank_max_rad_ * j / half_banks_;
     const std::optional<ClimbRange> range = maker.climbs_at(bank_rad);
+    std::optional<Trim> neighbour;
     for (int i = 0; i <= climbs_; ++i) {
       const double climb_rad = climb_min_rad_ + (climb_max_rad_ - climb_min_rad_) * i / climbs_;
-      points_.push_back(maker.at(range.value_or(*wings_level), climb_rad, bank_rad));
+      points_.push_back(maker.at(range.value_or(*wings_level), climb_rad, bank_rad, neighbour));
     }
   }
 }

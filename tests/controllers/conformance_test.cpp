@@ -200,17 +200,20 @@ INSTANTIATE_TEST_SUITE_P(Controllers, EveryController,
                          testing::ValuesIn(controllers_that_read("plan")),
                          [](const auto& test) { return test.param; });
 
-TEST(Controllers, AreEachRunByOneOfTheTwoSuites) {
+TEST(Controllers, AreEachRunByOneOfTheThreeSuites) {
   const std::vector<std::string> ground = controllers_that_read("plan"),
-                                 flying = controllers_that_read("reference");
+                                 rotors = controllers_that_write("wrench"),
+                                 wings = controllers_that_write("deviation");
   for (const std::string& name : parts().names(PartKind::kController)) {
     EXPECT_EQ(std::count(ground.begin(), ground.end(), name) +
-                  std::count(flying.begin(), flying.end(), name),
+                  std::count(rotors.begin(), rotors.end(), name) +
+                  std::count(wings.begin(), wings.end(), name),
               1)
-        << name << " must read either \"plan\" or \"reference\"";
+        << name << " must read \"plan\" or write either \"wrench\" or \"deviation\"";
   }
   EXPECT_GE(ground.size(), 3u);
-  EXPECT_GE(flying.size(), 2u);
+  EXPECT_GE(rotors.size(), 2u);
+  EXPECT_GE(wings.size(), 2u);
 }
 
 class EveryEstimator : public testing::TestWithParam<std::string> {};

@@ -1,5 +1,5 @@
-// How well every registered controller of a flying vehicle flies, that is one that reads
-// "reference". What else it keeps: flight_contract_test.cpp. Ground vehicles: conformance_test.cpp.
+// How well every registered controller of a rotorcraft flies, that is one that writes "wrench".
+// What else it keeps: flight_contract_test.cpp. Ground vehicles: conformance_test.cpp.
 
 #include <gtest/gtest.h>
 
@@ -221,7 +221,7 @@ TEST_P(EveryFlightController, DoesNotCareForDirections) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, EveryFlightController,
-                         testing::ValuesIn(controllers_that_read("reference")),
+                         testing::ValuesIn(controllers_that_write("wrench")),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

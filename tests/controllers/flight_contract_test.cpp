@@ -1,4 +1,4 @@
-// What every registered controller of a flying vehicle keeps beside flying well
+// What every registered controller of a rotorcraft keeps beside flying well
 // (flight_conformance_test.cpp): phases, same bits, no heap, sentences.
 
 #include <gtest/gtest.h>
@@ -176,7 +176,7 @@ TEST_P(FlightContract, DocumentsItsParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, FlightContract,
-                         testing::ValuesIn(controllers_that_read("reference")),
+                         testing::ValuesIn(controllers_that_write("wrench")),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

@@ -52,6 +52,15 @@ std::vector<std::string> controllers_that_read(const std::string& signal) {
   return names;
 }
 
+std::vector<std::string> controllers_that_write(const std::string& signal) {
+  std::vector<std::string> names;
+  for (const std::string& name : parts().names(PartKind::kController)) {
+    const std::vector<std::string>& writes = parts().spec(PartKind::kController, name).writes;
+    if (std::find(writes.begin(), writes.end(), signal) != writes.end()) names.push_back(name);
+  }
+  return names;
+}
+
 ParameterSet make_parameters(const PartSpec& spec, const Values& values) {
   ParameterSet parameters(spec.parameters, spec.name);
   for (const auto& [name, value] : values) parameters.set(name, value);

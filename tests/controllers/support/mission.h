@@ -63,6 +63,9 @@ const Registry& parts();
 /// Names of the registered controllers that say that they read this signal: those of ground
 /// vehicles follow a "plan", those of flying ones a "reference".
 std::vector<std::string> controllers_that_read(const std::string& signal);
+/// The same of a signal that they write: those of rotorcraft a "wrench", those of vehicles on wings
+/// their "deviation" from steady flight.
+std::vector<std::string> controllers_that_write(const std::string& signal);
 
 ParameterSet make_parameters(const PartSpec& spec, const Values& values);
 std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& map);

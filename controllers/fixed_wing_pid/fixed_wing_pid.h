@@ -1,0 +1,18 @@
+#pragma once
+/// Controller `fixed_wing_pid`: the usual autopilot, one loop inside the other. See
+/// fixed_wing_pid_law.h.
+
+#include <memory>
+
+#include "engine/api/part.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+PartSpec fixed_wing_pid_spec();
+
+/// @throws ConfigError if the vehicle has no wings or no trim
+std::unique_ptr<Controller> make_fixed_wing_pid(const ParameterSet& parameters,
+                                                const ControllerContext& context);
+
+}  // namespace vinerow

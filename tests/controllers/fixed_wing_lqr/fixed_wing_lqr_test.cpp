@@ -1,0 +1,92 @@
+// The LQR beside what every controller of vehicles on wings keeps (aircraft_conformance_test.cpp).
+
+#include <gtest/gtest.h>
+
+#include "controllers/parts/aircraft_weights.h"
+#include "engine/math/angles.h"
+#include "tests/controllers/parts/random_sets.h"
+#include "tests/controllers/support/aircraft_loop.h"
+
+namespace vinerow::test {
+namespace {
+
+AircraftLoopSetup make_setup() {
+  AircraftLoopSetup setup;
+  setup.controller.type = "fixed_wing_lqr";
+  setup.numbers = make_reference_wing();
+  return setup;
+}
+
+TEST(FixedWingLqr, AppliesTheReferencesGains) {
+  // u = K x with K of the reference of paper A, section 1, on what it says its deviations are.
+  Eigen::MatrixXd lon(2, 5), lat(1, 5);
+  lon << -.1192, -.0085, .0047, -.0048, -.0243, -.0101, -.0418, .0597, .7366, .0246;
+  lat << -.0290, -.0429, -.1258, -.5042, -.4278;
+  AircraftLoopSetup setup = make_setup();
+  setup.higher_m = -1.0;
+  setup.turned_rad = 0.1;
+  setup.roll_rad = -0.05;
+  AircraftLoop loop(setup);
+  int ticks = 0;
+  loop.run_until(3.0, [&](const AircraftLoop& now) {
+    Eigen::VectorXd x(5), y(5);
+    x << now.deviation("u_mps"), now.deviation("w_mps"), now.deviation("q_radps"),
+        now.deviation("theta_rad"), now.deviation("h_m");
+    y << now.deviation("v_mps"), now.deviation("p_radps"), now.deviation("r_radps"),
+        now.deviation("phi_rad"), now.deviation("psi_rad");
+    const Eigen::VectorXd u = lon * x, v = lat * y;
+    EXPECT_NEAR(now.deviation("throttle"), u(0), 5e-4);
+    EXPECT_NEAR(now.deviation("elevator_rad"), u(1), 5e-4);
+    EXPECT_NEAR(now.deviation("aileron_rad"), v(0), 5e-4);
+    ++ticks;
+  });
+  EXPECT_EQ(ticks, 60);
+}
+
+TEST(FixedWingLqr, WeightsAreHeard) {
+  const auto height_after = [](double height_weight_m) {
+    AircraftLoopSetup setup = make_setup();
+    setup.higher_m = 2.0;
+    const PartSpec& spec = parts().spec(PartKind::kController, "fixed_wing_lqr");
+    ParameterSet weights = ParameterSet(spec.parameters, "").make_group("weights");
+    weights.set("h_m", height_weight_m);
+    setup.controller.values = {{"weights", std::vector<ParameterSet>{weights}}};
+    AircraftLoop loop(setup);
+    loop.run_until(1.5);
+    return loop.deviation("h_m");
+  };
+  EXPECT_LT(height_after(0.5), height_after(2.0) - 0.2);
+  EXPECT_LT(height_after(2.0), height_after(8.0) - 0.2);
+}
+
+TEST(FixedWingLqr, StaysWithItsModelForSmallOffsets) {
+  // Without the lags that the model leaves out, the nonlinear aircraft goes as x+ = (A + B K) x.
+  AircraftLoopSetup setup = make_setup();
+  setup.told = setup.numbers;
+  setup.numbers.throttle_lag_s = setup.numbers.elevon_lag_s = 6e-3;
+  setup.higher_m = 0.02;
+  setup.faster_mps = 0.01;
+  setup.turned_rad = 0.002;
+  setup.roll_rad = 0.001;
+  AircraftLoop loop(setup);
+  const Aircraft aircraft = read_aircraft(describe(setup.numbers), 9.81, "test");
+  const Trim trim = *find_trim(aircraft, {12.0, 0.0, 0.0});
+  const AircraftLaws laws = make_aircraft_laws(aircraft, trim, 0.05, {}, "test");
+  Eigen::VectorXd x(5), y(5);
+  int tick = 0;
+  loop.run_until(2.0, [&](const AircraftLoop& now) {
+    Eigen::VectorXd x_is(5), y_is(5);
+    x_is << now.deviation("u_mps"), now.deviation("w_mps"), now.deviation("q_radps"),
+        now.deviation("theta_rad"), now.deviation("h_m");
+    y_is << now.deviation("v_mps"), now.deviation("p_radps"), now.deviation("r_radps"),
+        now.deviation("phi_rad"), now.deviation("psi_rad");
+    if (tick++ == 0) x = x_is, y = y_is;
+    EXPECT_LT((x - x_is).cwiseAbs().maxCoeff(), 2e-3) << tick;
+    EXPECT_LT((y - y_is).cwiseAbs().maxCoeff(), 2e-3) << tick;
+    x = (laws.lon.model.A + laws.lon.model.B * laws.lon.K) * x;
+    y = (laws.lat.model.A + laws.lat.model.B * laws.lat.K) * y;
+  });
+}
+
+}  // namespace
+}  // namespace vinerow::test

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <regex>
+
 #include "engine/core/error.h"
 #include "tests/vehicles/fixed_wing/rig.h"
 
@@ -199,6 +202,23 @@ TEST(FixedWingParameters, DefaultsAreThoseOfTheStruct) {
   EXPECT_NEAR(read.wing.stall_angle_rad, own.wing.stall_angle_rad, 1e-15);
   EXPECT_NEAR(read.launch.incidence_rad, own.launch.incidence_rad, 1e-15);
   EXPECT_EQ(read.battery.capacity_Wh, own.battery.capacity_Wh);
+}
+
+/// Every number of the shipped file is a parameter, in its range, and the default.
+TEST(FixedWingParameters, DefaultsAreThoseOfTheFile) {
+  std::ifstream file(std::string(VINEROW_SOURCE_DIR) + "/assets/vehicles/mh900_like.yaml");
+  ParameterSet set(fixed_wing_spec().parameters, "fixed_wing");
+  const ParameterSet defaults = set;
+  const std::regex pattern(R"(^(\w+): \{value: ([-0-9.e]+), source: ".+"\}$)");
+  int numbers = 0;
+  for (std::string line; std::getline(file, line);) {
+    std::smatch found;
+    if (!std::regex_match(line, found, pattern)) continue;
+    ++numbers;
+    set.set(found[1].str(), std::stod(found[2]));
+    EXPECT_NEAR(set.number(found[1].str()), defaults.number(found[1].str()), 1e-12) << line;
+  }
+  EXPECT_EQ(numbers, 63);
 }
 
 TEST(FixedWingParameters, RefusesWhatDoesNotFly) {

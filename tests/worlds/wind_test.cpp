@@ -128,7 +128,7 @@ TEST_P(WorldWind, RefusesValuesOutOfRange) {
   EXPECT_EQ(refusal(wind_, "air_density_kgm3", 0.0),
             "air_density_kgm3 = 0 kg/m3, must be > 0 kg/m3");
   EXPECT_EQ(refusal(wind_, "height_law", std::string("log")),
-            "height_law = 'log', must be one of: uniform, logarithmic, power");
+            "height_law = 'log', must be one of: uniform, logarithmic, power, linear");
   ParameterSet one = gust(0.0, 1.0);
   EXPECT_EQ(refusal(one, "duration_s", 0.0), "duration_s = 0 s, must be > 0 s");
   EXPECT_EQ(refusal(one, "amplitude_mps", -1.0),

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "controllers/parts/aircraft_linear.h"
 #include "engine/math/angles.h"
 #include "engine/math/pose.h"
 
@@ -15,6 +17,8 @@ using Phase = AirReference::Phase;
 
 /// Share of the wanted airspeed from which a launched aircraft is flown.
 constexpr double kFlownShare = 0.8;
+/// Banks of references change no faster than this: 115 deg/s.
+constexpr double kFastestRoll_radps = 2.0;
 /// Rounding, as a share of a limit.
 constexpr double kRounding = 1e-9;
 
@@ -35,7 +39,11 @@ AircraftPorts::AircraftPorts(const ControllerContext& context, const std::string
                               name_of(context, type))),
       trims_(aircraft_, aircraft_.cruise_speed_mps, aircraft_.max_bank_rad, name_of(context, type)),
       limits_(limits),
-      trim_(trims_.at(0.0, 0.0)) {
+      trim_(trims_.at(0.0, 0.0)),
+      period_s_(context.period.s()),
+      bank_before_rad_(std::numeric_limits<double>::quiet_NaN()) {
+  const LinearAxis lateral = linearise(aircraft_, trims_.level()).lateral;
+  aileron_per_roll_rate_s_ = -lateral.A(1, 1) / lateral.B(1, 0);
   for (const ActuatorSpec& actuator : aircraft_.actuators) {
     actuator_values_.names.push_back(actuator.name);
     actuator_values_.values.push_back(std::clamp(0.0, actuator.min, actuator.max));
@@ -75,10 +83,20 @@ bool AircraftPorts::is_flying() const {
   return phase != Phase::kWait && phase != Phase::kDone;
 }
 
+void AircraftPorts::add_roll_rate(double bank_rad) {
+  const double rate_radps = (bank_rad - bank_before_rad_) / period_s_;
+  bank_before_rad_ = bank_rad;
+  // What steps is no roll: a reference that begins, or begins anew.
+  if (!(std::abs(rate_radps) <= kFastestRoll_radps)) return;
+  trim_.p_radps += rate_radps;
+  trim_.controls.aileron_rad += aileron_per_roll_rate_s_ * rate_radps;
+}
+
 void AircraftPorts::take_over() {
   const Odometry& odometry = estimate();
   const AirReference& wanted = reference();
   trim_ = trims_.at(wanted.climb_angle_rad, wanted.bank_rad);
+  add_roll_rate(wanted.bank_rad);
   const RollPitchYaw rpy = rpy_from_quaternion(odometry.X_WB.q);
   const Eigen::Vector3d v_air_B = odometry.v_WB_B - odometry.X_WB.q.conjugate() * wanted.wind_W;
   const Eigen::Vector3d& w_B = odometry.w_WB_B;

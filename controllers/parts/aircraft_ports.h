@@ -3,11 +3,12 @@
 /// (AirReference) in; "actuators" (throttle, elevons), "deviation" (NamedValues) and "follower"
 /// out.
 ///
-/// The reference's steady flight (airspeed, climb angle, bank) has a trim; controllers work on what
-/// differs from it: x_lon = [u w q theta h], x_lat = [v p r phi psi] (aircraft_linear.h), where the
-/// velocities are against the mean wind that the reference tells, h is the height above the
-/// reference's and psi the heading clockwise from it, in (-pi, pi]. Controls are the trim's plus
-/// the deviation that the controller asks for.
+/// The reference's steady flight (airspeed, climb angle, bank) has a trim, to which the roll rate
+/// of a changing bank and its aileron are added; controllers work on what differs from it: x_lon =
+/// [u w q theta h], x_lat = [v p r phi psi] (aircraft_linear.h), where the velocities are against
+/// the mean wind that the reference tells, h is the height above the reference's and psi the
+/// heading clockwise from it, in (-pi, pi]. Controls are the trim's plus the deviation that the
+/// controller asks for.
 
 #include <Eigen/Core>
 
@@ -65,6 +66,9 @@ class AircraftPorts {
   void write_off(Time now);
 
  private:
+  /// The reference's bank changes: its roll rate belongs to the steady flight, and so does the
+  /// aileron that keeps it up.
+  void add_roll_rate(double bank_rad);
   void write_actuators(Time now, const AircraftControls& controls);
   void write_deviation(Time now, const AircraftDeviation& deviation,
                        const AircraftControls& controls, bool judged);
@@ -75,6 +79,9 @@ class AircraftPorts {
   AircraftLimits limits_;
   AircraftDeviation deviation_;
   TrimPoint trim_;
+  double period_s_ = 0.0;
+  double aileron_per_roll_rate_s_ = 0.0;  // that keeps a roll rate against the wing's damping
+  double bank_before_rad_ = 0.0;          // of the reference; NaN: none yet
   bool has_ended_ = false;
   bool is_launching_ = false;
   NamedValues actuator_values_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "controllers/planning/mission_items.h"
+#include "controllers/planning/mission_kinds.h"
 #include "controllers/planning/survey_heights.h"
 #include "controllers/planning/survey_params.h"
 #include "controllers/planning/survey_route.h"
@@ -47,7 +48,7 @@ class MissionRoute final : public Planner {
     ground_ = make_ground(scene_, start.p.z() - vehicle_.height_above_ground_m);
     find_home();
     if (const auto fault = lay_way()) return Failure{*fault};
-    set_kinds();
+    set_mission_kinds(camera_, mission_places_.uses_camera, path_);
     if (const auto fault = check()) return Failure{*fault};
     measure();
     return path_;
@@ -184,42 +185,6 @@ class MissionRoute final : public Planner {
     Vector3d p = path_.points.back().p_W;
     p.z() = ground_(p.head<2>()).value_or(home_m_) + vehicle_.height_above_ground_m;
     add(p, PathKind::kVertical, place);
-  }
-
-  /// Where the camera works it is a leg; without any camera every stretch is one.
-  void set_kinds() {
-    auto& points = path_.points;
-    const std::size_t n = points.size();
-    std::size_t first = n, last = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const bool is_leg = points[i].kind == PathKind::kLeg &&
-                          (camera_[i] || !mission_places_.uses_camera) && i + 1 < n;
-      if (points[i].kind == PathKind::kLeg && !is_leg) points[i].kind = PathKind::kTurn;
-      if (!is_leg) continue;
-      first = std::min(first, i);
-      last = i;
-    }
-    constexpr double kBend_rad = 0.5;
-    int alley = -1;
-    for (std::size_t i = 0; i < n; ++i) {
-      PathPoint& point = points[i];
-      const Vector2d way = i + 1 < n ? Vector2d((points[i + 1].p_W - point.p_W).head<2>())
-                                     : Vector2d((point.p_W - points[i - 1].p_W).head<2>());
-      const double before_rad = i > 0 ? points[i - 1].yaw_rad : 0.0;
-      point.yaw_rad = way.norm() < kSame_m ? before_rad : std::atan2(way.y(), way.x());
-      if (point.kind == PathKind::kTurn && (i < first || i > last)) {
-        point.kind = i < first ? PathKind::kTransit : PathKind::kReturn;
-      }
-      if (point.kind != PathKind::kLeg) continue;
-      const bool goes_on = i > 0 && points[i - 1].kind == PathKind::kLeg &&
-                           std::abs(wrap_angle(point.yaw_rad - before_rad)) < kBend_rad;
-      point.alley = goes_on ? alley : ++alley;
-    }
-    const std::size_t end = n - 1;
-    if (points[end].kind != PathKind::kVertical) {
-      points[end].kind = points[end - 1].kind;
-      points[end].alley = points[end - 1].alley;
-    }
   }
 
   /// Ways into the ground or out of the fences.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "controllers/parts/pose2.h"
+#include "controllers/planning/survey_climb.h"
 #include "controllers/planning/survey_forecast.h"
 #include "controllers/planning/survey_order.h"
 #include "controllers/planning/survey_route.h"
@@ -17,35 +18,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMmPerM = 1e3, kM2PerHa = 1e4;
-
-/// "point 3 of the polygon at (x, y) lies 12.3 m outside the terrain"
-std::optional<std::string> find_corner_outside(const Polygon2& polygon,
-                                               const GroundHeight& ground) {
-  Vector2d middle = Vector2d::Zero();
-  for (const Vector2d& p : polygon) middle += p / static_cast<double>(polygon.size());
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector2d& p = polygon[i];
-    if (ground(p)) continue;
-    const std::string point =
-        fmt::format("point {} of the polygon at ({:.1f}, {:.1f})", i + 1, p.x(), p.y());
-    // Where the terrain begins on the way to the polygon's middle.
-    constexpr int kSteps = 2000;
-    const Vector2d way = middle - p;
-    for (int k = 1; k <= kSteps; ++k) {
-      const double share = static_cast<double>(k) / kSteps;
-      if (!ground(p + share * way)) continue;
-      return fmt::format(
-          "{} lies outside the terrain, which begins {:.1f} m from there towards the "
-          "polygon's middle",
-          point, share * way.norm());
-    }
-    return fmt::format(
-        "{} lies outside the terrain, and so does the way to the polygon's middle at "
-        "({:.1f}, {:.1f})",
-        point, middle.x(), middle.y());
-  }
-  return std::nullopt;
-}
 
 class SurveyPlanner {
  public:
@@ -162,105 +134,17 @@ class SurveyPlanner {
     set("corners", 2.0 * static_cast<double>(plan_.lanes.size()) + 2.0 * route_.wide_turns);
   }
 
-  Result<GroundProfile> make_profile(const std::vector<RoutePoint>& points) const {
-    std::vector<Vector2d> line;
-    for (const RoutePoint& point : points) line.push_back(point.p_W);
-    return GroundProfile::make(line, ground_);
-  }
-
-  /// Heights, and laps to reach the first lane's.
   std::optional<std::string> climb() {
-    auto profile = make_profile(route_.points);
-    if (!profile) return profile.reason();
-    wanted_m_ = make_wanted_heights(*profile, request_.height_m, request_.max_slope);
-    const std::size_t first = route_.first_lane_point;
-    const auto distance_to = [](const GroundProfile& line, std::size_t point) {
-      return line.samples()[line.at_point(point)].distance_m;
-    };
-    const double there_m = wanted_m_[profile->at_point(first)];
-    const double needed_m = std::abs(there_m - start_W_.p.z()) / request_.max_slope;
-    const bool has_room = needed_m <= distance_to(*profile, first);
-    Climb best;
-    if (has_room) {
-      best = try_climb(route_, std::move(profile).value());
-    } else {
-      // A little more than needed: on the way to the first lane the terrain has its say, too.
-      constexpr double kMore = 1.01, kMore_m = 5.0;
-      const double direct_m = distance_to(*profile, 1);
-      const double way_m = kMore * needed_m + kMore_m - (distance_to(*profile, first) - direct_m);
-      for (const bool to_left : {true, false}) {
-        SurveyRoute route = route_;
-        std::vector<RoutePoint> laps;
-        for (const Vector2d& p :
-             make_climb_laps(task_.start_W, yaw_from_quaternion(start_W_.q), route.points[1].p_W,
-                             way_m, task_.turn_radius_m, to_left)) {
-          laps.push_back({p, PathKind::kTransit, -1});
-        }
-        route.points.insert(route.points.begin() + 1, laps.begin(), laps.end());
-        route.first_lane_point += laps.size();
-        auto longer = make_profile(route.points);
-        if (!longer) return longer.reason();
-        Climb climb = try_climb(std::move(route), std::move(longer).value());
-        if (climb.clearance_m > best.clearance_m) best = std::move(climb);
-      }
-    }
-    constexpr double kLaunched_m = 30.0;  // nearer to the start the launch has its own way
-    if (best.clearance_m <= 0.0 && best.where_m > kLaunched_m) {
-      return fmt::format(
-          "the climb from ({:.1f}, {:.1f}) at {:.0f} % meets the ground at ({:.1f}, {:.1f}), "
-          "{:.0f} m "
-          "along: start with another heading, from higher ground or with a larger max_slope",
-          task_.start_W.x(), task_.start_W.y(), 100.0 * request_.max_slope, best.meets_W.x(),
-          best.meets_W.y(), best.where_m);
-    }
-    if (!(best.length_m <= distance_to(*best.profile, best.route.first_lane_point + 1))) {
-      return fmt::format(
-          "the flight cannot get from {:.1f} m to the {:.1f} m of the first lane at "
-          "{:.0f} %",
-          start_W_.p.z(), there_m, 100.0 * request_.max_slope);
-    }
-    route_ = std::move(best.route);
-    profile_ = std::move(best.profile);
-    wanted_m_ = std::move(best.wanted_m);
-    climb_m_ = best.length_m;
+    auto climb = climb_to_first_lane(request_, start_W_, route_, ground_);
+    if (!climb) return climb.reason();
+    climb_ = std::move(climb).value();
+    route_ = climb_.route;
+    wanted_m_ = climb_.wanted_m;
+    profile_ = &climb_.profile;
+    climb_m_ = climb_.length_m;
     set("climb_way_m", climb_m_);
-    set("climb_laps_way_m",
-        has_room ? 0.0 : distance_to(*profile_, route_.first_lane_point) - needed_way(route_));
-    set("climb_clearance_min_m", best.clearance_m);
+    set("climb_clearance_min_m", climb_.clearance_m);
     return std::nullopt;
-  }
-
-  double needed_way(const SurveyRoute& route) const {
-    return (route.points[route.first_lane_point].p_W - task_.start_W).norm();
-  }
-
-  struct Climb {
-    SurveyRoute route;
-    std::optional<GroundProfile> profile;
-    std::vector<double> wanted_m;
-    double length_m = 0.0;
-    double clearance_m = -std::numeric_limits<double>::infinity();
-    double where_m = 0.0;  ///< of the least clearance
-    Vector2d meets_W = {0, 0};
-  };
-
-  Climb try_climb(SurveyRoute route, GroundProfile profile) const {
-    Climb climb;
-    climb.wanted_m = make_wanted_heights(profile, request_.height_m, request_.max_slope);
-    climb.length_m = begin_heights_at(profile, start_W_.p.z(), request_.max_slope, climb.wanted_m);
-    climb.clearance_m = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < profile.samples().size(); ++i) {
-      const GroundProfile::Sample& sample = profile.samples()[i];
-      const double clearance_m = climb.wanted_m[i] - sample.ground_m;
-      if (sample.distance_m > climb.length_m && i > 1) break;
-      if (clearance_m >= climb.clearance_m) continue;
-      climb.clearance_m = clearance_m;
-      climb.where_m = sample.distance_m;
-      climb.meets_W = sample.p_W;
-    }
-    climb.route = std::move(route);
-    climb.profile = std::move(profile);
-    return climb;
   }
 
   /// Waypoints, lengths and times.
@@ -318,8 +202,8 @@ class SurveyPlanner {
         if (samples[i].distance_m < climb_m_) continue;
         const double height_m = ramp_m_[i] - samples[i].ground_m;
         error_m = std::max(error_m, std::abs(ramp_m_[i] - wanted_m_[i]));
-        above_m = std::max(above_m, wanted_m_[i] - samples[i].ground_m - request_.height_m);
         if (route_.points[leg].kind != PathKind::kLeg) continue;
+        above_m = std::max(above_m, wanted_m_[i] - samples[i].ground_m - request_.height_m);
         low_m = std::min(low_m, height_m);
         high_m = std::max(high_m, height_m);
       }
@@ -369,8 +253,9 @@ class SurveyPlanner {
   SurveyPlan plan_;
   RouteTask task_;
   SurveyRoute route_;
-  std::optional<GroundProfile> profile_;
-  std::vector<double> wanted_m_, ramp_m_;  // at the profile's samples
+  SurveyClimb climb_;
+  const GroundProfile* profile_ = nullptr;  // of climb_
+  std::vector<double> wanted_m_, ramp_m_;   // at the profile's samples
   double climb_m_ = 0.0;
 };
 

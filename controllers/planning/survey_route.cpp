@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "controllers/parts/pose2.h"
 
@@ -9,6 +10,25 @@ namespace vinerow {
 namespace {
 
 using Eigen::Vector2d;
+
+/// By how much turns at the corners of a line do not fit between each other, m.
+double calc_misfit_m(const std::vector<Vector2d>& line, double turn_radius_m) {
+  constexpr double kSharpest_rad = 2.6;  // beyond, the tangents have no end
+  double misfit_m = 0.0, before_m = 0.0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vector2d way = line[i + 1] - line[i];
+    double after_m = 0.0;
+    if (i + 2 < line.size()) {
+      const Vector2d next = line[i + 2] - line[i + 1];
+      const double angle = std::abs(std::atan2(cross(way, next), way.dot(next)));
+      after_m = turn_radius_m * std::tan(0.5 * std::min(angle, kSharpest_rad));
+      misfit_m += 20.0 * turn_radius_m * std::max(0.0, angle - kSharpest_rad);
+    }
+    misfit_m += std::max(0.0, before_m + after_m - way.norm());
+    before_m = after_m;
+  }
+  return misfit_m;
+}
 
 class RouteMaker {
  public:
@@ -28,12 +48,13 @@ class RouteMaker {
 
   /// From where it starts to the run-in of the first lane, which heads along `sign` s.
   void approach(double s, double t, double sign) {
+    const Vector2d to_W = frame_.to_world(s, t), along_W = sign * frame_.along();
     add(task_.start_W, PathKind::kTransit);
-    if (const auto side = find_side_corner(s, t, sign, frame_.to_lane(task_.start_W))) {
-      add(*side, PathKind::kTransit);
+    for (const Vector2d& corner :
+         find_approach(task_.start_W, std::nullopt, to_W, along_W, task_.turn_radius_m)) {
+      add(corner, PathKind::kTransit);
     }
-    route_.first_lane_point = route_.points.size();
-    add(frame_.to_world(s, t), PathKind::kTransit);
+    add(to_W, PathKind::kTransit);
     route_.first_lane_point = route_.points.size() - 1;
   }
 
@@ -73,8 +94,12 @@ class RouteMaker {
     route_.points.back().kind = PathKind::kReturn;
     add(frame_.to_world(s, t), PathKind::kReturn);
     if (!task_.returns) return;
-    if (const auto side = find_side_corner(s, t, -sign, frame_.to_lane(task_.start_W))) {
-      add(*side, PathKind::kReturn);
+    // The way there, flown backwards.
+    const std::vector<Vector2d> corners =
+        find_approach(task_.start_W, std::nullopt, frame_.to_world(s, t), -sign * frame_.along(),
+                      task_.turn_radius_m);
+    for (auto corner = corners.rbegin(); corner != corners.rend(); ++corner) {
+      add(*corner, PathKind::kReturn);
     }
     add(task_.start_W, PathKind::kReturn);
   }
@@ -82,17 +107,6 @@ class RouteMaker {
   SurveyRoute take() { return std::move(route_); }
 
  private:
-  /// A corner beside (s, t) for ways that would turn by much more than a quarter there: the place
-  /// lies on the side to which the lane leads.
-  std::optional<Vector2d> find_side_corner(double s, double t, double sign,
-                                           const Vector2d& place) const {
-    const double ahead = sign * (place.x() - s), aside = place.y() - t;
-    constexpr double kMostBack = 0.2;  // ahead by more than this share of the way aside
-    if (ahead <= std::max(kMostBack * std::abs(aside), 1.0)) return std::nullopt;
-    const double offset = std::max(std::abs(aside), 2.0 * task_.turn_radius_m);
-    return frame_.to_world(s, t + (aside < 0.0 ? -offset : offset));
-  }
-
   const RouteTask& task_;
   const LaneFrame& frame_;
   SurveyRoute route_;
@@ -120,6 +134,44 @@ SurveyRoute make_survey_route(const RouteTask& task, const LaneFrame& frame,
     }
   }
   return maker.take();
+}
+
+std::vector<Vector2d> find_approach(const Vector2d& from_W,
+                                    const std::optional<Vector2d>& heading_W, const Vector2d& to_W,
+                                    const Vector2d& along_W, double turn_radius_m) {
+  const Vector2d aside_W = left_of(along_W);
+  std::vector<std::vector<Vector2d>> ways = {{}};
+  const double level_m = std::abs((from_W - to_W).dot(aside_W));
+  for (const double b : {2.0 * turn_radius_m, 3.0 * turn_radius_m, 5.0 * turn_radius_m, level_m}) {
+    for (const double side : {1.0, -1.0}) {
+      const Vector2d beside = to_W + side * b * aside_W;
+      ways.push_back({beside});
+      for (const double a : {2.0 * turn_radius_m, 4.0 * turn_radius_m}) {
+        ways.push_back({Vector2d(beside - a * along_W)});
+        ways.push_back({Vector2d(beside + a * along_W), beside});  // alongside, and back
+        ways.push_back({Vector2d(beside - a * along_W), Vector2d(to_W - a * along_W)});
+      }
+    }
+  }
+  constexpr double kOn_m = 1e3;  // the lane has room for its turn
+  double best_m = std::numeric_limits<double>::infinity();
+  std::vector<Vector2d> best;
+  for (const std::vector<Vector2d>& way : ways) {
+    std::vector<Vector2d> line;
+    if (heading_W) line.push_back(from_W - kOn_m * *heading_W);
+    line.push_back(from_W);
+    line.insert(line.end(), way.begin(), way.end());
+    line.push_back(to_W);
+    line.push_back(to_W + kOn_m * along_W);
+    double length_m = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) length_m += (line[i] - line[i - 1]).norm();
+    constexpr double kMisfit = 100.0;  // any way that fits is better than one that does not
+    const double worth_m = length_m + kMisfit * calc_misfit_m(line, turn_radius_m);
+    if (worth_m >= best_m - 1e-6) continue;
+    best_m = worth_m;
+    best = way;
+  }
+  return best;
 }
 
 std::vector<Vector2d> make_climb_laps(const Vector2d& start_W, double yaw_rad,

@@ -34,6 +34,16 @@ struct RouteTask {
 SurveyRoute make_survey_route(const RouteTask& task, const LaneFrame& frame,
                               const std::vector<SurveyLane>& lanes, const LaneOrder& order);
 
+/// Corners of a way from a place to a lane, so that every corner can be flown with the turn radius:
+/// between two corners there is room for both turns (R tan(angle / 2) each). The shortest of some
+/// dozens; where none fits, the one that misses least.
+/// @param heading_W  unit, with which it comes to `from_W`; absent: any
+/// @param to_W       the lane's beginning  @param along_W  unit, of the lane
+std::vector<Eigen::Vector2d> find_approach(const Eigen::Vector2d& from_W,
+                                           const std::optional<Eigen::Vector2d>& heading_W,
+                                           const Eigen::Vector2d& to_W,
+                                           const Eigen::Vector2d& along_W, double turn_radius_m);
+
 /// Corners of laps beside the start that make the way to `target` at least `way_m` long: straight
 /// on along `yaw_rad` first, then round to the left or right.
 std::vector<Eigen::Vector2d> make_climb_laps(const Eigen::Vector2d& start_W, double yaw_rad,

@@ -186,6 +186,25 @@ double elevation_at(const ElevationRaster& raster, double latitude_rad, double l
   return height;
 }
 
+struct ElevationLookup::Impl {
+  explicit Impl(ElevationRaster given) : raster(std::move(given)), to_raster(raster) {}
+  const ElevationRaster raster;
+  const ToRaster to_raster;
+};
+
+ElevationLookup::ElevationLookup(ElevationRaster raster) {
+  const QuietGdal quiet;
+  impl_ = std::make_unique<Impl>(std::move(raster));
+}
+
+ElevationLookup::~ElevationLookup() = default;
+
+std::optional<double> ElevationLookup::height_m(double latitude_rad, double longitude_rad) const {
+  const QuietGdal quiet;
+  const double height = impl_->to_raster.height_m(latitude_rad, longitude_rad);
+  return std::isfinite(height) ? std::optional(height) : std::nullopt;
+}
+
 HeightField resample_elevation(const ElevationRaster& raster, const GeoOrigin& origin,
                                const FieldExtent& extent) {
   const QuietGdal quiet;

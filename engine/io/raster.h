@@ -2,6 +2,8 @@
 /// Elevation models from GeoTIFF and other rasters that GDAL reads, resampled to W's height field.
 
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,5 +53,19 @@ HeightField resample_elevation(const ElevationRaster& raster, const GeoOrigin& o
 /// Bilinear height at a WGS84 position, m in the raster's height system. @throws ConfigError
 /// outside the raster
 double elevation_at(const ElevationRaster& raster, double latitude_rad, double longitude_rad);
+
+/// elevation_at() for many places, without words where there is no height.
+class ElevationLookup {
+ public:
+  /// @throws ConfigError where WGS84 does not convert to the raster's CRS
+  explicit ElevationLookup(ElevationRaster raster);
+  ~ElevationLookup();
+  /// nullopt outside the raster and at "no data".
+  std::optional<double> height_m(double latitude_rad, double longitude_rad) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace vinerow::io

@@ -290,6 +290,43 @@ TEST(SurveyPlan, ClimbsInLapsWhereTheFirstLaneIsNear) {
   EXPECT_TRUE(plan_survey(make_request(), start_at(130, -150, -23.0, -0.5 * kPi), slope).ok());
 }
 
+/// Tangents of two turns that follow each other fit between their corners: also on the way to the
+/// first lane and home, wherever the start is.
+TEST(SurveyPlan, EveryCornerCanBeFlown) {
+  for (int place = 0; place < 24; ++place) {
+    const double angle = 2.0 * kPi * place / 24.0, away_m = place % 3 == 0 ? 120.0 : 420.0;
+    const double height_m = place % 2 == 0 ? 150.0 : 0.0;
+    const auto plan = plan_survey(make_request(),
+                                  start_at(130.0 + away_m * std::cos(angle),
+                                           200.0 + away_m * std::sin(angle), height_m, angle),
+                                  flat());
+    ASSERT_TRUE(plan.ok()) << plan.reason();
+    const double radius_m = plan->numbers.at("turn_radius_m");
+    std::vector<Vector2d> corners;
+    for (const PathPoint& point : plan->path.points) {
+      const Vector2d p = point.p_W.head<2>();
+      if (corners.size() > 1) {  // points on a straight are no corners
+        const Vector2d a = corners.back() - corners[corners.size() - 2], b = p - corners.back();
+        if (std::abs(std::atan2(cross(a, b), a.dot(b))) < 1e-6) corners.pop_back();
+      }
+      corners.push_back(p);
+    }
+    double before_m = 0.0;
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      double after_m = 0.0;
+      const Vector2d in = corners[i] - corners[i - 1];
+      if (i + 1 < corners.size()) {
+        const Vector2d out = corners[i + 1] - corners[i];
+        const double turn = std::abs(std::atan2(cross(in, out), in.dot(out)));
+        EXPECT_LT(turn, 2.61) << place << " corner " << i;
+        after_m = radius_m * std::tan(0.5 * turn);
+      }
+      EXPECT_GE(in.norm(), before_m + after_m - 1e-6) << place << " corner " << i;
+      before_m = after_m;
+    }
+  }
+}
+
 TEST(SurveyPlan, GivesTheSameBitsTwice) {
   const auto plan = [] {
     return plan_survey(make_request(), start_at(-200, -100, 20), hills()).value();

@@ -15,6 +15,7 @@ namespace {
 constexpr double kSpeedAccuracy_mps = 1e-3;
 constexpr double kSearchRatio = 1.05;
 constexpr double kSearchSpan = 5.0;
+constexpr const char* kAtTheLimit = "the wings are at the limit of what they carry";
 
 bool is_in_range(const Aircraft& aircraft, const AircraftControls& controls) {
   const AircraftControls limited = aircraft.limit(controls);
@@ -51,10 +52,12 @@ std::string say_elevons(const Aircraft& aircraft, const AircraftControls& contro
              : left;
 }
 
+/// What the wings do not carry; empty where they carry it.
 std::string say_lift(const Aircraft& aircraft, TrimSolver& solver, const TrimRequest& request) {
   const double needed_N = aircraft.model->mass_kg() * aircraft.gravity_mps2 *
                           std::cos(request.climb_angle_rad) / std::cos(request.bank_rad);
   const TrimSolver::Lift most = solver.largest_lift(request.airspeed_mps, request.climb_angle_rad);
+  if (most.lift_N >= needed_N) return "";
   if (most.lift_N <= 0.0) {
     return fmt::format("the elevons, {:.1f} to {:.1f} deg, balance it at no incidence",
                        deg_from_rad(aircraft.elevon_min_rad()),
@@ -75,6 +78,8 @@ std::string say_lift(const Aircraft& aircraft, TrimSolver& solver, const TrimReq
 
 /// Why there is no trim, without the place.
 std::string say_reason(const Aircraft& aircraft, TrimSolver& solver, const TrimRequest& request) {
+  const std::string lift = say_lift(aircraft, solver, request);
+  if (!lift.empty()) return lift;
   const std::optional<Trim> beyond = solver.solve(request);
   if (beyond) {
     const std::string elevons = say_elevons(aircraft, beyond->controls);
@@ -94,7 +99,7 @@ std::string say_reason(const Aircraft& aircraft, TrimSolver& solver, const TrimR
     return fmt::format("even the least throttle, {:g}, gives a climb of {:.2f} deg",
                        aircraft.throttle_min(), deg_from_rad(idle->request.climb_angle_rad));
   }
-  return say_lift(aircraft, solver, request);
+  return kAtTheLimit;
 }
 
 }  // namespace
@@ -116,9 +121,10 @@ Result<Trim> find_trim_at_throttle(const Aircraft& aircraft, const TrimRequest& 
   TrimSolver solver(aircraft);
   const std::optional<Trim> trim = solver.solve_at_throttle(request, throttle);
   if (!trim) {
+    const std::string lift = say_lift(aircraft, solver, request);
     return Failure{fmt::format("no steady flight at {:.2f} m/s, throttle {:g}, bank {:.1f} deg: {}",
                                request.airspeed_mps, throttle, deg_from_rad(request.bank_rad),
-                               say_lift(aircraft, solver, request))};
+                               lift.empty() ? kAtTheLimit : lift)};
   }
   const std::string elevons = say_elevons(aircraft, trim->controls);
   if (!elevons.empty()) {

@@ -20,6 +20,7 @@ void add_schema_command(CLI::App& app, int& exit_status);
 void add_render_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
 void add_grid_command(CLI::App& app, int& exit_status);
+void add_trim_command(CLI::App& app, int& exit_status);
 
 /// Options that every command which reads a scenario has.
 struct ScenarioArguments {

@@ -1,4 +1,4 @@
-/// The command: `vinerow run | validate | list | schema | render | info | grid`.
+/// The command: `vinerow run | validate | list | schema | render | info | grid | trim`.
 
 #include <fmt/format.h>
 
@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   vinerow::tools::add_render_command(app, exit_status);
   vinerow::tools::add_info_command(app, exit_status);
   vinerow::tools::add_grid_command(app, exit_status);
+  vinerow::tools::add_trim_command(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/trim_report.h"
+
+namespace vinerow::tools {
+namespace {
+
+/// How the vehicle is called in the scenario that reads it, and so in errors.
+constexpr const char* kName = "plane";
+
+struct TrimArguments {
+  std::filesystem::path file;
+  std::vector<std::string> sets;
+  std::vector<std::filesystem::path> plugins;
+  double speed_mps = 0.0;
+  double climb_deg = 0.0, bank_deg = 0.0;
+  double period_s = 0.05;
+  double air_density_kgm3 = 0.0;
+  bool as_json = false;
+};
+
+/// The vehicle of a file as a scenario's `include` reads it.
+io::VehicleConfig load_vehicle(const TrimArguments& arguments, const Registry& registry) {
+  std::string quoted;
+  for (const char c : std::filesystem::absolute(arguments.file).string()) {
+    quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  }
+  // What stands around the vehicle is read but not built.
+  const std::string scenario = fmt::format(
+      "vinerow: 1\nname: trim\nworld: {{type: vineyard}}\nvehicles:\n  {}:\n"
+      "    include: '{}'\n    spawn: {{x_m: 0, y_m: 0}}\n",
+      kName, quoted);
+  io::Overrides overrides;
+  for (const std::string& set : arguments.sets) {
+    overrides.sets.push_back(fmt::format("{}.{}", kName, set));
+  }
+  return io::parse_scenario(scenario, std::filesystem::current_path(), registry, overrides)
+      .vehicles.front();
+}
+
+void check(bool holds, const char* option, double value, const char* allowed) {
+  if (!holds || !std::isfinite(value)) {
+    throw ConfigError(fmt::format("trim: --{} = {:g}, must be {}", option, value, allowed));
+  }
+}
+
+int trim(const TrimArguments& arguments) {
+  check(std::abs(arguments.climb_deg) < 90.0, "climb", arguments.climb_deg,
+        "between -90 and 90 deg");
+  check(std::abs(arguments.bank_deg) < 90.0, "bank", arguments.bank_deg, "between -90 and 90 deg");
+  check(arguments.period_s > 0.0 && arguments.period_s <= 10.0, "period", arguments.period_s,
+        "> 0 and <= 10 s");
+  check(arguments.speed_mps >= 0.0, "speed", arguments.speed_mps,
+        "> 0 m/s (0: the vehicle's cruise speed)");
+  check(arguments.air_density_kgm3 >= 0.0, "air-density", arguments.air_density_kgm3,
+        "> 0 kg/m3 (0: the vehicle's own)");
+  const Registry registry = make_registry(arguments.plugins);
+  const io::VehicleConfig config = load_vehicle(arguments, registry);
+  VehicleContext context;
+  context.vehicle = kName;
+  context.part = kName;
+  context.physics_step = Duration{1'000'000};
+  const std::unique_ptr<Vehicle> vehicle =
+      registry.make_vehicle(config.vehicle.type, config.vehicle.parameters, context);
+  const std::string who = arguments.file.filename().string();
+  Aircraft aircraft = read_aircraft(vehicle->description(), context.gravity_mps2, who);
+  if (arguments.air_density_kgm3 > 0.0) aircraft.air_density_kgm3 = arguments.air_density_kgm3;
+  const TrimRequest request{
+      arguments.speed_mps > 0.0 ? arguments.speed_mps : aircraft.cruise_speed_mps,
+      rad_from_deg(arguments.climb_deg), rad_from_deg(arguments.bank_deg)};
+  const TrimReport report = make_trim_report(aircraft, request, arguments.period_s, who);
+  fmt::print("{}\n", arguments.as_json ? to_json(report) : to_text(report));
+  return 0;
+}
+
+}  // namespace
+
+void add_trim_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<TrimArguments>();
+  CLI::App* command = app.add_subcommand(
+      "trim", "steady flight, modes, linear models and limits of a vehicle on wings");
+  command->add_option("vehicle", arguments->file, "vehicle file (YAML), as scenarios include it")
+      ->required();
+  command->add_option("--speed", arguments->speed_mps,
+                      "true airspeed, m/s (default: the vehicle's cruise speed)");
+  command->add_option("--climb", arguments->climb_deg, "climb angle of the path, deg");
+  command->add_option("--bank", arguments->bank_deg, "bank of the turn, deg, right > 0");
+  command->add_option("--period", arguments->period_s, "of the sampled models, s (default 0.05)");
+  command->add_option("--air-density", arguments->air_density_kgm3,
+                      "kg/m3 (default: the vehicle's own, 1.225)");
+  command->add_option("--set", arguments->sets,
+                      "override a value of the vehicle, e.g. --set mass_kg=1.3 (may be given "
+                      "several times)");
+  command->add_option("--plugin", arguments->plugins, "load a plug-in")->allow_extra_args(false);
+  command->add_flag("--json", arguments->as_json, "print JSON, in SI units and rad");
+  command->callback([arguments, &exit_status] { exit_status = trim(*arguments); });
+}
+
+}  // namespace vinerow::tools

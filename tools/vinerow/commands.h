@@ -9,6 +9,7 @@
 
 #include "engine/api/registry.h"
 #include "engine/io/scenario.h"
+#include "engine/sim/coverage_log.h"
 
 namespace vinerow::tools {
 
@@ -21,6 +22,8 @@ void add_render_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
 void add_grid_command(CLI::App& app, int& exit_status);
 void add_trim_command(CLI::App& app, int& exit_status);
+void add_coverage_command(CLI::App& app, int& exit_status);
+void add_survey_command(CLI::App& app, int& exit_status);
 
 /// Options that every command which reads a scenario has.
 struct ScenarioArguments {
@@ -29,6 +32,14 @@ struct ScenarioArguments {
   std::vector<std::filesystem::path> plugins;
 };
 void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments);
+
+/// Draws the coverage of every camera that took pictures in a run, numbers beside it as .json.
+/// @param out  the picture; of several cameras each has its name added
+/// @returns the pictures; none where the log holds no shots
+std::vector<std::filesystem::path> write_coverage(const std::filesystem::path& log,
+                                                  const Registry& registry,
+                                                  const CoverageChoice& choice,
+                                                  const std::filesystem::path& out);
 
 /// Built-in parts plus those of the scenario's and the command line's plug-ins.
 Registry make_registry(const std::vector<std::filesystem::path>& plugins);

@@ -1,4 +1,5 @@
-/// The command: `vinerow run | validate | list | schema | render | info | grid | trim`.
+/// The command: `vinerow run | validate | list | schema | render | info | grid | trim | coverage |
+/// survey`.
 
 #include <fmt/format.h>
 
@@ -28,6 +29,8 @@ int main(int argc, char** argv) {
   vinerow::tools::add_info_command(app, exit_status);
   vinerow::tools::add_grid_command(app, exit_status);
   vinerow::tools::add_trim_command(app, exit_status);
+  vinerow::tools::add_coverage_command(app, exit_status);
+  vinerow::tools::add_survey_command(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -234,6 +234,22 @@ TEST(MissionFile, TextsComeBackAsTheyWereWritten) {
   EXPECT_EQ(found.items[2].params[0], 14.8);
 }
 
+TEST(MissionFile, CutOffAndBrokenFilesAreRefusedOrRead) {
+  const std::string plan_text = format_qgc_plan(make_mission()),
+                    text = format_qgc_wpl(make_mission());
+  int refused = 0;
+  for (const std::string& whole : {plan_text, text}) {
+    for (std::size_t at = 1; at < whole.size(); at += 41) {
+      std::string broken = whole;
+      broken[at] = static_cast<char>("{}[],:\"9e-x\t\n\xff"[at % 15]);
+      for (const std::string& content : {whole.substr(0, at), broken}) {
+        refused += error_of(write(content)) != "no error";
+      }
+    }
+  }
+  EXPECT_GT(refused, 80);
+}
+
 /// Every key with its JSON type that the sample, saved by QGroundControl itself, has at a place
 /// must be there in ours.
 void expect_same_shape(const nlohmann::json& sample, const nlohmann::json& ours,

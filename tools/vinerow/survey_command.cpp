@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <system_error>
+
+#include "controllers/planning/survey.h"
+#include "controllers/planning/survey_mission.h"
+#include "controllers/planning/survey_plan.h"
+#include "engine/core/error.h"
+#include "engine/io/qgc_plan.h"
+#include "engine/io/qgc_wpl.h"
+#include "engine/math/angles.h"
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/survey_picture.h"
+#include "tools/vinerow/survey_task.h"
+
+namespace vinerow::tools {
+namespace {
+
+void write_waypoints(const SurveyPlan& plan, const SurveyTask& task,
+                     const std::filesystem::path& file) {
+  const char* const kKinds[] = {"lane", "turn", "transit", "vertical", "return"};
+  const io::LocalFrame frame(task.origin);
+  std::ofstream out(file, std::ios::binary);
+  out << "waypoint,kind,lane,x_m,y_m,z_m,above_ground_m,latitude_deg,longitude_deg\n";
+  int number = 0;
+  for (const PathPoint& point : plan.path.points) {
+    const Eigen::Vector3d& p = point.p_W;
+    const io::Geodetic place = frame.to_geodetic(p);
+    const auto ground_m = task.ground(p.head<2>());
+    out << fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{:.9f},{:.9f}\n", number++,
+                       kKinds[static_cast<int>(point.kind)],
+                       point.alley >= 0 ? std::to_string(point.alley) : "", p.x(), p.y(), p.z(),
+                       ground_m ? fmt::format("{:.3f}", p.z() - *ground_m) : "",
+                       deg_from_rad(place.latitude_rad), deg_from_rad(place.longitude_rad));
+  }
+  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
+}
+
+void print_report(const SurveyTask& task, const SurveyPlan& plan) {
+  const auto n = [&](const char* name) { return plan.numbers.at(name); };
+  const SurveyCamera& camera = task.request.camera;
+  fmt::print(
+      "area             {:.2f} ha, {:.2f} % covered, every place on {:.0f} pictures or more "
+      "({:.1f} in the mean)\n",
+      n("area_ha"), 100.0 * n("covered_share"), n("views_min"), n("views_mean"));
+  fmt::print("camera           {} ({:g} mm, {} x {}), a picture shows {:.1f} x {:.1f} m\n",
+             camera.name, camera.focal_length_mm, camera.columns, camera.rows,
+             n("footprint_width_m"), n("footprint_length_m"));
+  fmt::print("height           {:.1f} m above the ground ({:.1f} to {:.1f} m on lanes)\n",
+             n("height_m"), n("height_above_ground_min_m"), n("height_above_ground_max_m"));
+  fmt::print("GSD              {:.1f} mm ({:.1f} to {:.1f} mm)\n", n("gsd_mm"), n("gsd_min_mm"),
+             n("gsd_max_mm"));
+  fmt::print(
+      "overlap          {:.1f} % ahead, {:.1f} % aside ({:.1f} %, {:.1f} % where the flight is "
+      "lowest)\n",
+      100.0 * n("forward_overlap"), 100.0 * n("side_overlap"), 100.0 * n("forward_overlap_min"),
+      100.0 * n("side_overlap_min"));
+  fmt::print(
+      "pictures         {:.0f}, one each {:.2f} m: each {:.2f} s at {:.1f} m/s over ground\n",
+      n("shots"), n("photo_distance_m"), n("photo_interval_s"), n("ground_speed_max_mps"));
+  fmt::print("lanes            {:.0f}, {:.1f} m apart, bearing {:.1f} deg\n", n("lanes"),
+             n("lane_spacing_m"), n("lane_bearing_deg"));
+  std::string order;
+  for (const int lane : plan.order) order += fmt::format(" {}", lane);
+  fmt::print("order           {}\n", order);
+  fmt::print("turns            radius {:.1f} m, {:.0f} skip lanes, {:.0f} swing out\n",
+             n("turn_radius_m"), n("skipping_turns"), n("wide_turns"));
+  fmt::print(
+      "waypoints        {:.0f}, of them {:.0f} corners of lanes and {:.0f} for the terrain\n",
+      n("waypoints"), n("corners"), n("ramp_points"));
+  fmt::print("ramps            {:.2f} m off the wanted height at most, slope up to {:.1f} %\n",
+             n("ramp_error_m"), 100.0 * n("slope_max"));
+  fmt::print("climb            {:.0f} m of way to the first height\n", n("climb_way_m"));
+  fmt::print("way              {:.0f} m, {:.0f} s; lanes {:.0f} m, turns {:.0f} m\n", n("length_m"),
+             n("flight_time_s"), n("lane_way_m"), n("turn_way_m"));
+  if (n("steep_terrain_extra_m") > task.request.ramp_error_m) {
+    fmt::print(
+        "note: up to {:.1f} m higher than wanted, where the terrain is steeper than {:.0f} %\n",
+        n("steep_terrain_extra_m"), 100.0 * task.request.max_slope);
+  }
+  if (n("samples_beyond_terrain") > 0.0) {
+    fmt::print("note: turns leave the terrain; its height at the edge goes on there\n");
+  }
+}
+
+void plan_and_write(const SurveyTask& task, const std::filesystem::path& out) {
+  const auto plan = plan_survey(task.request, task.start_W, task.ground);
+  if (!plan) throw ConfigError("survey: " + plan.reason());
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  if (error) {
+    throw ConfigError(
+        fmt::format("--out: folder '{}' cannot be made: {}", out.string(), error.message()));
+  }
+  const double home_m = task.ground(task.start_W.p.head<2>()).value_or(task.start_W.p.z());
+  const io::MissionFile mission =
+      make_survey_mission(*plan, task.origin, home_m, task.request.returns);
+  io::write_qgc_plan(mission, out / "survey.plan");
+  io::write_qgc_wpl(mission, out / "survey.waypoints");
+  write_waypoints(*plan, task, out / "waypoints.csv");
+  render::write_png((out / "survey.png").string(),
+                    draw_survey(task.request, *plan, task.ground, task.title));
+  print_report(task, *plan);
+  fmt::print("missions         {}, {}\nwaypoints        {}\npicture          {}\n",
+             (out / "survey.plan").string(), (out / "survey.waypoints").string(),
+             (out / "waypoints.csv").string(), (out / "survey.png").string());
+}
+
+std::filesystem::path out_of(const SurveyArguments& arguments, const SurveyTask& task) {
+  return arguments.out.empty() ? std::filesystem::path("surveys") / task.title : arguments.out;
+}
+
+}  // namespace
+
+void add_survey_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<SurveyArguments>();
+  arguments->heading_deg = std::numeric_limits<double>::quiet_NaN();
+  CLI::App* command = app.add_subcommand(
+      "survey",
+      "plan a survey from the air, of a scenario or of a polygon; write missions and a "
+      "picture");
+  add_scenario_arguments(*command, arguments->scenario);
+  command->get_option("scenario")->required(false);
+  command->add_option("--vehicle", arguments->vehicle,
+                      "vehicle of the scenario (default: the first with the planner 'survey')");
+  command->add_option("--polygon", arguments->polygon,
+                      "area without a scenario: GeoJSON, or CSV with x,y in metres");
+  command
+      ->add_option("--origin", arguments->origin,
+                   "latitude,longitude[,altitude] of x = y = 0 (default: the polygon's first "
+                   "corner)")
+      ->delimiter(',');
+  command->add_option("--dem", arguments->dem, "elevation model (GeoTIFF); without it flat ground");
+  command->add_option("--crs", arguments->crs, "of the elevation model, like EPSG:32632");
+  command
+      ->add_option("--start", arguments->start,
+                   "x,y of the start (default: the polygon's first corner)")
+      ->delimiter(',');
+  command->add_option("--heading", arguments->heading_deg,
+                      "of the start, degrees clockwise from north");
+  command->add_option("--out", arguments->out,
+                      "folder for survey.plan, survey.waypoints, waypoints.csv and survey.png "
+                      "(default: surveys/<name>)");
+  for (const ParameterSpec& spec : survey_spec().parameters) {
+    if (spec.kind == ParameterKind::kNumberList || spec.kind == ParameterKind::kPath) continue;
+    command->add_option("--" + spec.name, arguments->values[spec.name], spec.description)
+        ->group("Survey");
+  }
+  command->callback([arguments, &exit_status] {
+    const bool has_scenario = !arguments->scenario.file.empty();
+    if (has_scenario == !arguments->polygon.empty()) {
+      throw ConfigError("survey: give a scenario or --polygon, one of them");
+    }
+    if (has_scenario) {
+      Registry registry;
+      const io::Scenario scenario = load(arguments->scenario, registry);
+      Simulation simulation(scenario, registry);
+      const SurveyTask task = task_of_scenario(*arguments, scenario, simulation);
+      plan_and_write(task, out_of(*arguments, task));
+    } else {
+      const SurveyTask task = task_of_polygon(*arguments);
+      plan_and_write(task, out_of(*arguments, task));
+    }
+    exit_status = 0;
+  });
+}
+
+}  // namespace vinerow::tools

@@ -1,0 +1,189 @@
+#include "tools/vinerow/survey_task.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "controllers/planning/survey.h"
+#include "controllers/planning/survey_params.h"
+#include "engine/core/error.h"
+#include "engine/io/geojson.h"
+#include "engine/io/raster.h"
+#include "engine/math/angles.h"
+#include "engine/sim/vehicle_runtime.h"
+
+namespace vinerow::tools {
+namespace {
+
+double read_number(const std::string& name, const std::string& text) {
+  try {
+    std::size_t used = 0;
+    const double value = std::stod(text, &used);
+    if (used == text.size()) return value;
+  } catch (const std::exception&) {  // no number at all, or too large a one
+  }
+  throw ConfigError(fmt::format("--{}: '{}' is not a number", name, text));
+}
+
+/// Puts values of the command line into the planner's parameters, checked as a file's are.
+void set_values(const std::map<std::string, std::string>& values, ParameterSet& parameters) {
+  for (const ParameterSpec& spec : survey_spec().parameters) {
+    const auto found = values.find(spec.name);
+    if (found == values.end() || found->second.empty()) continue;
+    const std::string& text = found->second;
+    switch (spec.kind) {
+      case ParameterKind::kNumber:
+        parameters.set(spec.name, read_number(spec.name, text));
+        break;
+      case ParameterKind::kInteger:
+        parameters.set(spec.name, static_cast<std::int64_t>(read_number(spec.name, text)));
+        break;
+      case ParameterKind::kBoolean:
+        if (text != "true" && text != "false") {
+          throw ConfigError(fmt::format("--{}: '{}' must be true or false", spec.name, text));
+        }
+        parameters.set(spec.name, text == "true");
+        break;
+      default:
+        parameters.set(spec.name, text);
+    }
+  }
+}
+
+/// A place on the command line, "--origin 44.7,8.03".
+GeoOrigin find_origin(const SurveyArguments& arguments) {
+  GeoOrigin origin;
+  if (!arguments.origin.empty()) {
+    if (arguments.origin.size() > 3 || arguments.origin.size() < 2) {
+      throw ConfigError(
+          "--origin: must be latitude,longitude in degrees, or with an altitude in m");
+    }
+    origin.latitude_rad = rad_from_deg(arguments.origin[0]);
+    origin.longitude_rad = rad_from_deg(arguments.origin[1]);
+    if (arguments.origin.size() > 2) origin.altitude_m = arguments.origin[2];
+    return origin;
+  }
+  if (arguments.polygon.extension() == ".csv") {
+    throw ConfigError(
+        fmt::format("'{}' is in metres: --origin latitude,longitude must say where its (0, 0) is",
+                    arguments.polygon.string()));
+  }
+  for (const io::GeoFeature& feature : io::read_geojson(arguments.polygon)) {
+    if (feature.kind != io::GeometryKind::kPolygon) continue;
+    origin.latitude_rad = feature.points.front().latitude_rad;
+    origin.longitude_rad = feature.points.front().longitude_rad;
+    break;
+  }
+  return origin;
+}
+
+/// Flat ground, or that of an elevation model.
+GroundHeight find_ground(const SurveyArguments& arguments, GeoOrigin& origin) {
+  if (arguments.dem.empty()) return make_ground(nullptr, 0.0);
+  const auto lookup =
+      std::make_shared<io::ElevationLookup>(io::read_elevation(arguments.dem, arguments.crs));
+  if (arguments.origin.size() < 3) {  // W's zero is the ground at the origin
+    origin.altitude_m = lookup->height_m(origin.latitude_rad, origin.longitude_rad).value_or(0.0);
+  }
+  const auto frame = std::make_shared<io::LocalFrame>(origin);
+  return [lookup, frame](const Eigen::Vector2d& p) -> std::optional<double> {
+    const io::Geodetic place = frame->to_geodetic({p.x(), p.y(), 0.0});
+    const auto height_m = lookup->height_m(place.latitude_rad, place.longitude_rad);
+    if (!height_m) return std::nullopt;
+    return *height_m - place.altitude_m;
+  };
+}
+
+}  // namespace
+
+SurveyTask task_of_polygon(const SurveyArguments& arguments) {
+  if (!std::filesystem::exists(arguments.polygon)) {
+    throw ConfigError(fmt::format("--polygon: '{}' does not exist", arguments.polygon.string()));
+  }
+  SurveyTask task;
+  task.title = arguments.polygon.stem().string();
+  task.origin = find_origin(arguments);
+  task.ground = find_ground(arguments, task.origin);
+  ParameterSet parameters(survey_spec().parameters, "survey");
+  parameters.set("polygon_file", arguments.polygon.string());
+  set_values(arguments.values, parameters);
+  PlannerContext context;
+  context.origin = task.origin;
+  task.request = read_survey_request(parameters, context, "survey");
+  // Without a start: the first corner, heading away from the area.
+  Eigen::Vector2d start = task.request.polygon_W.front(), middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& p : task.request.polygon_W) {
+    middle += p / static_cast<double>(task.request.polygon_W.size());
+  }
+  double yaw_rad = std::atan2(start.y() - middle.y(), start.x() - middle.x());
+  if (!arguments.start.empty()) {
+    if (arguments.start.size() != 2) throw ConfigError("--start: must be x,y in metres");
+    start = {arguments.start[0], arguments.start[1]};
+  }
+  if (std::isfinite(arguments.heading_deg)) yaw_rad = rad_from_deg(90.0 - arguments.heading_deg);
+  const auto ground_m = task.ground(start);
+  if (!ground_m) {
+    // The polygon's own fault is the better sentence where it lies outside, too.
+    for (const Eigen::Vector2d& p : task.request.polygon_W) {
+      if (!task.ground(p)) return task;
+    }
+    throw ConfigError(fmt::format("--start: ({:.1f}, {:.1f}) lies outside the terrain of '{}'",
+                                  start.x(), start.y(), arguments.dem.string()));
+  }
+  task.start_W = {quaternion_from_rpy({0, 0, yaw_rad}), {start.x(), start.y(), *ground_m}};
+  return task;
+}
+
+namespace {
+
+const io::VehicleConfig& find_vehicle(const io::Scenario& scenario,
+                                      const SurveyArguments& arguments) {
+  const std::string file = arguments.scenario.file.string();
+  const io::VehicleConfig* found = nullptr;
+  for (const io::VehicleConfig& vehicle : scenario.vehicles) {
+    const bool surveys = vehicle.planner && vehicle.planner->type == "survey";
+    if (!arguments.vehicle.empty() && vehicle.name == arguments.vehicle) {
+      if (surveys) return vehicle;
+      throw ConfigError(fmt::format("{}: vehicle '{}' has {}, not the planner 'survey'", file,
+                                    vehicle.name,
+                                    vehicle.planner ? "the planner '" + vehicle.planner->type + "'"
+                                                    : std::string("no planner")));
+    }
+    if (arguments.vehicle.empty() && surveys && found == nullptr) found = &vehicle;
+  }
+  if (found != nullptr) return *found;
+  throw ConfigError(arguments.vehicle.empty()
+                        ? fmt::format("{}: no vehicle has the planner 'survey'", file)
+                        : fmt::format("{}: there is no vehicle '{}'", file, arguments.vehicle));
+}
+
+/// The simulation must outlive the task, whose ground it is.
+}  // namespace
+
+SurveyTask task_of_scenario(const SurveyArguments& arguments, const io::Scenario& scenario,
+                            Simulation& simulation) {
+  const io::VehicleConfig& config = find_vehicle(scenario, arguments);
+  SurveyTask task;
+  task.title = scenario.name;
+  task.origin = simulation.world().origin;
+  for (const auto& runtime : simulation.vehicles()) {
+    if (runtime->name() != config.name) continue;
+    Odometry truth;
+    runtime->vehicle().read_truth(truth);
+    task.start_W = truth.X_WB;
+    ParameterSet parameters = config.planner->parameters;
+    set_values(arguments.values, parameters);
+    PlannerContext context;
+    context.vehicle_description = &runtime->vehicle().description();
+    context.map = &simulation.world().rows;
+    context.scene = &simulation.physics().scene();
+    context.origin = task.origin;
+    context.gravity_mps2 = scenario.gravity_mps2;
+    task.request = read_survey_request(parameters, context, config.name + ".planner (survey)");
+    task.ground = make_ground(context.scene, 0.0);
+  }
+  return task;
+}
+
+}  // namespace vinerow::tools

@@ -1,0 +1,45 @@
+#pragma once
+/// What `vinerow survey` is asked to plan, from a scenario or from a polygon.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "controllers/planning/survey_heights.h"
+#include "controllers/planning/survey_request.h"
+#include "engine/api/world_model.h"
+#include "engine/sim/simulation.h"
+#include "tools/vinerow/commands.h"
+
+namespace vinerow::tools {
+
+/// What the command line of `vinerow survey` says.
+struct SurveyArguments {
+  ScenarioArguments scenario;
+  std::string vehicle;
+  std::filesystem::path polygon, dem, out;
+  std::string crs;
+  std::vector<double> origin, start;
+  double heading_deg = 0.0;
+  std::map<std::string, std::string> values;  ///< parameters of the planner, as texts
+};
+
+/// All that a survey needs, wherever it comes from.
+struct SurveyTask {
+  std::string title;
+  SurveyRequest request;
+  GroundHeight ground;
+  GeoOrigin origin;
+  Pose start_W;
+};
+
+/// Of the area in `polygon`, above flat ground or an elevation model. @throws ConfigError
+SurveyTask task_of_polygon(const SurveyArguments& arguments);
+
+/// Of a vehicle whose planner is `survey`. @param simulation  must outlive the task, whose ground
+/// it is @throws ConfigError
+SurveyTask task_of_scenario(const SurveyArguments& arguments, const io::Scenario& scenario,
+                            Simulation& simulation);
+
+}  // namespace vinerow::tools

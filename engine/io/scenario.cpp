@@ -46,6 +46,7 @@ class ScenarioReader {
     read_record();
     YamlNode pictures = yaml_mapping();
     scenario_.pictures = read_pictures(root_.find_entry("pictures"), vehicle_names_, pictures);
+    check_shot_cameras(scenario_.pictures, scenario_.vehicles);
     resolved_.put("pictures", std::move(pictures));
     scenario_.resolved_yaml =
         "# Written by vinerow: includes and overrides applied, defaults written out, paths "

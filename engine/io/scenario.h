@@ -62,12 +62,12 @@ struct VehicleConfig {
   SourceMark where;
 };
 
-enum class CameraKind { kFixed, kChase, kTop, kOnBoard };
+enum class CameraKind { kFixed, kChase, kTop, kOnBoard, kShots };
 
 struct CameraConfig {
   std::string name;
   CameraKind kind = CameraKind::kChase;
-  std::string vehicle;                      ///< chase, on board; top: follows it if given
+  std::string vehicle;                      ///< chase, on board, shots; top: follows it if given
   Eigen::Vector3d p_W = {0, 0, 10};         ///< fixed: position_m; z is above the ground
   Eigen::Vector3d target_W = {0, 0, 0};     ///< fixed: look_at_m
   std::optional<Eigen::Vector2d> centre_W;  ///< top: centre_m, the middle of the picture
@@ -81,8 +81,10 @@ struct CameraConfig {
   bool show_sensor_rays = false;
   bool show_trail = true;
   bool show_plan = true;
-  bool show_grid = false;  ///< the occupancy grid, of the log or the world
-  bool show_tree = false;  ///< what planners searched
+  bool show_grid = false;         ///< the occupancy grid, of the log or the world
+  bool show_tree = false;         ///< what planners searched
+  std::string sensor = "camera";  ///< shots: whose pictures are drawn
+  int every = 1;                  ///< shots: those whose index is a multiple of it
   SourceMark where;
 };
 

@@ -178,7 +178,7 @@ std::string spawn_forms_text() {
 }
 
 const std::vector<std::string>& camera_kinds() {
-  static const std::vector<std::string> kinds = {"fixed", "chase", "top", "on_board"};
+  static const std::vector<std::string> kinds = {"fixed", "chase", "top", "on_board", "shots"};
   return kinds;
 }
 
@@ -204,15 +204,24 @@ std::vector<ParameterSpec> camera_fields(const std::string& kind) {
                                              2)),
               number_parameter("height_m", "m", 0.0, 0.0, 1e5,
                                "what the picture shows from south to north; 0 = the whole world")};
+  } else if (kind == "shots") {
+    fields = {vehicle,
+              text_parameter("sensor", "camera", "the camera_trigger whose pictures are drawn"),
+              integer_parameter("every", 10, 1, 1e6, "pictures whose index is a multiple of it")};
   } else {
     fields = {vehicle, point("offset_m", {0.3, 0.0, 0.6}, "in the body frame: forward, left, up"),
               number_parameter("yaw_deg", "deg", 0.0, -360.0, 360.0, "view direction, to the left"),
               number_parameter("pitch_deg", "deg", 0.0, -90.0, 90.0, "positive looks down")};
   }
-  fields.push_back(number_parameter("fov_deg", "deg", 55.0, 1.0, 170.0, "vertical field of view"));
+  // What a survey camera sees is known, and lines over the ground are none of it.
+  const bool is_plain = kind == "shots";
+  if (!is_plain) {
+    fields.push_back(
+        number_parameter("fov_deg", "deg", 55.0, 1.0, 170.0, "vertical field of view"));
+  }
   fields.push_back(boolean_parameter("show_sensor_rays", false, "draw the rays of range sensors"));
-  fields.push_back(boolean_parameter("show_trail", true, "draw where the vehicles have been"));
-  fields.push_back(boolean_parameter("show_plan", true, "draw the planned paths"));
+  fields.push_back(boolean_parameter("show_trail", !is_plain, "draw where the vehicles have been"));
+  fields.push_back(boolean_parameter("show_plan", !is_plain, "draw the planned paths"));
   fields.push_back(boolean_parameter("show_grid", false, "draw the occupancy grid"));
   fields.push_back(boolean_parameter("show_tree", false, "draw what the planners searched"));
   return fields;

@@ -31,6 +31,9 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
 PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::string>& vehicles,
                              YamlNode& resolved);
 
+/// @throws ConfigError if a camera of kind shots names a sensor that its vehicle does not have
+void check_shot_cameras(const PicturesConfig& pictures, const std::vector<VehicleConfig>& vehicles);
+
 /// @throws ConfigError "unknown vehicle 'rovr'; did you mean 'rover'? (known: rover)"
 void check_vehicle(const std::string& vehicle, const std::vector<std::string>& vehicles,
                    const SourceMark& mark, const std::string& path);

@@ -57,7 +57,7 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
   CameraConfig camera;
   camera.name = entry.key;
   camera.where = entry.mark;
-  camera.fov_rad = rad_from_deg(values.number("fov_deg"));
+  if (kind != "shots") camera.fov_rad = rad_from_deg(values.number("fov_deg"));
   camera.show_sensor_rays = values.boolean("show_sensor_rays");
   camera.show_trail = values.boolean("show_trail");
   camera.show_plan = values.boolean("show_plan");
@@ -80,13 +80,17 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
       const std::vector<double>& p = values.numbers("centre_m");
       camera.centre_W = Eigen::Vector2d(p[0], p[1]);
     }
+  } else if (kind == "shots") {
+    camera.kind = CameraKind::kShots;
+    camera.sensor = values.text("sensor");
+    camera.every = static_cast<int>(values.integer("every"));
   } else {
     camera.kind = CameraKind::kOnBoard;
     camera.offset_B = vector_of(values, "offset_m");
     camera.yaw_rad = rad_from_deg(values.number("yaw_deg"));
     camera.pitch_rad = rad_from_deg(values.number("pitch_deg"));
   }
-  const bool follows = kind == "chase" || kind == "on_board";
+  const bool follows = kind == "chase" || kind == "on_board" || kind == "shots";
   const YamlEntry* named = node.find_entry("vehicle");
   if (named) {
     camera.vehicle = values.text("vehicle");
@@ -115,6 +119,25 @@ YamlNode default_cameras(const std::vector<std::string>& vehicles) {
 }
 
 }  // namespace
+
+void check_shot_cameras(const PicturesConfig& pictures,
+                        const std::vector<VehicleConfig>& vehicles) {
+  for (const CameraConfig& camera : pictures.cameras) {
+    if (camera.kind != CameraKind::kShots) continue;
+    for (const VehicleConfig& vehicle : vehicles) {
+      if (vehicle.name != camera.vehicle) continue;
+      std::vector<std::string> known;
+      for (const NamedPart& sensor : vehicle.sensors) known.push_back(sensor.name);
+      if (std::find(known.begin(), known.end(), camera.sensor) != known.end()) continue;
+      fail_at(
+          camera.where,
+          fmt::format("pictures.cameras.{}.sensor = '{}', must be a sensor of {}{} "
+                      "(known: {})",
+                      camera.name, camera.sensor, vehicle.name, did_you_mean(camera.sensor, known),
+                      known.empty() ? "none" : join(known)));
+    }
+  }
+}
 
 PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::string>& vehicles,
                              YamlNode& resolved) {

@@ -88,16 +88,62 @@ struct Summary {
   }
 };
 
-void add_cell_shares(CoverageMap& map, double wanted_overlap) {
-  double inside = 0.0, once = 0.0, twice = 0.0, thrice = 0.0, overlapped = 0.0;
+/// Of every cell the largest overlap of a pair of pictures that both see it, and the smallest such
+/// overlap on the lane where that is largest.
+class CellOverlaps {
+ public:
+  explicit CellOverlaps(const CoverageMap& map)
+      : largest_(map.pictures.size(), 0.0f),
+        on_lane_(map.pictures.size(), kNoPair),
+        held_(map.pictures.size(), 0.0f) {}
+
+  void add(std::size_t cell, double overlap) {
+    largest_[cell] = std::max(largest_[cell], static_cast<float>(overlap));
+    on_lane_[cell] = std::min(on_lane_[cell], static_cast<float>(overlap));
+  }
+  void end_lane() {
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      if (on_lane_[i] < kNoPair) held_[i] = std::max(held_[i], on_lane_[i]);
+      on_lane_[i] = kNoPair;
+    }
+  }
+  float largest(std::size_t cell) const { return largest_[cell]; }
+  float held(std::size_t cell) const { return held_[cell]; }
+
+ private:
+  static constexpr float kNoPair = 2.0f;
+  std::vector<float> largest_, on_lane_, held_;
+};
+
+Summary find_forward_overlaps(const std::vector<Footprint>& footprints, const CoverageMap& map,
+                              CellOverlaps& cells) {
+  Summary forward;
+  for (std::size_t i = 0; i + 1 < footprints.size(); ++i) {
+    const Footprint &a = footprints[i], &b = footprints[i + 1];
+    if (a.lane != b.lane) cells.end_lane();
+    if (b.index != a.index + 1 || a.lane < 0 || a.lane != b.lane) continue;
+    const Polygon common = clip(a.polygon_W, b.polygon_W);
+    const double overlap = signed_area_m2(common) / a.area_m2;
+    if (a.touches_parcel && b.touches_parcel) forward.add(overlap);
+    for_each_cell_in(common, map, [&](std::size_t cell) { cells.add(cell, overlap); });
+  }
+  cells.end_lane();
+  return forward;
+}
+
+/// Fills the map's overlap too.
+void add_cell_shares(const CellOverlaps& cells, double wanted_overlap, CoverageMap& map) {
+  double inside = 0.0, once = 0.0, twice = 0.0, thrice = 0.0, covered = 0.0, held = 0.0;
   const auto wanted = static_cast<float>(wanted_overlap - kRounding);
   for (std::size_t i = 0; i < map.pictures.size(); ++i) {
     if (map.pictures[i] < 0) continue;
+    map.forward_overlap[i] = cells.held(i);
     inside += 1.0;
     once += map.pictures[i] >= 1;
     twice += map.pictures[i] >= 2;
     thrice += map.pictures[i] >= 3;
-    overlapped += map.forward_overlap[i] >= wanted;
+    covered += cells.largest(i) >= wanted;
+    held += cells.held(i) >= wanted;
   }
   const auto share = [inside](double count) {
     return inside > 0.0 ? count / inside : std::numeric_limits<double>::quiet_NaN();
@@ -105,24 +151,8 @@ void add_cell_shares(CoverageMap& map, double wanted_overlap) {
   map.numbers["covered_share"] = share(once);
   map.numbers["covered_twice_share"] = share(twice);
   map.numbers["covered_three_times_share"] = share(thrice);
-  map.numbers["overlap_covered_share"] = share(overlapped);
-}
-
-/// Fills the cells' overlap too.
-Summary find_forward_overlaps(const std::vector<Footprint>& footprints, CoverageMap& map) {
-  Summary forward;
-  for (std::size_t i = 0; i + 1 < footprints.size(); ++i) {
-    const Footprint &a = footprints[i], &b = footprints[i + 1];
-    if (b.index != a.index + 1 || a.lane < 0 || a.lane != b.lane) continue;
-    const Polygon common = clip(a.polygon_W, b.polygon_W);
-    const double overlap = signed_area_m2(common) / a.area_m2;
-    if (a.touches_parcel && b.touches_parcel) forward.add(overlap);
-    for_each_cell_in(common, map, [&](std::size_t cell) {
-      float& best = map.forward_overlap[cell];
-      if (best >= 0.0f) best = std::max(best, static_cast<float>(overlap));
-    });
-  }
-  return forward;
+  map.numbers["overlap_covered_share"] = share(covered);
+  map.numbers["overlap_held_share"] = share(held);
 }
 
 }  // namespace
@@ -141,6 +171,7 @@ const std::vector<std::string>& coverage_number_names() {
                                                  "covered_twice_share",
                                                  "covered_three_times_share",
                                                  "overlap_covered_share",
+                                                 "overlap_held_share",
                                                  "forward_overlap_min",
                                                  "forward_overlap_mean",
                                                  "side_overlap_min",
@@ -202,13 +233,14 @@ CoverageMap map_coverage(const std::vector<LaneShot>& shots, const CoverageOptio
     }
     footprints.push_back(std::move(footprint));
   }
-  const Summary forward = find_forward_overlaps(footprints, map);
+  CellOverlaps cells(map);
+  const Summary forward = find_forward_overlaps(footprints, map, cells);
   Summary side;
   for (const double overlap : side_overlaps(footprints)) side.add(overlap);
 
   map.numbers["shots"] = static_cast<double>(shots.size());
   map.numbers["shots_off_ground"] = static_cast<double>(shots.size() - footprints.size());
-  add_cell_shares(map, options.wanted_overlap);
+  add_cell_shares(cells, options.wanted_overlap, map);
   map.numbers["forward_overlap_min"] = forward.or_nan(forward.min);
   map.numbers["forward_overlap_mean"] = forward.or_nan(forward.sum / forward.count);
   map.numbers["side_overlap_min"] = side.or_nan(side.min);

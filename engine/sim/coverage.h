@@ -8,9 +8,9 @@
 /// 1 - spacing / width to the side.
 ///
 /// Forward overlap is that of consecutive pictures (index and next index) of one lane, both of
-/// which touch the parcel. A place has the largest forward overlap of the pairs whose two pictures
-/// both see it; 0 where none does. "Covered by 85 % forward overlap" means that this is at least
-/// 0.85: the place is seen by consecutive pictures that have at least 85 % in common.
+/// which touch the parcel. A place is *covered* by 85 % forward overlap where consecutive pictures
+/// of a lane see it that have at least 85 % in common; that overlap is *held* there where, on some
+/// lane, all consecutive pictures that both see the place have as much in common.
 ///
 /// Side overlap is that of a picture with the strip of a neighbouring lane, where the strip is the
 /// hull of those two pictures of that lane between which it was taken; lanes are neighbours by
@@ -45,7 +45,10 @@ struct CoverageMap {
   int columns = 0;
   int rows = 0;
   std::vector<std::int32_t> pictures;  ///< that see the cell's middle; -1 outside the parcel
-  std::vector<float> forward_overlap;  ///< 0 to 1; -1 outside the parcel
+  /// What is held there: of the consecutive pictures of a lane that both see the cell's middle the
+  /// smallest overlap, on the lane where that is largest; 0 without such pictures, -1 outside the
+  /// parcel.
+  std::vector<float> forward_overlap;
   /// See coverage_number_names(); NaN where there is nothing to measure.
   std::map<std::string, double> numbers;
 
@@ -57,7 +60,7 @@ struct CoverageMap {
 
 /// shots, shots_off_ground (a corner meets no ground: these count nowhere else), and
 ///   covered_share, covered_twice_share, covered_three_times_share: of the parcel's cells
-///   overlap_covered_share: of the parcel's cells, forward overlap at least the wanted one
+///   overlap_covered_share, overlap_held_share: of the parcel's cells, with the wanted overlap
 ///   forward_overlap_min, forward_overlap_mean, side_overlap_min, side_overlap_mean
 ///   gsd_min_m, gsd_mean_m, gsd_max_m: of the pictures that touch the parcel
 ///   gsd_formula_error_max, gsd_formula_error_mean: by how much, as a share, their GSD exceeds that

@@ -50,6 +50,19 @@ FrameComposer::FrameComposer(const io::Scenario& scenario, const WorldModel& wor
   }
 }
 
+std::optional<ShotView> view_of(const Trace<CameraShot>& shots) {
+  for (const CameraShot& shot : shots.values) {
+    if (!shot.on_ground) continue;
+    const Eigen::Vector3d upper_left_S = shot.X_WS.inverse() * shot.corners_W[0];
+    return ShotView{upper_left_S.y() / upper_left_S.x(), upper_left_S.z() / upper_left_S.x()};
+  }
+  return std::nullopt;
+}
+
+const Trace<CameraShot>& FrameComposer::shots_of(const io::CameraConfig& camera) const {
+  return trace_of(camera.vehicle).shots.at(camera.sensor);
+}
+
 const VehicleTrace& FrameComposer::trace_of(const std::string& vehicle) const {
   return trace_.vehicles.at(vehicle);
 }
@@ -100,6 +113,11 @@ render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, doub
       const Eigen::Vector3d half(0.5 * camera.height_m * aspect, 0.5 * camera.height_m, 1.0);
       return render::top_camera(Eigen::AlignedBox3d(centre - half, centre + half), aspect, 0.0);
     }
+    case io::CameraKind::kShots: {
+      const Trace<CameraShot>& shots = shots_of(camera);
+      return render::on_board_camera(shots.values[shots.index_at(t)].X_WS, Pose{},
+                                     2.0 * std::atan(view_of(shots)->along));
+    }
     case io::CameraKind::kFixed:
       break;
   }
@@ -114,7 +132,8 @@ void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::F
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
     const io::VehicleConfig& config = scenario_.vehicles[v];
     const bool from_inside =
-        camera.kind == io::CameraKind::kOnBoard && camera.vehicle == config.name;
+        (camera.kind == io::CameraKind::kOnBoard || camera.kind == io::CameraKind::kShots) &&
+        camera.vehicle == config.name;
     const Trace<Odometry>& truth = trace_of(config.name).truth;
     if (truth.empty() || from_inside) continue;
     render::Polyline trail;
@@ -194,8 +213,15 @@ render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) con
   frame.width = scenario_.pictures.width;
   frame.height = scenario_.pictures.height;
   frame.samples = scenario_.pictures.samples;
+  const bool is_shot = camera.kind == io::CameraKind::kShots;
+  if (is_shot) {
+    const ShotView view = *view_of(shots_of(camera));
+    frame.width = static_cast<int>(std::lround(frame.height * view.across / view.along));
+  }
   frame.camera = place(camera, t, static_cast<double>(frame.width) / frame.height);
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
+    // The lens looks out of the hull.
+    if (is_shot && scenario_.vehicles[v].name == camera.vehicle) continue;
     frame.vehicles.push_back(
         {&vehicles_[v]->links(), trace_of(scenario_.vehicles[v].name).links_at(t)});
     if (frame.vehicles.back().X_WL.empty()) frame.vehicles.pop_back();
@@ -212,6 +238,12 @@ render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) con
     if (trace_of(vehicle.name).truth.empty()) continue;
     line += fmt::format("   {} {:.2f} m/s", vehicle.name,
                         trace_of(vehicle.name).truth_at(t).v_WB_B.norm());
+  }
+  if (is_shot) {
+    const Trace<CameraShot>& shots = shots_of(camera);
+    const CameraShot& shot = shots.values[shots.index_at(t)];
+    line = fmt::format("picture {}   {:.1f} m to the ground, {:.1f} mm per pixel", shot.index,
+                       shot.distance_m, 1e3 * shot.gsd_m);
   }
   frame.caption.push_back(line);
   return frame;

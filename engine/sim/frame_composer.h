@@ -2,6 +2,7 @@
 /// From a log's trace at one instant to the frame of one camera.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,22 @@
 
 namespace vinerow {
 
+/// Tangents of half the angles of view of a survey camera, from where its corners met the ground.
+struct ShotView {
+  double across = 0.0;
+  double along = 0.0;
+};
+/// @returns nullopt where no picture has all its corners on the ground
+std::optional<ShotView> view_of(const Trace<CameraShot>& shots);
+
 class FrameComposer {
  public:
   /// @param vehicles  same order as scenario.vehicles; only their links are used
   FrameComposer(const io::Scenario& scenario, const WorldModel& world,
                 const std::vector<std::unique_ptr<Vehicle>>& vehicles, const LogTrace& trace);
 
+  /// @param camera  one of kind shots shows the last picture taken until t; @pre view_of() knows
+  /// the camera's view
   render::Frame compose(const io::CameraConfig& camera, Time t) const;
 
  private:
@@ -25,6 +36,7 @@ class FrameComposer {
   void add_plans(Time t, render::Frame& frame) const;
   void add_trees(Time t, render::Frame& frame) const;
   void add_rays(Time t, render::Frame& frame) const;
+  const Trace<CameraShot>& shots_of(const io::CameraConfig& camera) const;
   double ground_m(double x, double y) const;
   bool flies(const std::string& vehicle) const;
   const VehicleTrace& trace_of(const std::string& vehicle) const;

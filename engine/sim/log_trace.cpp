@@ -44,6 +44,7 @@ template struct Trace<LinkPoses>;
 template struct Trace<PlannedPath>;
 template struct Trace<LineList>;
 template struct Trace<RangeSample>;
+template struct Trace<CameraShot>;
 
 Odometry VehicleTrace::truth_at(Time t) const {
   const Bracket at = bracket(truth.times, t);
@@ -85,10 +86,12 @@ LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>
       if (channel.topic == prefix + "plan") read_into(log, channel.topic, vehicle.plan);
       if (channel.topic == prefix + "plan_tree") read_into(log, channel.topic, vehicle.plan_tree);
       const auto type = channel.metadata.find("vinerow_type");
-      if (type != channel.metadata.end() && type->second == RangeSample::kType &&
-          channel.topic.starts_with(prefix)) {
-        read_into(log, channel.topic, vehicle.ranges[channel.topic.substr(prefix.size())]);
+      if (type == channel.metadata.end() || !channel.topic.starts_with(prefix)) continue;
+      const std::string sensor = channel.topic.substr(prefix.size());
+      if (type->second == RangeSample::kType) {
+        read_into(log, channel.topic, vehicle.ranges[sensor]);
       }
+      if (type->second == CameraShot::kType) read_into(log, channel.topic, vehicle.shots[sensor]);
     }
   }
   return trace;

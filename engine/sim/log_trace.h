@@ -30,6 +30,7 @@ struct VehicleTrace {
   Trace<PlannedPath> plan;
   Trace<LineList> plan_tree;
   std::map<std::string, Trace<RangeSample>> ranges;  ///< by sensor
+  std::map<std::string, Trace<CameraShot>> shots;    ///< by sensor
 
   /// Pose and speed at t, between the samples around it (constant twist is not assumed: straight
   /// and slerp).

@@ -61,6 +61,25 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
   return times;
 }
 
+/// Instants of one camera's frames. Of a camera of kind shots: when its pictures were taken, or the
+/// given instants from the first picture on where the schedule is not the scenario's.
+std::set<Time> times_of(const io::CameraConfig& camera, const std::set<Time>& schedule,
+                        bool own_schedule, const LogTrace& trace) {
+  if (camera.kind != io::CameraKind::kShots) return schedule;
+  const auto& shots = trace.vehicles.at(camera.vehicle).shots;
+  const auto found = shots.find(camera.sensor);
+  if (found == shots.end() || !view_of(found->second)) return {};
+  std::set<Time> times;
+  if (own_schedule) {
+    times = {schedule.lower_bound(found->second.times.front()), schedule.end()};
+    return times;
+  }
+  for (std::size_t i = 0; i < found->second.values.size(); ++i) {
+    if (found->second.values[i].index % camera.every == 0) times.insert(found->second.times[i]);
+  }
+  return times;
+}
+
 std::vector<std::unique_ptr<Vehicle>> build_vehicles(const io::Scenario& scenario,
                                                      const Registry& registry) {
   std::vector<std::unique_ptr<Vehicle>> vehicles;
@@ -112,13 +131,23 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   const LogTrace trace = read_trace(reader, names);
   const FrameComposer composer(scenario, *world, vehicles, trace);
-  const std::set<Time> times = frame_times(scenario.pictures, options, trace);
+  const std::set<Time> schedule = frame_times(scenario.pictures, options, trace);
+  std::vector<std::set<Time>> times_by_camera;
+  std::set<Time> times;
+  int total = 0;
+  for (const io::CameraConfig& camera : cameras) {
+    times_by_camera.push_back(
+        times_of(camera, schedule, options.times_s || options.every_s, trace));
+    times.insert(times_by_camera.back().begin(), times_by_camera.back().end());
+    total += static_cast<int>(times_by_camera.back().size());
+  }
 
   std::filesystem::create_directories(out);
   const auto start = std::chrono::steady_clock::now();
-  const int total = static_cast<int>(times.size() * cameras.size());
   for (const Time t : times) {
-    for (const io::CameraConfig& camera : cameras) {
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      if (!times_by_camera[c].contains(t)) continue;
+      const io::CameraConfig& camera = cameras[c];
       const render::Image image = (*renderer)->draw(composer.compose(camera, t));
       const auto file = out / fmt::format("{}_{:09d}.png", camera.name, t.ns / 1'000'000);
       render::write_png(file.string(), image);

@@ -131,6 +131,54 @@ TEST(Vineyard, OtherParametersUseOtherFiles) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Vineyard, SurroundingsChangeNothingInTheParcel) {
+  ParameterSet parameters = test::world_parameters("vineyard");
+  parameters.set("row_count", std::int64_t{2}).set("row_length_m", 12.0);
+  const auto narrow = test::make_world("vineyard", parameters);
+  parameters.set("surroundings_m", 106.0);
+  const auto wide = test::make_world("vineyard", parameters);
+  const HeightField &small = *narrow->terrain, &large = *wide->terrain;
+  EXPECT_EQ(large.columns, small.columns + 400);
+  // The grids share their samples: 100 m are 200 cells.
+  float difference = 0.0f;
+  for (int j = 0; j < small.rows; ++j) {
+    for (int i = 0; i < small.columns; ++i) {
+      const float near = small.heights_m[static_cast<std::size_t>(j * small.columns + i)];
+      const float far =
+          large.heights_m[static_cast<std::size_t>((j + 200) * large.columns + i + 200)];
+      difference = std::max(difference, std::abs(near - far));
+    }
+  }
+  EXPECT_LT(difference, 1e-5f);
+  ASSERT_EQ(wide->rows.rows.size(), narrow->rows.rows.size());
+  EXPECT_LT((wide->rows.rows[1].line_W[0] - narrow->rows.rows[1].line_W[0]).norm(), 1e-5);
+}
+
+TEST(Vineyard, TheHillsideEndsInARidgeAndAValley) {
+  ParameterSet parameters = test::world_parameters("vineyard");
+  parameters.set("surroundings_m", 400.0).set("slope_fade_m", 150.0).set("terrain_cell_m", 2.0);
+  parameters.set("row_count", std::int64_t{1}).set("relief_m", 30.0);
+  parameters.set("waves_m", 0.0).set("row_bearing_deg", 90.0).set("uphill_bearing_deg", 90.0);
+  const auto world = test::make_world("vineyard", parameters);
+  // By hand: 30 m over rows of 118 m along the slope. It goes on over headlands of 10 m, the 6 m of
+  // ground that are always there and one cell; then it fades, which climbs half as much as it would
+  // have over 150 m, and is over.
+  const double slope = 30.0 / 118.0, centre = 71.4, plain = 59.0 + 10.0 + 6.0 + 2.0;
+  const auto height_m = [&](double uphill_m) {
+    return world->terrain->height_m(centre + uphill_m, 38.9);
+  };
+  const double level = height_m(0.0);
+  EXPECT_NEAR(height_m(70.0) - level, 70.0 * slope, 1e-3);
+  EXPECT_NEAR(height_m(-76.0) - level, -76.0 * slope, 1e-3);
+  for (const double beyond : {150.0, 220.0, 300.0}) {
+    EXPECT_NEAR(height_m(plain + beyond) - level, (plain + 75.0) * slope, 1e-3) << beyond;
+    EXPECT_NEAR(height_m(-plain - beyond) - level, -(plain + 75.0) * slope, 1e-3) << beyond;
+  }
+  // Half-way the slope is half: 1 - 3/4 + 2/8. The climb until there is 150 (1/2 - 1/8 + 1/32).
+  EXPECT_NEAR(height_m(plain + 75.0) - level, (plain + 150.0 * 0.40625) * slope, 0.01);
+  EXPECT_NEAR((height_m(plain + 77.0) - height_m(plain + 73.0)) / 4.0, 0.5 * slope, 1e-3);
+}
+
 TEST(Vineyard, RefusesBadInputInOneSentence) {
   const auto error = [](const char* name, ParameterSet::Value value) {
     return test::config_error_of([&] {

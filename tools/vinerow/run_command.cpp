@@ -76,6 +76,17 @@ void print_result(const RunResult& result, const std::filesystem::path& out, boo
   fmt::print(stderr, "vinerow: {}{}\n", broke_off ? "the run broke off: " : "", result.error);
 }
 
+/// Where the vehicles took pictures of the ground.
+void map_coverage_of(const std::filesystem::path& out, const Registry& registry) {
+  // What an earlier run left in the same folder would be taken for this one's.
+  for (const char* file : {"coverage.png", "coverage.json"}) {
+    std::error_code failed;
+    std::filesystem::remove(out / file, failed);
+  }
+  const auto files = write_coverage(out / "log.mcap", registry, {}, out / "coverage.png");
+  for (const std::filesystem::path& file : files) fmt::print("coverage {}\n", file.string());
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_status) {
@@ -107,7 +118,9 @@ void add_run_command(CLI::App& app, int& exit_status) {
     options.interrupted = [] { return interrupt_seen != 0; };
     const RunResult result = run_scenario(scenario, registry, options);
     line.end();
-    print_result(result, options.out, options.log && scenario.record.enabled);
+    const bool with_log = options.log && scenario.record.enabled;
+    print_result(result, options.out, with_log);
+    if (with_log && options.pictures) map_coverage_of(options.out, registry);
     exit_status = static_cast<int>(result.status);
   });
 }

@@ -10,6 +10,25 @@
 #include "engine/math/angles.h"
 
 namespace vinerow::worlds {
+namespace {
+
+/// What a slope of one that fades out over `fade_m` climbs on the first `way_m` of that.
+double faded_climb_m(double way_m, double fade_m) {
+  if (way_m >= fade_m) return 0.5 * fade_m;
+  const double u = way_m / fade_m;
+  return fade_m * (u - u * u * u + 0.5 * u * u * u * u);
+}
+
+/// By how much the hillside is lower than its plane, uphill distance `along_m` from the centre.
+double calc_missing_m(const TerrainShape& shape, double along_m) {
+  const double above_m = along_m - shape.hillside_to_m;
+  if (above_m > 0.0) return above_m - faded_climb_m(above_m, shape.fade_m);
+  const double below_m = shape.hillside_from_m - along_m;
+  if (below_m > 0.0) return faded_climb_m(below_m, shape.fade_m) - below_m;
+  return 0.0;
+}
+
+}  // namespace
 
 TerrainSurface::TerrainSurface(const TerrainShape& shape, RandomStream random) : shape_(shape) {
   constexpr int kWaves = 6;
@@ -25,6 +44,11 @@ TerrainSurface::TerrainSurface(const TerrainShape& shape, RandomStream random) :
 
 double TerrainSurface::height_m(const Eigen::Vector2d& p_W) const {
   double height = shape_.centre_height_m + shape_.gradient.dot(p_W - shape_.centre_W);
+  const double slope = shape_.gradient.norm();
+  if (slope > 0.0) {
+    const double along_m = shape_.gradient.dot(p_W - shape_.centre_W) / slope;
+    height -= slope * calc_missing_m(shape_, along_m);
+  }
   // Amplitude h/sqrt(12) each: six of them have rms h/2.
   const double amplitude = shape_.wave_height_m / std::sqrt(12.0);
   if (amplitude > 0.0) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,17 @@
 namespace vinerow::worlds {
 
 /// h(x, y) = gradient . (p - centre) + waves(p) + height of the centre, plus clods on the grid's
-/// samples.
+/// samples. Above and below a hillside the gradient may fade out, so that it lies between a valley
+/// and a ridge.
 struct TerrainShape {
   Eigen::Vector2d centre_W = {0, 0};
   double centre_height_m = 0.0;
   Eigen::Vector2d gradient = {0, 0};  ///< dh/dx, dh/dy
+  /// Between these distances from the centre, uphill, the ground rises by the gradient; beyond them
+  /// that goes to zero over `fade_m`, as 1 - 3 u^2 + 2 u^3 of the way u of it.
+  double hillside_from_m = -std::numeric_limits<double>::infinity();
+  double hillside_to_m = std::numeric_limits<double>::infinity();
+  double fade_m = 0.0;
   double wave_height_m =
       0.0;  ///< amplitude of the undulation (sum of six plane waves, rms = height / 2)
   double wave_length_m = 40.0;

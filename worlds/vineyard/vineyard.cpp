@@ -20,8 +20,8 @@ namespace {
 /// not read.
 constexpr int kGeneratorVersion = 2;
 
-constexpr double kGroundMargin_m =
-    6.0;  // ground beyond the parcel, so that its edge is out of sight
+/// The parcel and as much ground around it as is there by default keep the slope of the rows.
+constexpr double kGroundMargin_m = 6.0;
 
 PartSpec vineyard_spec() {
   PartSpec spec;
@@ -50,6 +50,11 @@ PartSpec vineyard_spec() {
                                   "each 118 m of row length")),
         number_parameter("uphill_bearing_deg", "deg", 92, -360, 360,
                          "direction in which the ground rises, from north clockwise"),
+        number_parameter("surroundings_m", "m", kGroundMargin_m, 0, 5000,
+                         "ground beyond the parcel's box, for what flies over it"),
+        positive_parameter("slope_fade_m", "m", 200,
+                           "beyond the parcel the slope fades out over this way, to a ridge above "
+                           "and a valley below"),
         path_parameter(
             "mesh_folder",
             "where mesh files are kept; default: $VINEROW_CACHE or the user's cache folder")},
@@ -125,18 +130,39 @@ TerrainShape fit_relief(const ParameterSet& parameters, const std::vector<RowCur
   return with_slope(relief_m > 0.0 ? high : 0.0);
 }
 
+Eigen::AlignedBox2d widened(const Eigen::AlignedBox2d& box, double by_m) {
+  const Eigen::Vector2d margin(by_m, by_m);
+  return {Eigen::Vector2d(box.min() - margin), Eigen::Vector2d(box.max() + margin)};
+}
+
+/// Lets the slope fade out beyond a box.
+void limit_hillside(const Eigen::AlignedBox2d& box_W, double fade_m, TerrainShape& shape) {
+  if (shape.gradient.isZero()) return;
+  const Eigen::Vector2d uphill = shape.gradient.normalized();
+  shape.hillside_from_m = std::numeric_limits<double>::infinity();
+  shape.hillside_to_m = -shape.hillside_from_m;
+  for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
+                            Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
+    const double along_m = uphill.dot(box_W.corner(corner) - shape.centre_W);
+    shape.hillside_from_m = std::min(shape.hillside_from_m, along_m);
+    shape.hillside_to_m = std::max(shape.hillside_to_m, along_m);
+  }
+  shape.fade_m = fade_m;
+}
+
 HeightField make_ground(const ParameterSet& parameters, const std::vector<RowCurve>& rows,
                         const std::vector<Eigen::Vector2d>& boundary_W, std::uint64_t seed,
                         const GeoOrigin& origin) {
-  Eigen::AlignedBox2d box = box_around(boundary_W);
-  const Eigen::Vector2d margin(kGroundMargin_m, kGroundMargin_m);
-  box =
-      Eigen::AlignedBox2d(Eigen::Vector2d(box.min() - margin), Eigen::Vector2d(box.max() + margin));
+  const Eigen::AlignedBox2d parcel = box_around(boundary_W);
+  const Eigen::AlignedBox2d box = widened(parcel, parameters.number("surroundings_m"));
   TerrainShape shape;
   ParameterSet fitted = parameters;
   if (!parameters.has("dem_file")) {
     double wave_height_m = 0.0;
     shape = fit_relief(parameters, rows, seed, &wave_height_m);
+    // The grid may reach one cell beyond its box.
+    limit_hillside(widened(parcel, kGroundMargin_m + parameters.number("terrain_cell_m")),
+                   parameters.number("slope_fade_m"), shape);
     fitted.set("waves_m", wave_height_m);
   }
   return build_terrain(fitted, seed, origin, shape, box);
@@ -162,7 +188,7 @@ std::string mesh_key(const ParameterSet& parameters, const HeightField& terrain)
   for (const char* name : {"sun_azimuth_deg", "sun_elevation_deg"}) shaping.set(name, 45.0);
   shaping.set("soil", std::string("dry_grass"));
   shaping.set("mesh_folder", std::string());
-  std::vector<std::string> without{"wind"};
+  std::vector<std::string> without{"wind", "surroundings_m", "slope_fade_m"};
   for (const auto& specs : {map_parameters(), obstacle_parameters()}) {
     for (const ParameterSpec& spec : specs) without.push_back(spec.name);
   }

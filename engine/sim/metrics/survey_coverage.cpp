@@ -7,7 +7,6 @@
 
 #include "engine/api/plan_stretch.h"
 #include "engine/core/error.h"
-#include "engine/sim/coverage.h"
 
 namespace vinerow {
 namespace {
@@ -29,15 +28,13 @@ Polygon given_parcel(const ParameterSet& parameters) {
   return parcel;
 }
 
-class SurveyCoverage final : public Metric {
+class SurveyMetric final : public Metric {
  public:
-  SurveyCoverage(const ParameterSet& parameters, const MetricContext& context)
+  SurveyMetric(const ParameterSet& parameters, const MetricContext& context)
       : camera_(parameters.has("camera") ? parameters.text("camera") : "camera"),
         is_wanted_(parameters.has("camera") ||
                    context.vehicle_description->numbers.contains("wing_span_m")) {
-    options_.cell_m = parameters.number("cell_m");
-    options_.wanted_overlap = parameters.number("wanted_overlap");
-    options_.parcel_W = given_parcel(parameters);
+    options_ = read_coverage_options(parameters);
     if (options_.parcel_W.empty() && context.world != nullptr) {
       options_.parcel_W = context.world->rows.boundary_W;
     }
@@ -58,7 +55,7 @@ class SurveyCoverage final : public Metric {
     if (!shot_.is_newer_than(shots_seen_)) return;
     const CameraShot& shot = shot_.value();
     const Odometry& truth = truth_.value();
-    const int lane = plan_.has_plan() ? plan_.lane(shot.X_WS.p, truth.X_WB.q * truth.v_WB_B) : 0;
+    const int lane = plan_.has_plan() ? plan_.lane(truth.X_WB.p, truth.X_WB.q * truth.v_WB_B) : 0;
     shots_.push_back({shot, lane});
   }
 
@@ -109,9 +106,14 @@ PartSpec survey_coverage_spec() {
   return spec;
 }
 
+CoverageOptions read_coverage_options(const ParameterSet& parameters) {
+  return {given_parcel(parameters), parameters.number("cell_m"),
+          parameters.number("wanted_overlap")};
+}
+
 std::unique_ptr<Metric> make_survey_coverage(const ParameterSet& parameters,
                                              const MetricContext& context) {
-  return std::make_unique<SurveyCoverage>(parameters, context);
+  return std::make_unique<SurveyMetric>(parameters, context);
 }
 
 }  // namespace vinerow

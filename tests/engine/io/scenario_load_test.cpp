@@ -63,6 +63,7 @@ pictures:
     map: {kind: top, height_m: 80, show_plan: false}
     bonnet: {kind: on_board, offset_m: [1, 0, 0.5], pitch_deg: 45, show_sensor_rays: true}
     turn: {kind: top, centre_m: [12.5, -3], height_m: 15, show_grid: true, show_tree: true}
+    down: {kind: shots, sensor: gps, every: 5}
 )");
   EXPECT_EQ(s.name, "all");
   EXPECT_EQ(s.description, "every key once");
@@ -128,7 +129,7 @@ pictures:
   EXPECT_EQ(p.every_s, 30.0);
   EXPECT_EQ(p.times_s, (std::vector<double>{1, 2.5}));
   EXPECT_EQ(p.shares, (std::vector<double>{0.5, 1}));
-  ASSERT_EQ(p.cameras.size(), 5u);
+  ASSERT_EQ(p.cameras.size(), 6u);
   EXPECT_EQ(p.cameras[0].kind, CameraKind::kFixed);
   EXPECT_EQ(p.cameras[0].p_W, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(p.cameras[0].target_W, Eigen::Vector3d(4, 5, 6));
@@ -150,6 +151,12 @@ pictures:
   EXPECT_FALSE(p.cameras[2].centre_W.has_value());
   EXPECT_EQ(p.cameras[4].centre_W, Eigen::Vector2d(12.5, -3));
   EXPECT_EQ(p.cameras[4].height_m, 15.0);
+  EXPECT_EQ(p.cameras[5].kind, CameraKind::kShots);
+  EXPECT_EQ(p.cameras[5].vehicle, "rover");
+  EXPECT_EQ(p.cameras[5].sensor, "gps");
+  EXPECT_EQ(p.cameras[5].every, 5);
+  EXPECT_FALSE(p.cameras[5].show_trail);
+  EXPECT_FALSE(p.cameras[5].show_plan);
   EXPECT_TRUE(p.cameras[4].show_grid);
   EXPECT_TRUE(p.cameras[4].show_tree);
 }

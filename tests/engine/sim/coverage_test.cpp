@@ -111,6 +111,29 @@ TEST(Coverage, CellsAreCountedByHand) {
   EXPECT_FLOAT_EQ(map.forward_overlap[map.cell(140, 50)], 0.6f);
 }
 
+TEST(Coverage, OneWeakPairIsNotHeldButCovered) {
+  Survey survey;
+  for (const double x : {0.0, 12.0, 24.0, 54.0, 66.0, 78.0}) survey.lane(0, 0, x, 1, 1);
+  for (std::size_t i = 0; i < survey.shots.size(); ++i) {
+    survey.shots[i].shot.index = static_cast<int>(i);
+  }
+  const CoverageMap map = map_coverage(survey.shots, {box(0, -20, 80, 20), 1.0, 0.85});
+  EXPECT_NEAR(number(map, "forward_overlap_min"), 0.7, 1e-12);
+  // Pairs of 88 % see -38 to 62 and 16 to 116; that of 70 % sees 4 to 74.
+  EXPECT_EQ(number(map, "overlap_covered_share"), 1.0);
+  EXPECT_DOUBLE_EQ(number(map, "overlap_held_share"), 10.0 / 80);
+  EXPECT_FLOAT_EQ(map.forward_overlap[map.cell(3, 20)], 0.88f);
+  EXPECT_FLOAT_EQ(map.forward_overlap[map.cell(4, 20)], 0.7f);
+  EXPECT_FLOAT_EQ(map.forward_overlap[map.cell(73, 20)], 0.7f);
+  EXPECT_FLOAT_EQ(map.forward_overlap[map.cell(74, 20)], 0.88f);
+  // A second lane over the same ground that holds it makes up for the first.
+  survey.index = 10;
+  survey.lane(1, 0, 0, 13, 7);
+  const CoverageMap both = map_coverage(survey.shots, {box(0, -20, 80, 20), 1.0, 0.85});
+  EXPECT_EQ(number(both, "overlap_held_share"), 1.0);
+  EXPECT_FLOAT_EQ(both.forward_overlap[both.cell(40, 20)], 0.87f);
+}
+
 TEST(Coverage, OnlyWhatLiesInTheParcelCounts) {
   Survey survey;
   survey.lane(0, 0, 0, 12, 5);

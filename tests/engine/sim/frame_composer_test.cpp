@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/render/cameras.h"
 #include "tests/engine/sim/small_parts.h"
 
@@ -72,6 +74,44 @@ TEST_F(ComposedFrame, ATopCameraLooksAtTheGivenPlace) {
   // 100 pixels are 8 m: 2 m north are 25 pixels up.
   ASSERT_TRUE(render::project(placed, 200, 100, {12, -3, 7}, pixel));
   EXPECT_LT((pixel - Eigen::Vector2d(100, 25)).norm(), 1e-9);
+}
+
+TEST_F(ComposedFrame, AShotIsDrawnFromWhereItWasTakenWithItsAngles) {
+  // 20 m above the ground, straight down, upper edge to the north: 30 m by 20 m.
+  CameraShot shot;
+  shot.index = 4;
+  shot.X_WS.p = {5, 6, 27};
+  shot.X_WS.q = quaternion_from_rpy({0, std::acos(-1.0) / 2, 0});  // upper edge to the east
+  shot.X_WS.q = quaternion_from_rpy({0, 0, std::acos(-1.0) / 2}) * shot.X_WS.q;
+  shot.corners_W = {Eigen::Vector3d(-10, 16, 7), Eigen::Vector3d(20, 16, 7),
+                    Eigen::Vector3d(20, -4, 7), Eigen::Vector3d(-10, -4, 7)};
+  shot.on_ground = true;
+  Trace<CameraShot>& shots = trace_.vehicles["rover"].shots["camera"];
+  CameraShot in_the_sky;
+  shots.times = {Time{500'000'000}, Time{1'000'000'000}};
+  shots.values = {in_the_sky, shot};
+  const auto view = view_of(shots);
+  ASSERT_TRUE(view);
+  EXPECT_NEAR(view->across, 0.75, 1e-12);
+  EXPECT_NEAR(view->along, 0.5, 1e-12);
+  EXPECT_FALSE(view_of({{Time{}}, {in_the_sky}}));
+
+  io::CameraConfig camera;
+  camera.kind = io::CameraKind::kShots;
+  camera.vehicle = "rover";
+  camera.show_plan = camera.show_trail = false;
+  const render::Frame frame = compose(camera);
+  EXPECT_EQ(frame.height, 100);
+  EXPECT_EQ(frame.width, 150);
+  EXPECT_TRUE(frame.vehicles.empty());
+  // Its corners are the picture's corners.
+  const Eigen::Vector2d pixels[] = {{0, 0}, {150, 0}, {150, 100}, {0, 100}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(render::project(frame.camera, 150, 100, shot.corners_W[i], pixel));
+    EXPECT_LT((pixel - pixels[i]).norm(), 1e-9) << i;
+  }
+  EXPECT_EQ(frame.caption.back(), "picture 4   0.0 m to the ground, 0.0 mm per pixel");
 }
 
 TEST_F(ComposedFrame, LinesOfAFlightAreDrawnAtItsHeight) {

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <system_error>
+
+#include "engine/core/error.h"
+#include "engine/sim/coverage_log.h"
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/coverage_picture.h"
+
+namespace vinerow::tools {
+namespace {
+
+/// RUN/log.mcap of a folder, else the file itself.
+std::filesystem::path log_of(const std::filesystem::path& run_or_log) {
+  return std::filesystem::is_directory(run_or_log) ? run_or_log / "log.mcap" : run_or_log;
+}
+
+Polygon polygon_of(const std::vector<double>& numbers) {
+  if (numbers.size() % 2 != 0) {
+    throw ConfigError(
+        fmt::format("--polygon: {} numbers, must be an even number: x and y of each corner in m",
+                    numbers.size()));
+  }
+  Polygon polygon;
+  for (std::size_t i = 0; i < numbers.size(); i += 2)
+    polygon.emplace_back(numbers[i], numbers[i + 1]);
+  return polygon;
+}
+
+void write(const SurveyCoverage& coverage, const std::filesystem::path& picture) {
+  if (!picture.parent_path().empty()) {
+    std::error_code failed;
+    std::filesystem::create_directories(picture.parent_path(), failed);
+    if (failed) {
+      throw ConfigError(fmt::format("folder '{}' cannot be made: {}",
+                                    picture.parent_path().string(), failed.message()));
+    }
+  }
+  render::write_png(picture.string(), draw_coverage(coverage));
+  std::filesystem::path numbers = picture;
+  numbers.replace_extension(".json");
+  std::ofstream out(numbers, std::ios::binary);
+  out << coverage_json(coverage);
+  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", numbers.string()));
+}
+
+/// Of several cameras each has its name in its file's.
+std::filesystem::path file_of(const SurveyCoverage& coverage, const std::filesystem::path& out,
+                              std::size_t cameras) {
+  if (cameras == 1) return out;
+  std::filesystem::path file = out;
+  return file.replace_filename(fmt::format("{}_{}_{}{}", out.stem().string(), coverage.vehicle,
+                                           coverage.camera, out.extension().string()));
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> write_coverage(const std::filesystem::path& log,
+                                                  const Registry& registry,
+                                                  const CoverageChoice& choice,
+                                                  const std::filesystem::path& out) {
+  std::vector<std::filesystem::path> files;
+  const std::vector<SurveyCoverage> all = read_coverage(log, registry, choice);
+  for (const SurveyCoverage& coverage : all) {
+    files.push_back(file_of(coverage, out, all.size()));
+    write(coverage, files.back());
+  }
+  return files;
+}
+
+void add_coverage_command(CLI::App& app, int& exit_status) {
+  struct Arguments {
+    std::filesystem::path run, out;
+    std::vector<std::filesystem::path> plugins;
+    std::vector<double> polygon;
+    double cell_m = 0.0;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "coverage", "map what the pictures of a survey cover, with their overlap, from its log");
+  command->add_option("run", arguments->run, "folder of a run, or its log.mcap")->required();
+  command->add_option("--out", arguments->out,
+                      "picture to write, numbers beside it as .json (default: coverage.png beside "
+                      "the log)");
+  command->add_option(
+      "--polygon", arguments->polygon,
+      "parcel instead of the scenario's: x y of each corner in m, east and north of "
+      "the origin");
+  command->add_option("--cell", arguments->cell_m, "size of the cells, m")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--plugin", arguments->plugins, "load a plug-in that brought the run's parts")
+      ->allow_extra_args(false);
+  command->callback([arguments, &exit_status] {
+    const std::filesystem::path log = log_of(arguments->run);
+    CoverageChoice choice;
+    choice.parcel_W = polygon_of(arguments->polygon);
+    if (arguments->cell_m > 0.0) choice.cell_m = arguments->cell_m;
+    const std::filesystem::path out =
+        arguments->out.empty() ? log.parent_path() / "coverage.png" : arguments->out;
+    const Registry registry = make_registry(arguments->plugins);
+    const auto files = write_coverage(log, registry, choice, out);
+    if (files.empty()) {
+      throw ConfigError(fmt::format(
+          "{}: holds no picture: no camera_trigger of the run has taken one", log.string()));
+    }
+    for (const std::filesystem::path& file : files) fmt::print("{}\n", file.string());
+    exit_status = 0;
+  });
+}
+
+}  // namespace vinerow::tools

@@ -1,0 +1,297 @@
+#include "tools/vinerow/coverage_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "tools/vinerow/canvas.h"
+#include "tools/vinerow/colour_scale.h"
+
+namespace vinerow::tools {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr Rgb kPaper = {250, 249, 245}, kInk = {38, 44, 46}, kFaint = {120, 124, 122};
+constexpr Rgb kGround = {232, 229, 220}, kNone = {190, 92, 76}, kTrack = {255, 255, 255};
+constexpr Rgb kShot = {20, 24, 26}, kBoundary = {20, 24, 26};
+constexpr int kWidth = 1600, kMargin = 32, kGap = 36, kTitle = 34, kLegend = 86, kNumbers = 150;
+constexpr int kTallest = 900;
+
+/// What both maps show of the world.
+Eigen::AlignedBox2d extent_of(const SurveyCoverage& coverage) {
+  Eigen::AlignedBox2d box;
+  for (const Vector2d& p : coverage.options.parcel_W) box.extend(p);
+  for (const LaneShot& taken : coverage.shots) box.extend(Vector2d(taken.shot.X_WS.p.head<2>()));
+  const Vector2d margin = Vector2d::Constant(0.06 * box.sizes().maxCoeff());
+  return {Vector2d(box.min() - margin), Vector2d(box.max() + margin)};
+}
+
+/// One map on the canvas.
+struct Panel {
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0, px_per_m = 1.0;
+  Vector2d corner_W = {0, 0};  ///< at the panel's lower left
+
+  Vector2d operator()(const Vector2d& p_W) const {
+    return {left + (p_W.x() - corner_W.x()) * px_per_m,
+            top + height - (p_W.y() - corner_W.y()) * px_per_m};
+  }
+  Polygon operator()(const Polygon& polygon_W) const {
+    Polygon polygon;
+    for (const Vector2d& p : polygon_W) polygon.push_back((*this)(p));
+    return polygon;
+  }
+  Vector2d world(double x, double y) const {
+    return corner_W + Vector2d(x - left, top + height - y) / px_per_m;
+  }
+  bool contains(const Vector2d& p_W) const {
+    const Vector2d p = (*this)(p_W);
+    return p.x() >= left && p.y() >= top && p.x() <= left + width && p.y() <= top + height;
+  }
+};
+
+/// Two maps beside each other, or one above the other where they are wide.
+struct Layout {
+  std::array<Panel, 2> panels;
+  int height = 0;
+  double numbers_top = 0.0;
+
+  explicit Layout(const Eigen::AlignedBox2d& extent_W) {
+    const double w = extent_W.sizes().x(), h = extent_W.sizes().y();
+    const bool beside = w < 1.6 * h;
+    const double room = beside ? 0.5 * (kWidth - 2 * kMargin - kGap) : kWidth - 2 * kMargin;
+    Panel panel;
+    panel.px_per_m = std::min(room / w, kTallest / h);
+    panel.width = room;
+    panel.height = std::ceil(h * panel.px_per_m);
+    panel.left = kMargin;
+    panel.top = kMargin + kTitle;
+    // What is narrower than its panel comes into the middle.
+    panel.corner_W = extent_W.center() - 0.5 * Vector2d(room, panel.height) / panel.px_per_m;
+    panels = {panel, panel};
+    const double block = kTitle + panel.height + kLegend;
+    if (beside) {
+      panels[1].left += room + kGap;
+    } else {
+      panels[1].top += block;
+    }
+    numbers_top = kMargin + (beside ? block : 2 * block);
+    height = static_cast<int>(numbers_top) + kNumbers;
+  }
+};
+
+/// A value's colour; nothing where the ground shows through.
+using Paint = std::function<std::optional<Rgb>(std::size_t cell)>;
+
+void draw_cells(Canvas& canvas, const Panel& panel, const CoverageMap& map, const Paint& paint) {
+  constexpr int kSamples = 3;
+  for (int y = static_cast<int>(panel.top); y < panel.top + panel.height; ++y) {
+    for (int x = static_cast<int>(panel.left); x < panel.left + panel.width; ++x) {
+      std::array<int, 3> sum = {0, 0, 0};
+      int painted = 0;
+      for (int s = 0; s < kSamples * kSamples; ++s) {
+        const Vector2d cell =
+            (panel.world(x + (s % kSamples + 0.5) / kSamples, y + (s / kSamples + 0.5) / kSamples) -
+             map.corner_W) /
+            map.cell_m;
+        const int i = static_cast<int>(std::floor(cell.x()));
+        const int j = static_cast<int>(std::floor(cell.y()));
+        if (i < 0 || j < 0 || i >= map.columns || j >= map.rows) continue;
+        const std::optional<Rgb> colour = paint(map.cell(i, j));
+        if (!colour) continue;
+        ++painted;
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += (*colour)[c];
+      }
+      if (painted == 0) continue;
+      canvas.blend(x, y, {sum[0] / painted, sum[1] / painted, sum[2] / painted},
+                   painted / static_cast<double>(kSamples * kSamples));
+    }
+  }
+}
+
+void draw_world(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage) {
+  for (const auto& row : coverage.rows) {
+    if (!panel.contains(row[0]) || !panel.contains(row[1])) continue;
+    canvas.line(panel(row[0]), panel(row[1]), 1.0, kInk, 0.22);
+  }
+  canvas.outline(panel(coverage.options.parcel_W), 2.5, kBoundary);
+  for (std::size_t i = 0; i + 1 < coverage.track_W.size(); ++i) {
+    const Vector2d &a = coverage.track_W[i], &b = coverage.track_W[i + 1];
+    if (!panel.contains(a) || !panel.contains(b)) continue;
+    const bool over_parcel = contains(coverage.options.parcel_W, a);
+    canvas.line(panel(a), panel(b), 1.6, over_parcel ? kTrack : kFaint, 0.85);
+  }
+  for (const LaneShot& taken : coverage.shots) {
+    const Vector2d at = panel(Vector2d(taken.shot.X_WS.p.head<2>()));
+    Polygon dot, rim;
+    for (int k = 0; k < 12; ++k) {
+      const double angle = 2.0 * std::acos(-1.0) * k / 12;
+      const Vector2d way(std::cos(angle), std::sin(angle));
+      dot.push_back(at + 2.4 * way);
+      rim.push_back(at + 3.6 * way);
+    }
+    canvas.fill(rim, kTrack, 0.9);
+    canvas.fill(dot, taken.lane >= 0 ? kShot : kNone);
+  }
+}
+
+/// A bar from one value to the other, with ticks. @returns its right end
+double draw_bar(Canvas& canvas, double left, double top, double width,
+                const std::function<Rgb(double share)>& colour) {
+  for (int x = 0; x < width; ++x) {
+    const Polygon column = {
+        {left + x, top}, {left + x + 1, top}, {left + x + 1, top + 16}, {left + x, top + 16}};
+    canvas.fill(column, colour((x + 0.5) / width));
+  }
+  canvas.outline({{left, top}, {left + width, top}, {left + width, top + 16}, {left, top + 16}},
+                 1.0, kFaint, 0.7);
+  return left + width;
+}
+
+void draw_tick(Canvas& canvas, double x, double top, const std::string& words,
+               bool strong = false) {
+  canvas.line({x, top + 16}, {x, top + 22}, 1.5, strong ? kInk : kFaint);
+  canvas.text(words, 15, {x, top + 38}, strong ? kInk : kFaint, 0.5);
+}
+
+void draw_patch(Canvas& canvas, double right, double top, const Rgb& colour,
+                const std::string& words) {
+  const Polygon patch = {
+      {right - 150, top}, {right - 128, top}, {right - 128, top + 16}, {right - 150, top + 16}};
+  canvas.fill(patch, colour);
+  canvas.outline(patch, 1.0, kFaint, 0.7);
+  canvas.text(words, 15, {right - 120, top + 14}, kInk);
+}
+
+void draw_counts(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage) {
+  const CoverageMap& map = coverage.map;
+  const int most = std::max(1, *std::max_element(map.pictures.begin(), map.pictures.end()));
+  // As many colours as counts: each step of the scale is one picture more.
+  const auto colour_of = [most](int count) {
+    return viridis(most > 1 ? (count - 1.0) / (most - 1.0) : 1.0);
+  };
+  draw_cells(canvas, panel, map, [&](std::size_t cell) -> std::optional<Rgb> {
+    const int count = map.pictures[cell];
+    if (count < 0) return std::nullopt;
+    return count == 0 ? kNone : colour_of(count);
+  });
+  draw_world(canvas, panel, coverage);
+  canvas.text("Pictures that see each place", 20, {panel.left, panel.top - 12}, kInk);
+  const double top = panel.top + panel.height + 14, width = panel.width - 190;
+  draw_bar(canvas, panel.left, top, width, [&](double share) {
+    return colour_of(1 + std::min(most - 1, static_cast<int>(share * most)));
+  });
+  for (const double value : ticks(1, most, 12)) {
+    if (value != std::floor(value)) continue;
+    draw_tick(canvas, panel.left + (value - 0.5) / most * width, top, fmt::format("{:g}", value));
+  }
+  draw_patch(canvas, panel.left + panel.width, top, kNone, "no picture");
+}
+
+void draw_overlaps(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage) {
+  const CoverageMap& map = coverage.map;
+  const double wanted = coverage.options.wanted_overlap;
+  double least = wanted;
+  for (const float overlap : map.forward_overlap) {
+    if (overlap > 0.0f) least = std::min(least, static_cast<double>(overlap));
+  }
+  const double from = std::max(0.0, std::floor((least - 0.051) * 20.0) / 20.0);
+  draw_cells(canvas, panel, map, [&](std::size_t cell) -> std::optional<Rgb> {
+    const double overlap = map.forward_overlap[cell];
+    if (overlap < 0.0) return std::nullopt;
+    return overlap == 0.0 ? kNone : viridis((overlap - from) / (1.0 - from));
+  });
+  draw_world(canvas, panel, coverage);
+  canvas.text("Forward overlap that all pictures in a row keep there, on the best lane", 20,
+              {panel.left, panel.top - 12}, kInk);
+  const double top = panel.top + panel.height + 14, width = panel.width - 190;
+  draw_bar(canvas, panel.left, top, width, viridis);
+  const auto x_of = [&](double value) { return panel.left + (value - from) / (1 - from) * width; };
+  for (const double value : ticks(from, 1.0, 6)) {
+    if (std::abs(x_of(value) - x_of(wanted)) < 85.0) continue;
+    draw_tick(canvas, x_of(value), top, fmt::format("{:.0f} %", 100 * value));
+  }
+  canvas.line({x_of(wanted), top - 5}, {x_of(wanted), top + 16}, 2.5, kInk);
+  draw_tick(canvas, x_of(wanted), top, fmt::format("{:g} % wanted", 100 * wanted), true);
+  draw_patch(canvas, panel.left + panel.width, top, kNone, "no such pair");
+}
+
+/// A length of 1, 2 or 5 times a power of ten that is about a fifth of a map, and north.
+void draw_scale(Canvas& canvas, const Panel& panel, double y) {
+  const double wanted_m = 0.2 * panel.width / panel.px_per_m;
+  double length_m = std::pow(10.0, std::floor(std::log10(wanted_m)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * length_m <= wanted_m) {
+      length_m *= factor;
+      break;
+    }
+  }
+  const double right = kWidth - kMargin, left = right - length_m * panel.px_per_m;
+  canvas.line({left, y}, {right, y}, 3.0, kInk);
+  for (const double x : {left, right}) canvas.line({x, y - 6}, {x, y + 6}, 2.0, kInk);
+  canvas.text(fmt::format("{:g} m", length_m), 17, {0.5 * (left + right), y - 10}, kInk, 0.5);
+  const double x = left - 40.0;
+  canvas.fill({{x, y - 26}, {x + 8, y + 6}, {x, y - 1}, {x - 8, y + 6}}, kInk);
+  canvas.text("N", 15, {x, y - 31}, kInk, 0.5);
+}
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "not measured";
+}
+
+void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& coverage) {
+  const auto number = [&](const char* name) { return coverage.map.numbers.at(name); };
+  const double left = kMargin, top = layout.numbers_top + 18;
+  canvas.text(fmt::format("{}: {}, {}", coverage.scenario, coverage.vehicle, coverage.camera), 22,
+              {left, top + 6}, kInk);
+  const double area_ha = 1e-4 * std::abs(signed_area_m2(coverage.options.parcel_W));
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format(
+      "{:.0f} pictures, parcel of {:.2f} ha: seen {}, by two {}, by three {}", number("shots"),
+      area_ha, percent(number("covered_share")), percent(number("covered_twice_share")),
+      percent(number("covered_three_times_share"))));
+  if (number("shots_off_ground") > 0) {
+    lines.back() += fmt::format("; {:.0f} look beyond the ground", number("shots_off_ground"));
+  }
+  lines.push_back(
+      fmt::format("forward overlap at least {}, mean {}; {:g} % cover {} of the parcel "
+                  "and are held over {}; side overlap at least {}, mean {}",
+                  percent(number("forward_overlap_min")), percent(number("forward_overlap_mean")),
+                  100 * coverage.options.wanted_overlap, percent(number("overlap_covered_share")),
+                  percent(number("overlap_held_share")), percent(number("side_overlap_min")),
+                  percent(number("side_overlap_mean"))));
+  if (std::isfinite(number("gsd_mean_m"))) {
+    lines.push_back(fmt::format(
+        "GSD {:.1f} mm, from {:.1f} to {:.1f} mm; {:.2f} % above that of a picture straight down",
+        1e3 * number("gsd_mean_m"), 1e3 * number("gsd_min_m"), 1e3 * number("gsd_max_m"),
+        100 * number("gsd_formula_error_mean")));
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    canvas.text(lines[i], 16, {left, top + 34 + 24 * static_cast<double>(i)}, kFaint);
+  }
+  canvas.text("thin lines: plant rows; white and grey: track; dots: pictures, red off the lanes",
+              14, {left, top + 34 + 24 * static_cast<double>(lines.size())}, kFaint);
+}
+
+}  // namespace
+
+render::Image draw_coverage(const SurveyCoverage& coverage) {
+  const Layout layout(extent_of(coverage));
+  Canvas canvas(kWidth, layout.height, kPaper);
+  for (const Panel& panel : layout.panels) {
+    const double right = panel.left + panel.width, bottom = panel.top + panel.height;
+    canvas.fill(
+        {{panel.left, panel.top}, {right, panel.top}, {right, bottom}, {panel.left, bottom}},
+        kGround);
+  }
+  draw_counts(canvas, layout.panels[0], coverage);
+  draw_overlaps(canvas, layout.panels[1], coverage);
+  draw_numbers(canvas, layout, coverage);
+  draw_scale(canvas, layout.panels[0], layout.numbers_top + kNumbers - 30);
+  return canvas.image();
+}
+
+}  // namespace vinerow::tools

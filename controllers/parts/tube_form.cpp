@@ -37,8 +37,11 @@ TubeForm make_tube_form(const TubeModel& model, const TubeSets& sets, const Tube
   const Index n = model.A.rows(), m = model.B.cols(), N = cost.horizon, size = n + N * m;
   const MatrixXd weight = cost.R + model.B.transpose() * P * model.B;
   const MatrixXd cross = cost.R * model.K + model.B.transpose() * P * sets.A_K;
+  constexpr double kNoCoupling = 1e-9;
 
   TubeForm form;
+  const MatrixXd scale = weight.diagonal() * P.diagonal().transpose();
+  form.is_decoupled = (cross.array().square() <= kNoCoupling * kNoCoupling * scale.array()).all();
   form.H.setZero(size, size);
   form.H.topLeftCorner(n, n) = 2.0 * P;
   const Index tube = with_tube ? sets.tube_rows.rows() : 0;

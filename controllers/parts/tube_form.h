@@ -45,6 +45,9 @@ struct TubeForm {
   /// by steps, so that rows of early steps end in zeros.
   Eigen::MatrixXd rows;
   std::vector<TubeRow> about;  ///< one for each row
+  /// The cost does not couple c with z: c = 0 is the best where no limit is met. To 1e-9: K is the
+  /// LQR's.
+  bool is_decoupled = false;
 };
 
 /// @param with_tube  without: z_0 is given, F is left out

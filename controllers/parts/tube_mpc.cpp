@@ -119,9 +119,10 @@ bool TubeMpc::choose_start(const Eigen::Ref<const VectorXd>& x) {
   return false;
 }
 
-/// Whether v_i = K z_i from start_ keeps all limits.
+/// Whether v_i = K z_i from start_ is known to be the optimum.
 bool TubeMpc::unconstrained_is_optimal(bool is_fixed) {
-  if (!is_fixed) return largest(tube_values_) <= 1.0;
+  if (!is_fixed) return largest(tube_values_) <= 1.0;  // start_ = 0 costs nothing
+  if (!form_.is_decoupled) return false;
   terminal_values_.noalias() = sets_.terminal_rows * start_;
   return largest(terminal_values_) <= 1.0;
 }

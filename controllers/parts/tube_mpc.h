@@ -35,7 +35,7 @@ struct TubeMpcSettings {
   /// 1/2 weight s^2 of a violation by s times the (tightened) limit; infinite: hard, and then there
   /// may be no solution.
   double soft_weight = 1e9;
-  QpSettings qp = {};
+  QpSettings qp = {.max_iterations = 3000};
 };
 
 class TubeMpc {

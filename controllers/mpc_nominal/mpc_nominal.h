@@ -1,0 +1,19 @@
+#pragma once
+/// Controller `mpc_nominal`: ordinary linear model predictive control of vehicles on wings, the
+/// same model, weights, horizon and limits as `trmpc` but no gusts in mind: limits are not
+/// tightened and the prediction starts at the state.
+
+#include <memory>
+
+#include "engine/api/part.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+PartSpec mpc_nominal_spec();
+
+/// @throws ConfigError if the vehicle has no wings or no trim
+std::unique_ptr<Controller> make_mpc_nominal(const ParameterSet& parameters,
+                                             const ControllerContext& context);
+
+}  // namespace vinerow

@@ -1,0 +1,205 @@
+/// trmpc and mpc_nominal on a nonlinear aircraft with lags that is not the product's: limits in
+/// gusts, the stress of the reference of paper A (14 m low, 24 deg off), and the laws that fail it.
+
+#include "controllers/trmpc/trmpc.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "controllers/mpc_nominal/mpc_nominal.h"
+#include "tests/controllers/parts/random_sets.h"
+#include "tests/controllers/trmpc/wing_loop.h"
+#include "tests/support/no_alloc.h"
+
+namespace vinerow::test {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+struct Flown {
+  int lon_states = 0, lon_inputs = 0, lat_states = 0, lat_inputs = 0;  // steps outside
+  double elevator_rad = 0.0;
+  double largest_violation = 0.0;  // of soft limits, by mpc
+  double active_steps = 0;
+  std::vector<std::string> events;
+
+  int outside() const { return lon_states + lon_inputs + lat_states + lat_inputs; }
+};
+
+Flown fly(const WingSetup& setup, std::uint64_t seed, int steps) {
+  WingLoop loop(setup);
+  GaussMarkovGust gust(seed);
+  Flown flown;
+  for (int k = 0; k < steps; ++k) {
+    loop.tick(gust.next());
+    flown.lon_states += loop.deviation("outside_lon_states") > 0.0;
+    flown.lon_inputs += loop.deviation("outside_lon_inputs") > 0.0;
+    flown.lat_states += loop.deviation("outside_lat_states") > 0.0;
+    flown.lat_inputs += loop.deviation("outside_lat_inputs") > 0.0;
+    flown.elevator_rad = std::max(flown.elevator_rad, std::abs(loop.deviation("elevator_rad")));
+    if (setup.type == "fixed_wing_lqr") continue;
+    flown.largest_violation = std::max({flown.largest_violation, loop.tube("lon_soft_violation"),
+                                        loop.tube("lat_soft_violation")});
+    flown.active_steps += loop.tube("lon_active_rows") + loop.tube("lat_active_rows") > 0.0;
+  }
+  flown.events = loop.events();
+  return flown;
+}
+
+WingSetup stressed(const std::string& type, const Values& parameters = {}) {
+  WingSetup setup;
+  setup.type = type;
+  setup.parameters = parameters;
+  setup.low_m = 14.0;
+  setup.off_rad = 24.0 * kDegree;
+  return setup;
+}
+
+TEST(Trmpc, FourteenMetresLowAndTwentyFourDegreesOffKeepsEveryLimitWhereTheLqrDoesNot) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const Flown lqr = fly(stressed("fixed_wing_lqr"), seed, 240);
+    EXPECT_GT(lqr.lon_states, 10);  // the prototype's figures: 27 and 13
+    EXPECT_GT(lqr.lon_inputs, 8);
+    const Flown tube = fly(stressed("trmpc"), seed, 240);
+    EXPECT_EQ(tube.outside(), 0);
+    EXPECT_GT(tube.active_steps, 20);
+    // One second ahead does not see the terminal set from 14 m below; three seconds do.
+    EXPECT_GT(tube.largest_violation, 0.1);
+    const Flown far = fly(stressed("trmpc", {{"horizon", std::int64_t{60}}}), seed, 240);
+    EXPECT_EQ(far.outside(), 0);
+    EXPECT_LT(far.largest_violation, 1e-3);
+    EXPECT_EQ(far.events.size(), 1u);
+  }
+}
+
+TEST(Trmpc, LawsWithoutTheTubeFailTheStress) {
+  const Flown printed = fly(stressed("trmpc", {{"law", std::string("printed")}}), 0, 240);
+  EXPECT_GT(printed.lon_inputs, 10);
+  EXPECT_GT(printed.elevator_rad, 15.0 * kDegree);  // the limit is 10
+  const Flown nominal = fly(stressed("mpc_nominal"), 0, 240);
+  EXPECT_EQ(nominal.lon_inputs + nominal.lat_inputs, 0);
+  EXPECT_GT(nominal.lon_states, 0);
+  // 24 deg is outside the set of z_0 = x (23.1), 20 deg is not.
+  WingSetup fixed = stressed("trmpc", {{"law", std::string("fixed_start")}});
+  fixed.low_m = 0.0;
+  EXPECT_GT(fly(fixed, 0, 2).largest_violation, 0.03);
+  fixed.off_rad = 20.0 * kDegree;
+  EXPECT_LT(fly(fixed, 0, 60).largest_violation, 1e-3);
+  EXPECT_EQ(fly(fixed, 0, 60).outside(), 0);
+}
+
+TEST(Trmpc, TurbulenceOfOneMetrePerSecondViolatesNothing) {
+  WingLoop loop({});
+  double most = 0.0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    GaussMarkovGust gust(seed);
+    for (int k = 0; k < 400; ++k) {
+      loop.tick(gust.next());
+      most = std::max(most, loop.deviation("limit_share"));
+    }
+  }
+  EXPECT_LT(most, 1.0);
+  EXPECT_GT(most, 0.2);
+}
+
+TEST(Trmpc, IsTheLqrToTheLastDigitsWhileNothingIsActive) {
+  WingSetup lqr;
+  lqr.type = "fixed_wing_lqr";
+  WingLoop tube({}), plain(lqr);
+  GaussMarkovGust gust(4);
+  for (int k = 0; k < 400; ++k) {
+    const Eigen::Vector3d blow = gust.next();
+    tube.tick(blow);
+    plain.tick(blow);
+    ASSERT_EQ(tube.tube("lon_active_rows") + tube.tube("lat_active_rows"), 0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      ASSERT_NEAR(tube.actuators()[i], plain.actuators()[i], 1e-9);
+    }
+  }
+}
+
+TEST(Trmpc, TellsWhatItPromisesAndWhenSoftConstraintsTakeOver) {
+  const std::vector<std::string> events = fly(stressed("trmpc"), 0, 240).events;
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0],
+            "recursively feasible for gusts up to 2.09 m/s (longitudinal), 1.79 m/s (lateral)");
+  EXPECT_EQ(events[1].rfind("longitudinal axis outside its tube by ", 0), 0u) << events[1];
+  EXPECT_NE(events[1].find(" % of its terminal set; soft constraints take over"),
+            std::string::npos);
+  EXPECT_EQ(events[2].rfind("longitudinal axis back inside its tube after ", 0), 0u) << events[2];
+  WingLoop loop({});
+  loop.tick();
+  EXPECT_NEAR(loop.tube("lon_gust_mps"), 2.09, 0.01);
+  EXPECT_NEAR(loop.tube("lat_gust_mps"), 1.79, 0.01);
+}
+
+TEST(Trmpc, NeitherTakesHeapNorDependsOnAnythingButItsCalls) {
+  for (const char* type : {"trmpc", "mpc_nominal"}) {
+    WingLoop first(stressed(type)), second(stressed(type));
+    GaussMarkovGust gust(5);
+    for (int k = 0; k < 120; ++k) {
+      const Eigen::Vector3d blow = gust.next();
+      std::size_t allocations = 0;
+      const std::size_t told = first.events().size();
+      first.tick(blow, [&](const std::function<void()>& decide) {
+        AllocationCounter counter;
+        decide();
+        allocations = counter.count();
+      });
+      second.tick(blow);
+      if (k > 0 && first.events().size() == told) {  // a text and a signal's first value take heap
+        EXPECT_EQ(allocations, 0u) << "tick " << k;
+      }
+      ASSERT_EQ(first.actuators(), second.actuators());
+    }
+  }
+}
+
+TEST(Trmpc, StandsAndEndsWithThePropellerOff) {
+  WingLoop loop({});
+  loop.reference().phase = AirReference::Phase::kWait;
+  loop.tick();
+  EXPECT_EQ(loop.actuators()[0], 0.0);
+  loop.reference().phase = AirReference::Phase::kStraight;
+  loop.tick();
+  EXPECT_GT(loop.actuators()[0], 0.3);
+  loop.reference().phase = AirReference::Phase::kDone;
+  loop.tick();
+  EXPECT_EQ(loop.actuators()[0], 0.0);
+}
+
+TEST(Trmpc, LostEstimateLeavesTheTrim) {
+  WingLoop loop({});
+  loop.tick();
+  const std::vector<double> trimmed = loop.actuators();
+  loop.reference().height_m = std::nan("");
+  loop.tick();
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(loop.actuators()[i], trimmed[i], 1e-5);
+}
+
+TEST(Trmpc, RefusesWhatCannotBeKept) {
+  const auto refused = [](const Values& values) {
+    WingSetup setup;
+    setup.parameters = values;
+    return complaint([&] { WingLoop loop(setup); });
+  };
+  EXPECT_EQ(refused({{"gust_mps", 1.9}}),
+            "plane.controller (trmpc): gusts of 1.9 m/s alone take 106 % of the limit of aileron; "
+            "the largest feasible gust is 1.79 m/s (lateral)");
+  EXPECT_EQ(refused({{"gust_mps", 3.0}}),
+            "plane.controller (trmpc): gusts of 3 m/s alone take 144 % of the limit of speed down; "
+            "the largest feasible gust is 2.09 m/s (longitudinal)");
+  EXPECT_EQ(refused({{"gain", std::string("given")}}),
+            "plane.controller (trmpc): gain is 'given', so longitudinal_gain must be");
+  EXPECT_EQ(refused({{"gain", std::string("given")},
+                     {"longitudinal_gain", std::vector<double>(10, 0.0)},
+                     {"lateral_gain", std::vector<double>(5, 0.0)}})
+                .rfind("plane.controller (trmpc): longitudinal_gain does not stabilise the "
+                       "longitudinal axis: A is not Schur stable",
+                       0),
+            0u);
+}
+
+}  // namespace
+}  // namespace vinerow::test

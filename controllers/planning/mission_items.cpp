@@ -42,7 +42,8 @@ void require_near(const io::MissionFile& mission, const io::MissionItem& item,
   if (!place.has_place || place.p_W.norm() <= kFarthest_m) return;
   throw ConfigError(fmt::format(
       "{}: item {} of '{}' lies {:.1f} km from the world's origin ({:.6f}, {:.6f}), must be within "
-      "{:g} km; an origin with latitude_deg = {:.6f}, longitude_deg = {:.6f} would fit",
+      "{:g} km; a world with "
+      "origin_latitude_deg = {:.6f}, origin_longitude_deg = {:.6f} would fit",
       who, item.number, mission.file.string(), 1e-3 * place.p_W.norm(),
       deg_from_rad(origin.latitude_rad), deg_from_rad(origin.longitude_rad), 1e-3 * kFarthest_m,
       item.params[4], item.params[5]));

@@ -182,7 +182,7 @@ TEST(MissionRoute, RefusesByNumberAndName) {
   MissionFlight far{write_items({at(16, 900, 0, 50)})};
   far.origin.latitude_rad = rad_from_deg(44.7);
   EXPECT_NE(refusal(far).find("km from the world's origin (44.700000, 8.545607), must be within 20 "
-                              "km; an origin with latitude_deg = 47.39"),
+                              "km; a world with origin_latitude_deg = 47.39"),
             std::string::npos)
       << refusal(far);
   EXPECT_NE(refusal(far).find("lies 299."), std::string::npos) << refusal(far);  // 2.698 deg

@@ -41,7 +41,6 @@ AirMission::Wanted AirMission::fly_descend(const AirState& state) {
   // On the way there what is below is not known.
   if (circle_.away_m(state.position) < 2.0 * circle_.radius_m) {
     wanted.height_m = final_.front().frame.from_W().z();
-    wanted.descent_max_rad = std::min(params_.glide_rad, params_.legs.descent_max_rad);
   }
   if (is_on_final(state)) {
     stage_ = Stage::kLand;

@@ -29,11 +29,12 @@ void HeadingGenerator::advance(double dt_s, double wanted_rad, double wanted_rat
                                      -limits_.bank_rad, limits_.bank_rad);
   const double most_rad = limits_.bank_rate_radps * dt_s;
   told_rad_ += std::clamp(bank_rad - told_rad_, -most_rad, most_rad);
-  const double before_rad = bank_rad_;
   bank_rad_ += (told_rad_ - bank_rad_) * (1.0 - std::exp(-dt_s / limits_.bank_lag_s));
-  const double mean_rad = 0.5 * (before_rad + bank_rad_);
-  heading_rad_ += dt_s * limits_.gravity_mps2 * std::tan(mean_rad) / airspeed_mps;
-  rate_radps_ = limits_.gravity_mps2 * std::tan(bank_rad_) / airspeed_mps;
+  const double before_radps = rate_radps_;
+  const double steady_radps = limits_.gravity_mps2 * std::tan(bank_rad_) / airspeed_mps;
+  // Without a lag the exponential is that of minus infinity, zero.
+  rate_radps_ += (steady_radps - rate_radps_) * (1.0 - std::exp(-dt_s / limits_.yaw_lag_s));
+  heading_rad_ += 0.5 * dt_s * (before_radps + rate_radps_);
 }
 
 PredictedTurn predict_turn(HeadingGenerator generator, const Eigen::Vector2d& position,

@@ -3,18 +3,21 @@
 /// time to come and has a lag.
 ///
 /// Source: reference of paper A, section 2: phi_c = sat(atan(V k dpsi / g), phi_max), rate limit,
-/// lag, psi' = g tan(phi) / V. Angles here are positive to the left, the bank too (left wing down).
-/// Everything is odd in the sign of the turn, so that mirrored flights are mirrored to the bit.
+/// lag, psi' = g tan(phi) / V, here with a lag of the turn behind the bank as well: a vehicle that
+/// rolls slips first, and its nose follows when its fins turn it into the wind. Angles here are
+/// positive to the left, the bank too (left wing down). Everything is odd in the sign of the turn,
+/// so that mirrored flights are mirrored to the bit.
 
 #include <Eigen/Core>
 
 namespace vinerow {
 
 struct TurnLimits {
-  double gain_per_s = 1.2;  ///< k
+  double gain_per_s = 1.0;  ///< k
   double bank_rad = 0.0;    ///< phi_max, > 0
   double bank_rate_radps = 0.0;
-  double bank_lag_s = 0.45;
+  double bank_lag_s = 0.3;
+  double yaw_lag_s = 0.3;  ///< 0: none
   double gravity_mps2 = 9.80665;
 
   /// Of the turn at full bank.

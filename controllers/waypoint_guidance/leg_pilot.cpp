@@ -10,8 +10,6 @@ namespace {
 
 /// A sharper corner has no tangent that leads from leg to leg: the waypoint is flown over.
 constexpr double kReversal_rad = 150.0 * kPi / 180.0;
-/// Turns go from leg to leg; farther than this they would go the long way round.
-constexpr double kLongWay_rad = 225.0 * kPi / 180.0;
 
 double calc_corner_rad(const std::vector<FlightLeg>& legs, std::size_t leg) {
   return wrap_angle(legs[leg + 1].frame.course_rad() - legs[leg].frame.course_rad());
@@ -27,7 +25,8 @@ double calc_fly_by_m(const TurnLimits& limits, double corner_rad, double ground_
                      double airspeed_mps) {
   const double radius_m =
       ground_speed_mps * ground_speed_mps / (airspeed_mps * limits.rate_radps(airspeed_mps));
-  const double delay_s = 0.5 * limits.bank_rad / limits.bank_rate_radps + limits.bank_lag_s;
+  const double delay_s =
+      0.5 * limits.bank_rad / limits.bank_rate_radps + limits.bank_lag_s + limits.yaw_lag_s;
   return radius_m * std::tan(0.5 * std::abs(corner_rad)) + ground_speed_mps * delay_s;
 }
 
@@ -95,21 +94,31 @@ void LegPilot::take_next(const std::vector<FlightLeg>& legs, const AirState& sta
   const FlightLeg& leg = legs[leg_];
   course_rad_ += corner_rad;
   double wanted_rad = calc_heading_rad(course_rad_, state, leg.airspeed_mps);
-  const Eigen::Vector2d v =
-      calc_ground_velocity(generator.heading_rad(), state.wind, leg.airspeed_mps);
-  const double flown_rad = unwrap_near(std::atan2(v.y(), v.x()), generator.heading_rad());
-  if (std::abs(course_rad_ - flown_rad) > kLongWay_rad) {
-    const double short_way_rad = unwrap_near(course_rad_, flown_rad) - course_rad_;
-    course_rad_ += short_way_rad;
-    wanted_rad += short_way_rad;
+  PredictedTurn turn = predict_turn(generator, state.position, wanted_rad, options_.turn_end_rad,
+                                    state.wind, leg.airspeed_mps);
+  // Turns go from leg to leg. Where that is more than half a circle, since legs were too short to
+  // be flown, the other way round may be the better one.
+  const double round_rad = std::copysign(2.0 * kPi, generator.heading_rad() - wanted_rad);
+  if (std::abs(wanted_rad - generator.heading_rad()) > kPi) {
+    const PredictedTurn other = predict_turn(generator, state.position, wanted_rad + round_rad,
+                                             options_.turn_end_rad, state.wind, leg.airspeed_mps);
+    const double radius_m = generator.limits().radius_m(leg.airspeed_mps);
+    const auto cost_m = [&](const PredictedTurn& way, double heading_rad) {
+      constexpr double kTurningShare = 0.3;
+      return std::abs(leg.frame.left_m(way.at_rest)) +
+             kTurningShare * radius_m * std::abs(heading_rad - generator.heading_rad());
+    };
+    if (cost_m(other, wanted_rad + round_rad) < cost_m(turn, wanted_rad)) {
+      turn = other;
+      course_rad_ += round_rad;
+      wanted_rad += round_rad;
+    }
   }
   turn_angle_rad_ = std::abs(wanted_rad - generator.heading_rad());
   is_turning_ = turn_angle_rad_ > options_.turn_end_rad &&
                 std::abs(wrap_angle(course_rad_ - state.course_rad())) > options_.turn_end_rad;
   turned_s_ = 0.0;
-  turn_to_m_ = leg.frame.along_m(predict_turn(generator, state.position, wanted_rad,
-                                              options_.turn_end_rad, state.wind, leg.airspeed_mps)
-                                     .near_end);
+  turn_to_m_ = leg.frame.along_m(turn.near_end);
 }
 
 void LegPilot::watch_turn(const FlightLeg& leg, const AirState& state,

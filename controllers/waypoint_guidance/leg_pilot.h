@@ -5,7 +5,7 @@
 /// rate at which that changes; law `paper`: the bearing to the next waypoint where |e| is beyond
 /// the tolerance of eq. 3, else the leg's course. A turn begins where flying it would lead onto the
 /// next leg: `predicted` flies it ahead in the mean wind, `formula` is the tangent fly-by of the
-/// reference, L - s <= R tan(|dchi| / 2) + V (phi_max / (2 phi_rate) + lag). It ends when the
+/// reference, L - s <= R tan(|dchi| / 2) + V (phi_max / (2 phi_rate) + lags). It ends when the
 /// vehicle's course is within 5 deg of the leg's.
 ///
 /// Angles positive to the left, courses over ground. No heap.

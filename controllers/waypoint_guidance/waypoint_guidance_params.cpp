@@ -35,6 +35,7 @@ void read_turns(const ParameterSet& parameters, const ControllerContext& context
                                              : std::min(rad_from_deg(35.0), most_rad);
   turn.bank_rate_radps = rad_from_deg(parameters.number("bank_rate_degps"));
   turn.bank_lag_s = parameters.number("bank_lag_s");
+  turn.yaw_lag_s = parameters.number("yaw_lag_s");
   if (turn.bank_rad > most_rad + 1e-9) {
     throw ConfigError(fmt::format(
         "{}: bank_deg = {:.1f} deg is more than the {:.1f} deg that vehicle type '{}' can fly", who,
@@ -121,9 +122,10 @@ std::vector<ParameterSpec> waypoint_guidance_parameters() {
       choice_parameter("law", "smooth", {"smooth", "paper"},
                        "on a leg: smooth: course chi - atan(e / cross_track_length_m); paper: "
                        "bearing to the next waypoint where |e| is beyond the tolerance (eq. 1-5)"),
-      choice_parameter("turn_start", "predicted", {"predicted", "formula"},
-                       "when a turn begins: where flying it ahead in the mean wind leads onto the "
-                       "next leg, or R tan(|dchi|/2) + V (phi/(2 rate) + lag) before the waypoint"),
+      choice_parameter(
+          "turn_start", "predicted", {"predicted", "formula"},
+          "when a turn begins: where flying it ahead in the mean wind leads onto the "
+          "next leg, or R tan(|dchi|/2) + V (phi/(2 rate) + lags) before the waypoint"),
       positive_parameter("cross_track_length_m", "m", 15.0, "of law smooth"),
       positive_parameter("tolerance_most_m", "m", 4.0, "law paper: tolerance at a leg's start"),
       positive_parameter("tolerance_least_m", "m", 1.0, "law paper: least tolerance"),
@@ -132,8 +134,10 @@ std::vector<ParameterSpec> waypoint_guidance_parameters() {
       optional(angle("bank_deg", 35.0, 80.0,
                      "most, in turns; default 35 deg or what the vehicle can, if that is less")),
       positive_parameter("bank_rate_degps", "deg/s", 60.0, "most"),
-      positive_parameter("bank_lag_s", "s", 0.45, "of the vehicle's bank behind what it is told"),
-      positive_parameter("turn_gain_per_s", "1/s", 1.2,
+      positive_parameter("bank_lag_s", "s", 0.3, "of the vehicle's bank behind what it is told"),
+      number_parameter("yaw_lag_s", "s", 0.3, 0.0, 5.0,
+                       "of the vehicle's turn behind its bank: it slips first"),
+      positive_parameter("turn_gain_per_s", "1/s", 1.0,
                          "heading rate wanted per heading difference"),
       number_parameter("kink_m", "m", 15.0, 0.0, 1e3,
                        "length before and after a waypoint over which the height's slope changes"),
@@ -167,7 +171,7 @@ std::vector<ParameterSpec> waypoint_guidance_parameters() {
       optional(positive_parameter("approach_speed_mps", "m/s", 10.0,
                                   "airspeed of the glide; default airspeed_mps, where the "
                                   "controllers' trims are")),
-      angle("glide_deg", 5.0, 30.0, "of the glide over ground, and of circling down"),
+      angle("glide_deg", 5.0, 30.0, "of the glide over ground"),
       positive_parameter("flare_height_m", "m", 1.5,
                          "above the touchdown, where the sink rate begins to fade"),
       number_parameter("power_off_height_m", "m", 1.0, 0.0, 1e3,

@@ -51,11 +51,12 @@ void Plane::advance(const AirReference& reference, double dt_s) {
   for (int i = 0; i < kParts; ++i) {
     const double wanted_mps = reference.power ? reference.airspeed_mps : 0.0;
     speed_mps_ += h * std::clamp(wanted_mps - speed_mps_, -1.0, 3.0);
-    const double turn_radps =
-        reference.heading_rate_radps + 1.5 * (reference.heading_rad - yaw_rad_);
-    const double bank_rad = std::clamp(std::atan(speed_mps_ * turn_radps / kGravity), -0.8, 0.8);
+    const double error_rad = reference.heading_rad - yaw_rad_;
+    const double bank_rad = std::clamp(-reference.bank_rad + 1.5 * error_rad, -0.8, 0.8);
     bank_left_rad_ += h * (bank_rad - bank_left_rad_) / options_.bank_lag_s;
-    yaw_rad_ += h * kGravity * std::tan(bank_left_rad_) / speed_mps_;
+    const double turn_radps = kGravity * std::tan(bank_left_rad_) / speed_mps_;
+    yaw_rate_radps_ += h * (turn_radps - yaw_rate_radps_) / options_.yaw_lag_s;
+    yaw_rad_ += h * yaw_rate_radps_;
     const double climb_mps =
         speed_mps_ * std::sin(reference.climb_angle_rad) + 0.5 * (reference.height_m - p_W_.z());
     climb_mps_ += h * (std::clamp(climb_mps, -4.0, 4.0) - climb_mps_) / 0.3;

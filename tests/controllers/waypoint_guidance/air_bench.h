@@ -1,6 +1,7 @@
 #pragma once
-/// Guidances that write AirReference between their signals, and a point that flies coordinated
-/// turns in a uniform wind: the heading's rate is g tan(bank) / V, bank and climb follow with lags.
+/// Guidances that write AirReference between their signals, and a point that flies turns in a
+/// uniform wind: bank and climb follow with lags, and the heading's rate is g tan(bank) / V, with
+/// another lag.
 
 #include <functional>
 #include <memory>
@@ -23,7 +24,8 @@ struct PlaneOptions {
   bool is_flying = true;  ///< else it lies on a launcher until the reference wants power
   Eigen::Vector2d wind = Eigen::Vector2d::Zero();
   bool has_air_data = true;  ///< writes AirData "air"
-  double bank_lag_s = 0.2;
+  double bank_lag_s = 0.15;
+  double yaw_lag_s = 0.2;
   double speed_mps = 12.0;
   double ground_m = 0.0;  ///< z where the fuselage lies, on flat ground
 };
@@ -39,7 +41,7 @@ class Plane {
  private:
   PlaneOptions options_;
   Eigen::Vector3d p_W_;
-  double yaw_rad_, bank_left_rad_ = 0.0, speed_mps_, climb_mps_ = 0.0;
+  double yaw_rad_, bank_left_rad_ = 0.0, yaw_rate_radps_ = 0.0, speed_mps_, climb_mps_ = 0.0;
   bool has_left_, lies_ = false;
 };
 

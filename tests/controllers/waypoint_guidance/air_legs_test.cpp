@@ -116,6 +116,10 @@ TurnLimits make_limits(double bank_deg = 35.0) {
   TurnLimits limits;
   limits.bank_rad = rad_from_deg(bank_deg);
   limits.bank_rate_radps = rad_from_deg(60.0);
+  // The reference's generator: one lag.
+  limits.gain_per_s = 1.2;
+  limits.bank_lag_s = 0.45;
+  limits.yaw_lag_s = 0.0;
   return limits;
 }
 
@@ -142,6 +146,23 @@ TEST(HeadingGenerator, FullBankComesAfterRateAndLag) {
   EXPECT_NEAR(generator.bank_left_rad(), bank_rad, 1e-5);
   EXPECT_NEAR(generator.rate_radps(), 9.80665 * std::tan(bank_rad) / 12.0, 1e-4);
   EXPECT_NEAR(sum_rads / bank_rad, 6.0 - (35.0 / 120.0 + 0.45), 1e-3);
+}
+
+TEST(HeadingGenerator, HeadingLagsTheBankByTheYawLag) {
+  TurnLimits limits = make_limits();
+  limits.yaw_lag_s = 0.3;
+  HeadingGenerator lagging(limits), plain(make_limits());
+  lagging.start(0.0);
+  plain.start(0.0);
+  for (int i = 0; i < 24000; ++i) {
+    for (HeadingGenerator* generator : {&lagging, &plain}) {
+      generator->advance(0.0005, 100.0, 0.0, 12.0);
+    }
+  }
+  EXPECT_EQ(lagging.bank_left_rad(), plain.bank_left_rad());
+  // A lag of a rate costs its time at the full rate, less half a step.
+  EXPECT_NEAR(plain.heading_rad() - lagging.heading_rad(), (0.3 - 0.00025) * plain.rate_radps(),
+              1e-6);
 }
 
 TEST(HeadingGenerator, SettlesOnTheHeadingAndIsMirrored) {

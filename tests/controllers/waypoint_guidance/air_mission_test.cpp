@@ -132,6 +132,25 @@ TEST(AirMission, StartInTheAirIsADeviationFromThePlan) {
   EXPECT_NEAR(first.distance_m, 50.0, 1e-9);
 }
 
+TEST(AirMission, StartInTheAirTheOtherWayRoundBeginsAtTheVehicle) {
+  AirBench bench({{"end", std::string("stop")}}, in_the_air({0, 0, 60}, rad_from_deg(150.0)));
+  bench.give_plan(make_waypoints({{-50, 0, 100}, {600, 0, 100}}));
+  const AirReference first = bench.tick();
+  EXPECT_NEAR(first.heading_rad, rad_from_deg(150.0), 1e-12);
+  EXPECT_NEAR(first.height_m, 60.0, 1e-12);
+  double off_rad = 0.0;
+  AirReference last;
+  bench.fly(120.0, [&](double, const Odometry& seen, const AirReference& now) {
+    off_rad =
+        std::max(off_rad, std::abs(wrap_angle(yaw_from_quaternion(seen.X_WB.q) - now.heading_rad)));
+    last = now;
+  });
+  EXPECT_LT(off_rad, rad_from_deg(10.0));
+  EXPECT_EQ(last.phase, AirPhase::kDone);
+  EXPECT_LT(std::abs(last.cross_track_m), 0.1);
+  EXPECT_NEAR(last.height_m, 100.0, 0.1);
+}
+
 TEST(AirMission, StartInTheAirFarFromThePlanFliesToItsStart) {
   AirBench bench({{"end", std::string("stop")}}, in_the_air({0, 300, 80}, 0.0));
   bench.give_plan(make_waypoints({{100, 0, 100}, {400, 0, 100}}));

@@ -83,10 +83,11 @@ TubeRoom room_of(const TubeModel& model, const SeriesSupport& S) {
   return room;
 }
 
-/// {x : |x| <= states, |K x| <= inputs}
-Polytope limits(const VectorXd& states, const VectorXd& inputs, const MatrixXd& K) {
-  return Polytope::box(states).intersection(Polytope::box(inputs).linear_preimage(K));
-}
+/// What stays within limits of x and K x for ever, under x+ = A_K x (+ w, w in W).
+struct StayingSet {
+  MatrixXd rows;  // of x: |row x| <= 1
+  int steps = 0;
+};
 
 /// Rows of a set that is its own mirror image, one of each pair, divided by their limits. Where
 /// rounding has left one of a pair out as redundant, its mirror image stands for both.
@@ -104,6 +105,23 @@ MatrixXd paired_rows(const Polytope& set) {
   }
   rows.conservativeResize(kept, Eigen::NoChange);
   return rows;
+}
+
+/// Worked out for x / limits, so that rows of all units weigh the same.
+Result<StayingSet> make_staying_set(const TubeModel& model, const MatrixXd& A_K,
+                                    const TubeReach& limits, const Zonotope* W) {
+  const MatrixXd scale = limits.state.asDiagonal();
+  const MatrixXd unscale = limits.state.cwiseInverse().asDiagonal();
+  const MatrixXd A = unscale * A_K * scale;
+  const MatrixXd K = limits.input.cwiseInverse().asDiagonal() * model.K * scale;
+  const Polytope allowed =
+      Polytope::box(VectorXd::Ones(A.rows()))
+          .intersection(Polytope::box(VectorXd::Ones(K.rows())).linear_preimage(K));
+  const Result<InvariantSet> set =
+      W == nullptr ? maximal_invariant_set(A, allowed)
+                   : maximal_robust_invariant_set(A, allowed, W->linear_image(unscale));
+  if (!set) return Failure{set.reason()};
+  return StayingSet{paired_rows(set->set) * unscale, set->steps};
 }
 
 MatrixXd box_rows(const TubeModel& model, const TubeReach& reach) {
@@ -149,17 +167,17 @@ Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape) {
     sets.margin = std::min(kMargin, 0.5 * (factor - 1.0));
     reach.state *= 1.0 + sets.margin;
     reach.input *= 1.0 + sets.margin;
-    const Result<InvariantSet> R = maximal_robust_invariant_set(
-        sets.A_K, limits(reach.state, reach.input, model.K), gust_set(model));
+    const Zonotope W = gust_set(model);
+    const Result<StayingSet> R = make_staying_set(model, sets.A_K, reach, &W);
     if (!R) return Failure{R.reason()};
-    sets.tube_rows = paired_rows(R->set);
+    sets.tube_rows = R->rows;
   }
   sets.state_limit = model.state_limit - reach.state;
   sets.input_limit = model.input_limit - reach.input;
-  const Result<InvariantSet> terminal =
-      maximal_invariant_set(sets.A_K, limits(sets.state_limit, sets.input_limit, model.K));
+  const Result<StayingSet> terminal =
+      make_staying_set(model, sets.A_K, {sets.state_limit, sets.input_limit}, nullptr);
   if (!terminal) return Failure{terminal.reason()};
-  sets.terminal_rows = paired_rows(terminal->set);
+  sets.terminal_rows = terminal->rows;
   sets.terminal_steps = terminal->steps;
   return sets;
 }

@@ -59,6 +59,15 @@ class Waypoints final : public Planner {
       }
       for (std::size_t i = 0; i < x.size(); ++i) points_.emplace_back(x[i], y[i]);
     }
+    if (parameters.has("z_m")) {
+      heights_m_ = parameters.numbers("z_m");
+      if (heights_m_.size() != points_.size()) {
+        throw ConfigError(fmt::format("{}: z_m has {} numbers for {} points, must be as many", who,
+                                      heights_m_.size(), points_.size()));
+      }
+      if (points_.size() < 2) throw ConfigError(too_few(who));
+      return;
+    }
     for (std::size_t i = 1; i < points_.size();) {
       const bool is_same = (points_[i] - points_[i - 1]).norm() < 1e-6;
       if (is_same) {
@@ -67,13 +76,11 @@ class Waypoints final : public Planner {
         ++i;
       }
     }
-    if (points_.size() < 2) {
-      throw ConfigError(fmt::format(
-          "{}: needs at least two different points, from x_m and y_m or from a file", who));
-    }
+    if (points_.size() < 2) throw ConfigError(too_few(who));
   }
 
   Result<PlannedPath> plan(const Pose& start) override {
+    if (!heights_m_.empty()) return plan_flight();
     std::vector<PathPiece> pieces;
     for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
       pieces.push_back(make_straight(points_[i], points_[i + 1], PathKind::kLeg, -1, speed_mps_));
@@ -88,10 +95,32 @@ class Waypoints final : public Planner {
   }
 
  private:
+  static std::string too_few(const std::string& who) {
+    return fmt::format("{}: needs at least two different points, from x_m and y_m or from a file",
+                       who);
+  }
+
+  /// Straight from point to point in space; what lies below is not asked.
+  PlannedPath plan_flight() const {
+    PlannedPath path;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      PathPoint point;
+      point.p_W << points_[i], heights_m_[i];
+      point.speed_mps = speed_mps_;
+      path.points.push_back(point);
+      if (i == 0) continue;
+      const Eigen::Vector3d way_W = point.p_W - path.points[i - 1].p_W;
+      path.length_m += way_W.norm();
+      path.points[i - 1].yaw_rad = path.points[i].yaw_rad = std::atan2(way_W.y(), way_W.x());
+    }
+    return path;
+  }
+
   double pitch_m_, speed_mps_, clearance_m_;
   const RowMap* map_;
   const SceneQuery* scene_;
   std::vector<Eigen::Vector2d> points_;
+  std::vector<double> heights_m_;  ///< empty: on the ground
 };
 
 }  // namespace
@@ -99,10 +128,16 @@ class Waypoints final : public Planner {
 PartSpec waypoints_spec() {
   PartSpec spec;
   spec.name = "waypoints";
-  spec.description = "A path of straights between points given in the scenario or in a CSV file.";
+  spec.description =
+      "A path of straights between points given in the scenario or in a CSV file, on the ground or "
+      "in the air.";
   spec.parameters = {
       number_list_parameter("x_m", "m", {}, "x of the points in W (east)"),
       number_list_parameter("y_m", "m", {}, "y of the points in W (north), as many as x_m"),
+      optional(
+          number_list_parameter("z_m", "m", {},
+                                "heights of the points in W, as many, for what flies: straight "
+                                "in space; default: on the ground")),
       path_parameter("file",
                      "CSV file with a line x,y in metres for each point, instead of the lists"),
       number_parameter("waypoint_pitch_m", "m", 0.33, 0.0, 1e3,

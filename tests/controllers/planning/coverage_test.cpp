@@ -286,6 +286,22 @@ TEST(Waypoints, SplitsStraightsBetweenThePoints) {
   EXPECT_DOUBLE_EQ(path->length_m, 7.0);
 }
 
+TEST(Waypoints, GoStraightThroughTheAirWhereTheyHaveHeights) {
+  Values values = {{"x_m", std::vector<double>{0, 3, 3}},
+                   {"y_m", std::vector<double>{0, 0, 4}},
+                   {"z_m", std::vector<double>{50, 54, 54}}};
+  // Above a row, which nothing on the ground may cross.
+  const auto path = make_planner({"waypoints", values}, make_narrow_map(2))->plan(Pose{});
+  ASSERT_TRUE(path.ok()) << path.reason();
+  ASSERT_EQ(path->points.size(), 3u);
+  EXPECT_DOUBLE_EQ(path->length_m, 5.0 + 4.0);
+  EXPECT_EQ(path->points[1].p_W, Eigen::Vector3d(3, 0, 54));
+  EXPECT_DOUBLE_EQ(path->points[1].yaw_rad, 0.5 * kPi);
+  values.back().second = std::vector<double>{50};
+  expect_config_error(kNoRows, {"waypoints", values},
+                      "rover.planner (waypoints): z_m has 1 numbers for 3 points, must be as many");
+}
+
 TEST(Waypoints, ReadsACsvFileAndNamesItsFaults) {
   const std::string file = testing::TempDir() + "waypoints.csv";
   std::ofstream(file) << "x,y\n0,0\n# a comment\n3,0\r\n3;4\n";

@@ -34,6 +34,12 @@ BENCHMARK_CAPTURE(whole_scenario, riseholme_rover, "riseholme_rover")
 BENCHMARK_CAPTURE(whole_scenario, orchard_rover, "orchard_rover")
     ->Unit(benchmark::kSecond)
     ->Iterations(3);
+BENCHMARK_CAPTURE(whole_scenario, vineyard_quadrotor, "vineyard_quadrotor_two_rows")
+    ->Unit(benchmark::kSecond)
+    ->Iterations(3);
+BENCHMARK_CAPTURE(whole_scenario, survey, "survey_turbulence")
+    ->Unit(benchmark::kSecond)
+    ->Iterations(3);
 
 }  // namespace
 }  // namespace vinerow

@@ -9,7 +9,6 @@
 
 namespace vinerow::vehicles::test {
 
-constexpr double kGravity = 9.80665;
 
 struct FourWheelRig {
   explicit FourWheelRig(WorldModel model, double yaw_rad = 0.0,

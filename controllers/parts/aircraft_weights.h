@@ -7,20 +7,14 @@
 #include <string>
 
 #include "controllers/parts/aircraft_linear.h"
-#include "engine/api/parameters.h"
+#include "controllers/parts/aircraft_ranges.h"
 
 namespace vinerow {
 
-struct AircraftWeights {
-  /// u m/s, w m/s, q rad/s, theta rad, h m
-  Eigen::Matrix<double, 5, 1> lon;
-  /// v m/s, p rad/s, r rad/s, phi rad, psi rad
-  Eigen::Matrix<double, 5, 1> lat;
-  double throttle = 0.1;
-  double elevator_rad = 0.0;
-  double aileron_rad = 0.0;
-
+/// The deviations that cost 1 each.
+struct AircraftWeights : AircraftRanges {
   AircraftWeights();
+  explicit AircraftWeights(const AircraftRanges& ranges) : AircraftRanges(ranges) {}
 };
 
 /// Group `weights`: u_mps 0.6, w_mps 1, q_degps 60, theta_deg 6, h_m 2, throttle 0.1, elevator_deg

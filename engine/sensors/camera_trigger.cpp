@@ -10,6 +10,7 @@
 #include "engine/api/survey_camera.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "engine/sensors/camera_gimbal.h"
 #include "engine/sensors/mounting.h"
 
 namespace vinerow {
@@ -27,7 +28,9 @@ class CameraTrigger final : public Sensor {
         X_BS_(mounting_pose(parameters)),
         camera_(read_survey_camera(parameters)),
         on_lanes_(parameters.text("on") == "lanes"),
-        stabilised_(parameters.boolean("stabilised")) {
+        has_gimbal_(parameters.text("mount") == "gimbal"),
+        gimbal_(rad_from_deg(parameters.number("gimbal_limit_deg")),
+                parameters.number("gimbal_lag_s")) {
     const double shortest_s = 1.0 / camera_.max_rate_Hz;
     if (parameters.has("distance_m")) {
       if (parameters.has("interval_s")) {
@@ -68,9 +71,13 @@ class CameraTrigger final : public Sensor {
 
   void step(Time now) override {
     const Odometry& truth = truth_.value();
+    // A gimbal also turns between the pictures.
+    const Eigen::Quaterniond q_W =
+        has_gimbal_ ? gimbal_.advance((now - last_).s(), truth.X_WB.q) : truth.X_WB.q;
+    last_ = now;
     if (!is_due(now, truth)) return;
     shot_.index += 1;
-    look(truth.X_WB);
+    look({q_W * X_BS_.q, truth.X_WB * X_BS_.p});
     shot_at_ = now;
     shot_from_W_ = truth.X_WB.p.head<2>();
     out_.write(now, shot_);
@@ -98,12 +105,8 @@ class CameraTrigger final : public Sensor {
     return true;
   }
 
-  void look(const Pose& X_WB) {
-    shot_.X_WS = X_WB * X_BS_;
-    if (stabilised_) {
-      shot_.X_WS.q = quaternion_from_rpy({0.0, 0.0, yaw_from_quaternion(X_WB.q)}) * X_BS_.q;
-    }
-    const Pose& X_WS = shot_.X_WS;
+  void look(const Pose& X_WS) {
+    shot_.X_WS = X_WS;
     const auto axis =
         scene_->cast_ray(X_WS.p, X_WS.q * Eigen::Vector3d::UnitX(), kFarthest_m, kGround);
     shot_.distance_m = axis ? axis->distance_m : 0.0;
@@ -123,7 +126,9 @@ class CameraTrigger final : public Sensor {
   Pose X_BS_;
   SurveyCamera camera_;
   bool on_lanes_;
-  bool stabilised_;
+  bool has_gimbal_;
+  CameraGimbal gimbal_;
+  Time last_;  ///< tick
   Duration fastest_;
   Duration interval_;
   double distance_m_ = 0.0;  ///< 0: by time
@@ -164,8 +169,16 @@ PartSpec camera_trigger_spec() {
   spec.parameters.push_back(choice_parameter("on", "lanes", {"lanes", "always"},
                                              "where it takes pictures: on the plan's legs only, or "
                                              "all the time"));
-  spec.parameters.push_back(boolean_parameter(
-      "stabilised", false, "a gimbal takes the vehicle's roll and pitch out of the picture"));
+  spec.parameters.push_back(choice_parameter(
+      "mount", "fixed", {"fixed", "gimbal"},
+      "gimbal: a stabilised mount takes the vehicle's roll and pitch out of rotation_deg"));
+  // Chosen: travel of small servo gimbals; a lag a little above that of small digital servos
+  // (0.04 s), since the gimbal measures the attitude first. Direct drives are much faster.
+  spec.parameters.push_back(number_parameter("gimbal_limit_deg", "deg", 30.0, 0.0, 90.0,
+                                             "roll and pitch that the gimbal takes out at most"));
+  spec.parameters.push_back(
+      number_parameter("gimbal_lag_s", "s", 0.05, 0.0, 10.0,
+                       "time constant with which the gimbal follows; 0: at once"));
   spec.reads = {"truth", "plan (where on: lanes)"};
   spec.writes = {"<name>: CameraShot"};
   return spec;

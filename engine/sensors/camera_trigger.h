@@ -4,8 +4,9 @@
 /// picture was taken and what of the ground it shows (CameraShot).
 ///
 /// S looks along x, y is the picture's left and z up in it: as mounted by default straight down,
-/// with the picture's upper edge ahead and its long side across the track. A stabilised gimbal
-/// keeps that attitude in W while the vehicle rolls and pitches; only its heading is the vehicle's.
+/// with the picture's upper edge ahead and its long side across the track. With `mount: gimbal`
+/// that attitude is to a level frame of the vehicle's heading instead of to B: camera_gimbal.h
+/// tells what of roll and pitch remains. The camera's place stays that on the vehicle.
 ///
 /// The corners are where rays meet the true ground, plants and walls not seen; a picture with a
 /// corner beyond the ground, or above the horizon, is not `on_ground`. `distance_m` and `gsd_m` are

@@ -155,11 +155,58 @@ TEST_F(CameraBench, AboveTheHorizonIsNoGround) {
   EXPECT_EQ(shot().corners_W[0], Vector3d::Zero());
 }
 
-TEST_F(CameraBench, AGimbalStaysNadir) {
-  start({{"on", std::string("always")}, {"stabilised", true}});
-  ASSERT_TRUE(tick({0, 0, 150}, {0.4, -0.2, kPi / 2}));
+const std::pair<std::string, ParameterSet::Value> kAlways = {"on", std::string("always")},
+                                                  kGimbal = {"mount", std::string("gimbal")};
+
+TEST_F(CameraBench, AGimbalTakesBankAndPitchOut) {
+  start({kAlways, kGimbal});
+  // Banked by 20 deg, nose up by 8, heading north: the level rectangle of 133.3 x 100 m.
+  ASSERT_TRUE(tick({0, 0, 150}, {rad_from_deg(20.0), rad_from_deg(-8.0), kPi / 2}));
   expect_corner(0, -200.0 / 3, 50);
+  expect_corner(1, 200.0 / 3, 50);
   expect_corner(2, 200.0 / 3, -50);
+  expect_corner(3, -200.0 / 3, -50);
+  EXPECT_NEAR(shot().gsd_m, kPixel * 150.0, 1e-12);
+}
+
+TEST_F(CameraBench, AGimbalKeepsAnObliqueCamerasAngle) {
+  start({kAlways, kGimbal, {"rotation_deg", std::vector<double>{0.0, 60.0, 0.0}}});
+  ASSERT_TRUE(tick({0, 0, 150}, {rad_from_deg(-20.0), rad_from_deg(10.0), 0.0}));
+  // 30 deg from the vertical, ahead (east).
+  const Vector3d axis_W = shot().X_WS.q * Vector3d::UnitX();
+  EXPECT_NEAR((axis_W - Vector3d(0.5, 0.0, -std::sqrt(0.75))).norm(), 0.0, 1e-12);
+}
+
+TEST_F(CameraBench, BeyondTheGimbalsLimitTheRestRemains) {
+  start({kAlways, kGimbal, {"gimbal_limit_deg", 12.0}, {"gimbal_lag_s", 0.0}});
+  const double rest = rad_from_deg(8.0);
+  ASSERT_TRUE(tick({0, 0, 100}, {rad_from_deg(20.0), 0, 0}));  // right wing down, heading east
+  // As fixed to a vehicle that is banked by 8 deg: the left edge is seen at 8 deg more.
+  const double left_m = 100.0 / (std::cos(rest) - kAcross * std::sin(rest)) * kAlong;
+  expect_corner(0, left_m, 100.0 * std::tan(rest + std::atan(kAcross)));
+  EXPECT_NEAR(shot().distance_m, 100.0 / std::cos(rest), 1e-9);
+  for (int i = 0; i < 19; ++i) tick({0, 0, 100});
+  ASSERT_TRUE(tick({0, 0, 100}, {0, rad_from_deg(-20.0), 0}));  // nose up
+  const double far_m = 100.0 / (std::cos(rest) - kAlong * std::sin(rest)) * kAcross;
+  expect_corner(0, 100.0 * std::tan(rest + std::atan(kAlong)), far_m);
+}
+
+TEST_F(CameraBench, AGimbalLagsBehindARoll) {
+  start({kAlways, kGimbal, {"gimbal_lag_s", 1.0}});
+  const double rate_radps = 0.4;
+  // Rolling evenly from level: rate T (1 - exp(-t / T)) of it remains, and fades when it stops.
+  const double after_roll = rate_radps * (1.0 - std::exp(-1.0));
+  for (int i = 0; i <= 20; ++i) tick({0, 0, 150}, {rate_radps * 0.05 * i, 0, 0});
+  ASSERT_EQ(shot().index, 1);
+  const auto tilt = [&] {
+    const Vector3d axis_W = shot().X_WS.q * Vector3d::UnitX();
+    EXPECT_NEAR(axis_W.x(), 0.0, 1e-12);
+    return std::atan2(axis_W.y(), -axis_W.z());
+  };
+  EXPECT_NEAR(tilt(), after_roll, 1e-12) << "right wing down: looks to the left";
+  for (int i = 0; i < 20; ++i) tick({0, 0, 150}, {rate_radps, 0, 0});
+  ASSERT_EQ(shot().index, 2);
+  EXPECT_NEAR(tilt(), after_roll * std::exp(-1.0), 1e-12);
 }
 
 TEST_F(CameraBench, PicturesComeByTime) {

@@ -65,9 +65,8 @@ PartSpec air_data_spec() {
   spec.description =
       "Pitot tube and vanes: velocity through the air with white noise, lag, delay and scale error";
   spec.default_rate_Hz = 20.0;
-  // Defaults: Sensirion SDP3x data sheet (differential pressure, zero point 0.1 Pa, span 3 % of the
-  // reading, so 1.5 % of the speed; 0.4 m/s at 0.1 Pa and 1.225 kg/m3). Chosen: the noise, which is
-  // that of vanes at 12 m/s within one degree, and the speed below which vanes do not turn.
+  // Defaults are assumptions, of no data sheet: noise of one degree of the vanes at 12 m/s, a lag
+  // of one tick, no scale error, and a speed below which vanes do not turn.
   spec.parameters = {
       number_parameter("noise_std_mps", "m/s", 0.2, 0.0, 50.0, "white noise of each axis"),
       number_parameter("lag_s", "s", 0.05, 0.0, 60.0, "time constant of the tube and the vanes"),

@@ -2,7 +2,9 @@
 /// bodies fall through the standard atmosphere as `fixed_wing` with coefficients of their own.
 /// Bodies and coefficients: nesc/NESC_data/All_models. The trajectories of these cases are not
 /// among the outside data, so the exact course is integrated here by the classical Runge-Kutta rule
-/// with a standard atmosphere of this test's own; cases 02 and 04 are tests of engine/physics.
+/// with a standard atmosphere of this test's own; cases 02 and 04 are tests of engine/physics. Winds
+/// of cases 07 and 08 as in the check cases of NASA's SimuPy Flight (nasa/simupy-flight,
+/// nesc_test_cases/nesc_case07.py and nesc_case08.py).
 
 #include <gtest/gtest.h>
 
@@ -137,7 +139,7 @@ TEST(FixedWingNesc, Case07SphereDroppedInSteadyWind) {
             2e-6);
 }
 
-/// From 20 ft/s against at the ground, growing by 3 ft/s each 1000 ft.
+/// 70 ft/s at 30,000 ft, evenly down to -20 ft/s at sea level: 3 ft/s each 1000 ft.
 TEST(FixedWingNesc, Case08SphereDroppedInWindShear) {
   WorldModel world = standard_world();
   world.wind.height_law = WindHeightLaw::kLinear;

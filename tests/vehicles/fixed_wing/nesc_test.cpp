@@ -2,8 +2,8 @@
 /// bodies fall through the standard atmosphere as `fixed_wing` with coefficients of their own.
 /// Bodies and coefficients: nesc/NESC_data/All_models. The trajectories of these cases are not
 /// among the outside data, so the exact course is integrated here by the classical Runge-Kutta rule
-/// with a standard atmosphere of this test's own; cases 02 and 04 are tests of engine/physics. Winds
-/// of cases 07 and 08 as in the check cases of NASA's SimuPy Flight (nasa/simupy-flight,
+/// with a standard atmosphere of this test's own; cases 02 and 04 are tests of engine/physics.
+/// Winds of cases 07 and 08 as in the check cases of NASA's SimuPy Flight (nasa/simupy-flight,
 /// nesc_test_cases/nesc_case07.py and nesc_case08.py).
 
 #include <gtest/gtest.h>

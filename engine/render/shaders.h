@@ -26,6 +26,10 @@ Pair shadow_cards();
 const std::string& frame_block();
 const std::string& light_functions();
 const std::string& grass_colour();
+/// Noises and textures over the ground that repeat nowhere: untiled(), value_noise(), grass_tone().
+const std::string& untiled_noise();
+/// float octave_of(vec2 q): how fine q is seen, for fragment shaders.
+const std::string& pixel_octave();
 /// vec4 grid_tint(vec2 place): colour and opacity of the occupancy grid.
 const std::string& grid_tint();
 

@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+
+#include <array>
+
+#include "engine/render/builtin_textures.h"
 #include "engine/render/shaders.h"
 
 namespace vinerow::render::shaders {
@@ -102,6 +107,107 @@ vec3 grass_albedo(float brightness, float dryness, vec2 macro) {
   float dry = clamp(dryness * 0.75 + (macro.y - 0.55) * 0.75 - 0.12, 0.0, 0.8);
   vec3 green = mix(deep, light, brightness);
   return mix(green, straw * (0.25 + 0.95 * brightness), dry);
+}
+)";
+  return text;
+}
+
+namespace {
+
+/// "vec4(...)": the mean of a texture.
+std::string mean_of(const Pixels& texture) {
+  std::array<double, 4> sum{};
+  for (std::size_t i = 0; i < texture.rgba.size(); ++i) sum[i % 4] += texture.rgba[i];
+  const double scale = 4.0 / 255.0 / static_cast<double>(texture.rgba.size());
+  return fmt::format("vec4({:.4f}, {:.4f}, {:.4f}, {:.4f})", scale * sum[0], scale * sum[1],
+                     scale * sum[2], scale * sum[3]);
+}
+
+}  // namespace
+
+const std::string& untiled_noise() {
+  static const std::string text = "const vec4 kNoiseMean = " + mean_of(noise_texture()) +
+                                  ";\nconst vec4 kGroundMean = " + mean_of(ground_texture()) +
+                                  R"(;
+uniform sampler2D noise_tile;
+
+const float kTileOctaves = 9.0;  // textures of ground and noise have 2^9 pixels a side
+
+uint mixed_bits(ivec2 cell, uint seed) {
+  uint h = uint(cell.x) * 0x8da6b343u ^ uint(cell.y) * 0xd8163841u ^ seed * 0xcb1ab31fu;
+  h ^= h >> 15;
+  h *= 0x2c1b3c6du;
+  h ^= h >> 12;
+  h *= 0x297a2d39u;
+  return h ^ (h >> 15);
+}
+
+vec2 place_in_tile(ivec2 cell) {
+  uint h = mixed_bits(cell, 7u);
+  return vec2(h & 0xffffu, h >> 16) * (1.0 / 65536.0);
+}
+
+// A texture without end: at the corners of a grid of triangles it is shifted by random amounts, and
+// between them the three are blended so that contrast stays. After E. Heitz, F. Neyret, "High-
+// performance by-example noise using a histogram-preserving blending operator", 2018.
+// lod, mean: of the texture; sharp: with narrow borders, where blended blades would be seen as such.
+vec4 untiled(sampler2D tile, vec2 uv, float lod, bool sharp, vec4 mean) {
+  vec2 skewed = mat2(1.0, 0.0, -0.57735027, 1.15470054) * uv * 2.2;
+  vec2 cell = floor(skewed);
+  vec2 f = skewed - cell;
+  float rest = 1.0 - f.x - f.y;
+  float upper = rest < 0.0 ? 1.0 : 0.0;
+  float side = 2.0 * upper - 1.0;
+  vec3 w = vec3(-rest * side, upper - f.y * side, upper - f.x * side);
+  w *= w;
+  if (sharp) w *= w;
+  w /= w.x + w.y + w.z;
+  ivec2 corner = ivec2(cell);
+  int u = int(upper);
+  vec4 a = textureLod(tile, uv + place_in_tile(corner + ivec2(u, u)), lod);
+  vec4 b = textureLod(tile, uv + place_in_tile(corner + ivec2(u, 1 - u)), lod);
+  vec4 c = textureLod(tile, uv + place_in_tile(corner + ivec2(1 - u, u)), lod);
+  vec4 sum = w.x * a + w.y * b + w.z * c;
+  return clamp(mean + (sum - mean) * inversesqrt(dot(w, w)), 0.0, 1.0);
+}
+
+// Smooth value noise, 0..1, over cells of one unit.
+float value_noise(vec2 q, uint seed) {
+  vec2 cell = floor(q);
+  vec2 f = q - cell;
+  f = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+  ivec2 i = ivec2(cell);
+  vec4 h = vec4(mixed_bits(i, seed), mixed_bits(i + ivec2(1, 0), seed),
+                mixed_bits(i + ivec2(0, 1), seed), mixed_bits(i + ivec2(1, 1), seed)) * (1.0 / 4294967296.0);
+  return mix(mix(h.x, h.y, f.x), mix(h.z, h.w, f.x), f.y);
+}
+
+// octave: binary logarithm of what a pixel covers, in m.
+vec4 macro_noise(vec2 q, float octave) {
+  return untiled(noise_tile, q * 0.0163, octave + kTileOctaves - 5.94, false, kNoiseMean);
+}
+
+vec4 meso_noise(vec2 q, float octave) {
+  return untiled(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3, octave + kTileOctaves - 3.35, false, kNoiseMean);
+}
+
+// Lushness and dryness of the field, 0..1 about 0.5: over metres, tens and hundreds of metres.
+vec2 grass_tone(vec2 q, float octave, vec4 macro, vec4 meso) {
+  float shown = 1.0 - smoothstep(4.0, 6.0, octave);
+  vec2 broad = vec2(value_noise(q * 0.021, 3u), value_noise(q * 0.0173 + 0.5, 4u)) * 0.5 +
+               vec2(value_noise(q * 0.0067, 5u), value_noise(q * 0.0057 + 0.5, 6u)) * 0.5 - 0.5;
+  vec2 tone = vec2(macro.r * 0.6 + meso.g * 0.4, macro.g * 0.65 + meso.r * 0.35);
+  return tone + shown * vec2(0.40, 0.34) * broad;
+}
+)";
+  return text;
+}
+
+const std::string& pixel_octave() {
+  static const std::string text = R"(
+float octave_of(vec2 q) {
+  vec2 dx = dFdx(q), dy = dFdy(q);
+  return 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-12));
 }
 )";
   return text;

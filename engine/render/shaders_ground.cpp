@@ -71,7 +71,6 @@ const char* const kGroundInputs = R"(
 in vec3 p_W;
 in vec3 n_W;
 out vec4 colour;
-uniform sampler2D noise_tile;
 uniform sampler2D ground_tile;  // R grass, G dryness, B soil, A height
 uniform sampler2D row_mask;     // distances / 2.55 m: R to a row, G to the middle of an alley; B in an alley
 
@@ -84,13 +83,14 @@ struct Turf {
 
 Turf turf_at(vec2 q) {
   Turf t;
-  t.macro = texture(noise_tile, q * 0.0163);
-  t.meso = texture(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3);
-  vec4 fine = texture(ground_tile, q * 0.476);
-  vec4 wide = texture(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7);
+  float octave = octave_of(q);
+  t.macro = macro_noise(q, octave);
+  t.meso = meso_noise(q, octave);
+  vec4 fine = untiled(ground_tile, q * 0.476, octave + kTileOctaves - 1.07, true, kGroundMean);
+  vec4 wide = untiled(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7,
+                      octave + kTileOctaves - 2.55, true, kGroundMean);
   t.detail = mix(fine, wide, 0.38);
-  vec2 tone = vec2(t.macro.r * 0.6 + t.meso.g * 0.4, t.macro.g * 0.65 + t.meso.r * 0.35);
-  t.grass = grass_albedo(t.detail.r * 1.15, t.detail.g, tone);
+  t.grass = grass_albedo(t.detail.r * 1.15, t.detail.g, grass_tone(q, octave, t.macro, t.meso));
   t.soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), t.detail.b * 0.9 + 0.25 * (t.meso.r - 0.5));
   t.scar = 0.6 * smoothstep(0.70, 0.98, t.meso.r * 0.5 + t.macro.g * 0.40 + (0.5 - t.detail.a) * 0.7);
   return t;
@@ -110,7 +110,8 @@ const char* const kApplyGrid = R"(
 }  // namespace
 
 Pair ground(bool with_grid) {
-  const std::string fragment = frame_block() + light_functions() + grass_colour() + kGroundInputs +
+  const std::string fragment = frame_block() + light_functions() + grass_colour() +
+                               untiled_noise() + pixel_octave() + kGroundInputs +
                                (with_grid ? grid_tint() : "") + R"(
 void main() {
   vec3 n = normalize(n_W);
@@ -148,8 +149,8 @@ void main() {
 }
 
 Pair country() {
-  const std::string fragment =
-      frame_block() + light_functions() + grass_colour() + kGroundInputs + R"(
+  const std::string fragment = frame_block() + light_functions() + grass_colour() +
+                               untiled_noise() + pixel_octave() + kGroundInputs + R"(
 void main() {
   vec3 n = normalize(n_W);
   vec2 q = p_W.xy;
@@ -174,12 +175,11 @@ void main() {
 }
 
 Pair grass(bool with_grid) {
-  const std::string vertex = frame_block() + R"(
+  const std::string vertex = frame_block() + untiled_noise() + R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 tint;  // r: brightness, g: dryness, b: height above ground / 0.5 m, a: layer
-uniform sampler2D noise_tile;
 out vec3 p_W;
 out vec3 n_W;
 out vec3 card;
@@ -190,9 +190,8 @@ void main() {
   n_W = normal;
   card = vec3(uv, floor(tint.a * 255.0 + 0.5));
   vec2 q = position.xy;
-  vec4 macro = textureLod(noise_tile, q * 0.0163, 0.0);
-  vec4 meso = textureLod(noise_tile, mat2(0.8, 0.6, -0.6, 0.8) * q * 0.098 + 0.3, 0.0);
-  tone = vec2(macro.r * 0.6 + meso.g * 0.4, macro.g * 0.65 + meso.r * 0.35);
+  const float octave = -20.0;  // the finest there is
+  tone = grass_tone(q, octave, macro_noise(q, octave), meso_noise(q, octave));
   shade = tint.rg;
   gl_Position = clip_from_world * vec4(p_W, 1.0);
 }

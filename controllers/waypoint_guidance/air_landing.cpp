@@ -30,9 +30,20 @@ void AirMission::lay_landing(const AirState& state) {
   leg.airspeed_mps = params_.approach_mps;
   circle_ = LoiterCircle::tangent(entry, course_rad, params_.loiter_radius_m, params_.loiter_side);
   stage_ = Stage::kDescend;
-  tell(false, fmt::format("lands at ({:.1f}, {:.1f}) on a course of {:.0f} deg: circles down to "
-                          "{:.0f} m above it",
-                          place.x(), place.y(), deg_from_rad(wrap_angle(course_rad)), above_m));
+  std::string news = fmt::format(
+      "lands at ({:.1f}, {:.1f}) on a course of {:.0f} deg: circles down to {:.0f} m above it",
+      place.x(), place.y(), deg_from_rad(wrap_angle(course_rad)), above_m);
+  // It knows the ground at its start only.
+  constexpr double kSameGround_m = 20.0;
+  const double away_m = (place - start_.position).norm();
+  const bool is_guess = !params_.land_height_m && away_m > kSameGround_m;
+  if (is_guess) {
+    news += fmt::format(
+        "; takes the ground there to be at z = {:.1f} m as at the start, {:.0f} m away: "
+        "land_height_m tells it",
+        ground_m, away_m);
+  }
+  tell(is_guess, std::move(news));
 }
 
 AirMission::Wanted AirMission::fly_descend(const AirState& state) {

@@ -174,7 +174,7 @@ std::vector<ParameterSpec> waypoint_guidance_parameters() {
       angle("glide_deg", 5.0, 30.0, "of the glide over ground"),
       positive_parameter("flare_height_m", "m", 1.5,
                          "above the touchdown, where the sink rate begins to fade"),
-      number_parameter("power_off_height_m", "m", 1.0, 0.0, 1e3,
+      number_parameter("power_off_height_m", "m", 0.2, 0.0, 1e3,
                        "above the touchdown, where the propeller stops"),
   };
 }

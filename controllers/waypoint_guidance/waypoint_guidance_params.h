@@ -37,7 +37,7 @@ struct WaypointGuidanceParams {
   double approach_mps = 10.0;
   double glide_rad = 0.0873;
   double flare_m = 1.5;
-  double power_off_m = 1.0;
+  double power_off_m = 0.2;
 };
 
 std::vector<ParameterSpec> waypoint_guidance_parameters();

@@ -80,7 +80,7 @@ void AircraftPorts::connect(Ports& ports) {
 bool AircraftPorts::is_flying() const {
   if (!has_estimate() || !has_reference()) return false;
   const Phase phase = reference().phase;
-  return phase != Phase::kWait && phase != Phase::kDone;
+  return phase != Phase::kWait && (phase != Phase::kDone || reference().power);
 }
 
 void AircraftPorts::add_roll_rate(double bank_rad) {
@@ -156,7 +156,6 @@ void AircraftPorts::write_off(Time now) {
   actuators_.write(now, actuator_values_);
   write_deviation(now, {}, {}, false);
   write_follower(now);
-  has_ended_ = has_reference() && reference().phase == Phase::kDone;
 }
 
 void AircraftPorts::write_deviation(Time now, const AircraftDeviation& deviation,
@@ -179,6 +178,7 @@ void AircraftPorts::write_deviation(Time now, const AircraftDeviation& deviation
 
 void AircraftPorts::write_follower(Time now) {
   FollowerState follower;
+  has_ended_ = has_reference() && reference().phase == Phase::kDone;
   if (has_reference()) {
     const AirReference& wanted = reference();
     follower.lateral_error_m = wanted.cross_track_m;
@@ -186,7 +186,7 @@ void AircraftPorts::write_follower(Time now) {
     follower.distance_m = wanted.distance_m;
     follower.remaining_m = wanted.remaining_m;
     follower.waypoint = wanted.waypoint;
-    follower.finished = wanted.phase == Phase::kDone;
+    follower.finished = has_ended_;
   }
   follower_.write(now, follower);
 }

@@ -39,9 +39,9 @@ class AircraftPorts {
   bool has_reference() const { return reference_.has_value(); }
   const Odometry& estimate() const { return estimate_.value(); }
   const AirReference& reference() const { return reference_.value(); }
-  /// The reference wants it in the air, under power or gliding.
+  /// The reference wants it in the air, under power or gliding; also when it is done, with power.
   bool is_flying() const;
-  /// Propeller off has been written since the reference is done.
+  /// Actuators have been written since the reference is done: off, or flying on where it wants.
   bool has_ended() const { return has_ended_; }
 
   /// The reference wants it launched and it is still slower than 0.8 of the wanted airspeed.

@@ -63,6 +63,7 @@ void AirMission::advance(double dt_s, const AirState& state) {
       wanted = fly_legs(dt_s, state);
       break;
     case Stage::kLoiter:
+    case Stage::kAloft:
       wanted = fly_loiter(dt_s, state);
       break;
     case Stage::kDescend:
@@ -116,15 +117,17 @@ AirMission::Wanted AirMission::fly_legs(double dt_s, const AirState& state) {
 void AirMission::end_plan(const AirState& state) {
   using End = WaypointGuidanceParams::End;
   circling_s_ = 0.0;
+  circle_ = {legs_.back().frame.to_W().head<2>(), params_.loiter_radius_m, params_.loiter_side};
   switch (params_.end) {
     case End::kStop:
-      stage_ = Stage::kDone;
-      tell(false, fmt::format("ends its mission in the air at the last waypoint, after {:.0f} m",
-                              length_m_));
+      stage_ = Stage::kAloft;
+      tell(false,
+           fmt::format("ends its mission in the air at the last waypoint, after {:.0f} m, and "
+                       "circles about it",
+                       length_m_));
       return;
     case End::kLoiter:
       stage_ = Stage::kLoiter;
-      circle_ = {legs_.back().frame.to_W().head<2>(), params_.loiter_radius_m, params_.loiter_side};
       tell(false, fmt::format("circles about the last waypoint for {:.0f} s", params_.loiter_s));
       return;
     case End::kLand:
@@ -137,9 +140,10 @@ AirMission::Wanted AirMission::fly_loiter(double dt_s, const AirState& state) {
   wanted.course = circle_.course(state, params_.pilot.cross_track_length_m, course_.course_rad);
   wanted.height_m = legs_.back().frame.to_W().z();
   circling_s_ += dt_s;
-  if (circling_s_ >= params_.loiter_s) {
-    stage_ = Stage::kDone;
-    tell(false, fmt::format("ends its mission in the air after {:.0f} s of circles", circling_s_));
+  if (stage_ == Stage::kLoiter && circling_s_ >= params_.loiter_s) {
+    stage_ = Stage::kAloft;
+    tell(false, fmt::format("ends its mission in the air after {:.0f} s of circles, and circles on",
+                            circling_s_));
   }
   return wanted;
 }
@@ -159,6 +163,7 @@ Phase AirMission::phase() const {
       return Phase::kLoiter;
     case Stage::kLand:
       return Phase::kLand;
+    case Stage::kAloft:
     case Stage::kDone:
       break;
   }
@@ -174,6 +179,7 @@ double AirMission::cross_track_m(const AirState& state) const {
       return final_.front().frame.left_m(state.position);
     case Stage::kClimb:
     case Stage::kLoiter:
+    case Stage::kAloft:
     case Stage::kDescend:
       // Inside the circle is left of a circle to the left.
       return circle_.side * (circle_.radius_m - circle_.away_m(state.position));

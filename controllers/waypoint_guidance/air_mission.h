@@ -1,8 +1,9 @@
 #pragma once
 /// From the launcher to the ground: which way of flying is on, and what it wants.
 ///
-/// wait -> launch -> (circle up) -> legs -> (circle | circle down -> land) -> done. A vehicle that
-/// is in the air already begins on the plan's first leg, wherever it is beside it: what is between
+/// wait -> launch -> (circle up) -> legs -> (circle -> aloft | circle down -> land -> done). Aloft
+/// the mission is over and the vehicle circles on: others may still be at work. A vehicle that is
+/// in the air already begins on the plan's first leg, wherever it is beside it: what is between
 /// them is the controller's to remove.
 
 #include <optional>
@@ -48,7 +49,18 @@ class AirMission {
   bool is_bad_news() const { return is_bad_news_; }
 
  private:
-  enum class Stage { kWait, kLaunch, kClimb, kTransit, kLegs, kLoiter, kDescend, kLand, kDone };
+  enum class Stage {
+    kWait,
+    kLaunch,
+    kClimb,
+    kTransit,
+    kLegs,
+    kLoiter,
+    kAloft,
+    kDescend,
+    kLand,
+    kDone
+  };
   /// What the ways of flying want at this tick.
   struct Wanted {
     WantedCourse course;

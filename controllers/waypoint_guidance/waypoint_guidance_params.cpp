@@ -157,7 +157,8 @@ std::vector<ParameterSpec> waypoint_guidance_parameters() {
       positive_parameter("loiter_s", "s", 60.0, "how long it circles with end: loiter"),
       choice_parameter("end", "land", {"land", "loiter", "stop"},
                        "after the last waypoint: land; circle about it for loiter_s and end the "
-                       "mission in the air; end the mission at once"),
+                       "mission in the air; end the mission at once. What has ended in the air "
+                       "circles on while others work"),
       optional(number_list_parameter("land_at_m", "m", {},
                                      "[x, y] in W of the touchdown; default the start", 2)),
       optional(number_parameter("land_height_m", "m", 0.0, -1e4, 1e4,

@@ -252,7 +252,7 @@ struct AirReference {
     kTurn = 3,
     kLoiter = 4,  ///< circles
     kLand = 5,    ///< down to the ground; the propeller stops where `power` says so
-    kDone = 6     ///< on the ground, nothing left to do
+    kDone = 6     ///< nothing left to do: on the ground, or circling where `power` is on
   };
   Phase phase = Phase::kWait;
   bool power = false;         ///< whether the propeller may run

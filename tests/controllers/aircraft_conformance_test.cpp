@@ -213,6 +213,24 @@ TEST_P(EveryAircraftController, LaunchesWaitsEndsAndStopsThePropeller) {
   EXPECT_TRUE(loop.follower().finished);
 }
 
+TEST_P(EveryAircraftController, FliesOnUnderPowerWhenItsMissionIsOver) {
+  AircraftLoopSetup setup = make_setup();
+  setup.reference = [](double time_s) {
+    AirReference at = fly_straight(0.5, 100.0)(time_s);
+    if (time_s > 2.0) at.phase = AirPhase::kDone;
+    return at;
+  };
+  setup.wind = markov_wind({0, 0, 0}, 0.5, 0.6, 30.0, 1);
+  AircraftLoop loop(setup);
+  loop.run_until(1.9);
+  EXPECT_FALSE(loop.controller().finished());
+  loop.run_until(20.0);
+  EXPECT_TRUE(loop.controller().finished());
+  EXPECT_TRUE(loop.follower().finished);
+  EXPECT_NEAR(loop.sim().truth().X_WB.p.z(), 100.0, 2.0);
+  EXPECT_LT(std::abs(loop.deviation("psi_rad")), rad_from_deg(10.0));
+}
+
 TEST_P(EveryAircraftController, KeepsPropellerOffWithoutReferenceOrEstimate) {
   const VehicleDescription description = describe(make_mh900_like());
   for (const bool has_estimate : {false, true}) {

@@ -143,10 +143,11 @@ TEST(AirMission, StartInTheAirTheOtherWayRoundBeginsAtTheVehicle) {
   bench.fly(120.0, [&](double, const Odometry& seen, const AirReference& now) {
     off_rad =
         std::max(off_rad, std::abs(wrap_angle(yaw_from_quaternion(seen.X_WB.q) - now.heading_rad)));
-    last = now;
+    if (now.phase != AirPhase::kDone) last = now;
   });
   EXPECT_LT(off_rad, rad_from_deg(10.0));
-  EXPECT_EQ(last.phase, AirPhase::kDone);
+  EXPECT_EQ(last.phase, AirPhase::kStraight);
+  EXPECT_NEAR(last.remaining_m, 0.0, 1.0);
   EXPECT_LT(std::abs(last.cross_track_m), 0.1);
   EXPECT_NEAR(last.height_m, 100.0, 0.1);
 }
@@ -191,10 +192,41 @@ TEST(AirMission, CirclesAboutTheLastWaypointForItsTime) {
         EXPECT_TRUE(reference.phase == AirPhase::kDone || reference.power);
       });
       EXPECT_NEAR(ended_s - began_s, 90.0, 0.2);
+      // The mission is over, and it stays where it is as long as others are at work.
+      for (int i = 0; i < 1200; ++i) {
+        const AirReference& after = bench.tick();
+        ASSERT_EQ(after.phase, AirPhase::kDone);
+        ASSERT_TRUE(after.power);
+        ASSERT_EQ(after.remaining_m, 0.0);
+        const Eigen::Vector3d p_W = bench.plane.odometry().X_WB.p;
+        off_m = std::max(off_m, std::abs((p_W.head<2>() - Eigen::Vector2d(200, 0)).norm() - 50.0));
+        ASSERT_NEAR(p_W.z(), 100.0, 0.5);
+      }
       EXPECT_LT(off_m, wind.norm() > 0.0 ? 2.5 : 0.6) << side;
       EXPECT_GT((std::string(side) == "left" ? 1.0 : -1.0) * turned_rad, 4.0 * kPi);
     }
   }
+}
+
+TEST(AirMission, StopsAtTheLastWaypointAndCirclesThere) {
+  AirBench bench({{"end", std::string("stop")}}, in_the_air({0, 0, 100}, 0.0));
+  bench.give_plan(make_waypoints({{0, 0, 100}, {200, 0, 90}}));
+  double ended_s = 0.0;
+  bench.fly(60.0, [&](double time_s, const Odometry&, const AirReference& reference) {
+    if (reference.phase == AirPhase::kDone) ended_s = time_s;
+    EXPECT_NE(reference.phase, AirPhase::kLoiter);
+  });
+  EXPECT_NEAR(ended_s, 200.0 / 12.0, 0.5);
+  double furthest_m = 0.0;
+  for (int i = 0; i < 1200; ++i) {
+    ASSERT_TRUE(bench.tick().power);
+    const Eigen::Vector3d away = bench.plane.odometry().X_WB.p - Eigen::Vector3d(200, 0, 90);
+    furthest_m = std::max(furthest_m, away.head<2>().norm());
+    ASSERT_NEAR(away.z(), 0.0, 1.0);
+  }
+  // From the middle of a circle of 31.5 m it turns with 21 m, half a circle at most while it is
+  // outside: never further away than both.
+  EXPECT_LT(furthest_m, 31.5 + 21.0);
 }
 
 TEST(AirMission, LandsAtItsStartAgainstTheWind) {

@@ -76,8 +76,8 @@ double error_at(std::int64_t step_ns) {
   const ReferenceAircraft::State mine = reference_state(rig.body(), {x[12], x[13], x[14]});
   const Eigen::Matrix3d apart =
       attitude_ned(rig.body().X_WB.q).transpose() * ReferenceAircraft::rotation(x[6], x[7], x[8]);
-  EXPECT_NEAR(rig.plane.actuator_states()[0], x[12], 1e-9);
-  EXPECT_NEAR(rig.plane.actuator_states()[1], x[13], 1e-9);
+  EXPECT_NEAR(rig.vehicle.actuator_states()[0], x[12], 1e-9);
+  EXPECT_NEAR(rig.vehicle.actuator_states()[1], x[13], 1e-9);
   return (mine - x).head<3>().norm() + 0.1 * (mine - x).segment<3>(3).norm() +
          Eigen::AngleAxisd(apart).angle() + 0.1 * (mine - x).segment<3>(9).norm();
 }
@@ -207,7 +207,7 @@ TEST(FixedWingFlight, RecoversFromAStall) {
   double alpha_max = 0.0, lost_m = 0.0;
   for (int i = 0; i < 300; ++i) {
     trimmed.rig.run(0.05);
-    const Vector3d v = trimmed.rig.plane.air_velocity_B();
+    const Vector3d v = trimmed.rig.vehicle.air_velocity_B();
     alpha_max = std::max(alpha_max, std::atan2(-v.z(), v.x()));
     lost_m = std::max(lost_m, 80.0 - trimmed.rig.body().X_WB.p.z());
   }

@@ -61,8 +61,8 @@ TEST(FixedWingLanding, BreaksWhenItSinksTooFast) {
   const std::string told = rig.crash();
   rig.actuate(1.0, 0.0, 0.0);
   rig.run(1.0);
-  EXPECT_EQ(rig.crash(), told);                     // once told it stays
-  EXPECT_LT(rig.plane.actuator_states()[0], 1e-3);  // and the motor is off
+  EXPECT_EQ(rig.crash(), told);                       // once told it stays
+  EXPECT_LT(rig.vehicle.actuator_states()[0], 1e-3);  // and the motor is off
 }
 
 TEST(FixedWingLanding, BreaksNoseFirst) {

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 struct Told {
   explicit Told(WingRig& rig) : event(bus.subscribe<Event>("plane/vehicle_event", "test")) {
     Ports ports(bus, "plane", "plane");
-    rig.plane.connect(ports);
+    rig.vehicle.connect(ports);
   }
   SignalBus bus;
   SignalReader<Event> event;
@@ -29,10 +29,10 @@ TEST(FixedWingLaunch, RestsUntilTheThrottleOpens) {
   rig.actuate(0.3, 0.1, -0.1);  // not more than launch_throttle
   rig.run(2.0);
   EXPECT_EQ(rig.body().X_WB.p, start);
-  EXPECT_TRUE(rig.plane.is_on_launcher());
+  EXPECT_TRUE(rig.vehicle.is_on_launcher());
   EXPECT_NEAR(rig.pitch_rad(), rad_from_deg(22.0), 1e-12);  // elevation and incidence
-  EXPECT_NEAR(rig.plane.specific_force_B().norm(), kGravity, 1e-12);
-  EXPECT_NEAR(rig.plane.actuator_states()[1], 0.1, 1e-9);
+  EXPECT_NEAR(rig.vehicle.specific_force_B().norm(), kGravity, 1e-12);
+  EXPECT_NEAR(rig.vehicle.actuator_states()[1], 0.1, 1e-9);
 }
 
 TEST(FixedWingLaunch, IsPushedEvenlyToItsSpeed) {
@@ -50,7 +50,7 @@ TEST(FixedWingLaunch, IsPushedEvenlyToItsSpeed) {
                          std::sin(rad_from_deg(20.0)));
     const double push_s = 2.0 * 2.0 / speed, a = speed / push_s;
     double time_s = 0.0;
-    while (rig.plane.is_on_launcher()) {
+    while (rig.vehicle.is_on_launcher()) {
       const Vector3d before = rig.body().X_WB.p, v_before = rig.body().v_WB_W;
       rig.step();
       time_s += 1e-3;
@@ -59,7 +59,7 @@ TEST(FixedWingLaunch, IsPushedEvenlyToItsSpeed) {
       ASSERT_LT((rig.body().X_WB.p - before - 0.5e-3 * (v_before + rig.body().v_WB_W)).norm(),
                 1e-12);
       ASSERT_LT((rig.body().v_WB_W - a * time_s * along).norm(), 0.01 * speed);
-      const Vector3d f_W = rig.body().X_WB.q * rig.plane.specific_force_B();
+      const Vector3d f_W = rig.body().X_WB.q * rig.vehicle.specific_force_B();
       ASSERT_LT((f_W - a * along - Vector3d(0, 0, kGravity)).norm(), 0.01 * a);
     }
     EXPECT_NEAR(rig.body().v_WB_W.norm(), speed, 1e-9);
@@ -79,7 +79,7 @@ TEST(FixedWingLaunch, FlyingFromTheStartGoesOnLevel) {
   params.launch.start_height_m = 45.0;
   params.launch.start_speed_mps = 13.0;
   WingRig rig(params, make_flat_world(), 1'000'000, 1.0);
-  EXPECT_FALSE(rig.plane.is_on_launcher());
+  EXPECT_FALSE(rig.vehicle.is_on_launcher());
   EXPECT_NEAR(rig.body().X_WB.p.z(), 45.0, 1e-12);
   rig.run(5.0);
   EXPECT_NEAR(rig.body().X_WB.p.z(), 45.0, 1e-3);
@@ -95,7 +95,7 @@ TEST(FixedWingLaunch, FlyingFromTheStartCountsTheMeanWind) {
   world.wind.height_law = WindHeightLaw::kUniform;
   WingRig rig(params, std::move(world));
   rig.run(3.0);
-  EXPECT_NEAR(rig.plane.air_velocity_B().norm(), 12.0, 1e-4);
+  EXPECT_NEAR(rig.vehicle.air_velocity_B().norm(), 12.0, 1e-4);
   EXPECT_NEAR(rig.body().X_WB.p.y(), -15.0, 1e-2);
   EXPECT_NEAR(rig.body().X_WB.p.z(), 60.0, 1e-2);
 }
@@ -138,9 +138,9 @@ TEST(FixedWingFaults, MotorStopsAtItsTime) {
   Flying rig(params);
   Told told(rig);
   rig.run(0.5);
-  EXPECT_NEAR(rig.plane.actuator_states()[0], 0.5828, 1e-9);
+  EXPECT_NEAR(rig.vehicle.actuator_states()[0], 0.5828, 1e-9);
   rig.run(0.2);
-  EXPECT_NEAR(rig.plane.actuator_states()[0], 0.5828 * std::exp(-2.0), 1e-9);  // lag 0.1 s
+  EXPECT_NEAR(rig.vehicle.actuator_states()[0], 0.5828 * std::exp(-2.0), 1e-9);  // lag 0.1 s
   EXPECT_EQ(told.event.value().text, "the motor fails");
 }
 
@@ -152,8 +152,8 @@ TEST(FixedWingFaults, ElevonSticksWhereItStands) {
   rig.actuate(0.5828, 0.2, 0.2);
   rig.run(0.3);
   const double left = rad_from_deg(-0.83), stuck = 0.2 + (left - 0.2) * std::exp(-0.5);
-  EXPECT_NEAR(rig.plane.actuator_states()[1], 0.2, 1e-3);
-  EXPECT_NEAR(rig.plane.actuator_states()[2], stuck, 1e-9);
+  EXPECT_NEAR(rig.vehicle.actuator_states()[1], 0.2, 1e-3);
+  EXPECT_NEAR(rig.vehicle.actuator_states()[2], stuck, 1e-9);
   EXPECT_EQ(told.event.value().text, "the right elevon is stuck at 4.0 deg");
 }
 
@@ -165,11 +165,11 @@ TEST(FixedWingFaults, BatteryRunsEmptyAndStopsTheMotor) {
   rig.run(0.01);
   // T (k d + V) / 2 over the efficiency of a half, and the electronics.
   const double thrust = 0.0192325 * (std::pow(25.0 * 0.5828, 2) - 144.0);
-  EXPECT_NEAR(rig.plane.battery().power_W, thrust * (25.0 * 0.5828 + 12.0) + 6.0, 0.05);
+  EXPECT_NEAR(rig.vehicle.battery().power_W, thrust * (25.0 * 0.5828 + 12.0) + 6.0, 0.05);
   rig.run(2.5);
-  EXPECT_EQ(rig.plane.battery().charge, 0.0);
+  EXPECT_EQ(rig.vehicle.battery().charge, 0.0);
   EXPECT_EQ(told.event.value().text, "battery empty: the motor stops");
-  EXPECT_LT(rig.plane.actuator_states()[0], 0.2);
+  EXPECT_LT(rig.vehicle.actuator_states()[0], 0.2);
 }
 
 TEST(FixedWingServos, AreAsFastAsTheirRate) {
@@ -178,7 +178,7 @@ TEST(FixedWingServos, AreAsFastAsTheirRate) {
   Flying rig(params);
   rig.actuate(0.5828, 0.4, 0.4);
   rig.run(0.1);
-  EXPECT_NEAR(rig.plane.actuator_states()[1], rad_from_deg(-0.83) + 0.2, 1e-9);
+  EXPECT_NEAR(rig.vehicle.actuator_states()[1], rad_from_deg(-0.83) + 0.2, 1e-9);
 }
 
 std::string refusal(const std::function<void(ParameterSet&)>& spoil) {

@@ -90,7 +90,7 @@ WorldModel standard_world() {
 void run_in_round_gravity(WingRig& rig, double time_s) {
   for (auto i = std::llround(time_s / rig.dt.s()); i > 0; --i) {
     const double z = rig.body().X_WB.p.z() + 0.5 * rig.dt.s() * rig.body().v_WB_W.z();
-    rig.world.add_central_force_W(rig.plane.body_id(),
+    rig.world.add_central_force_W(rig.vehicle.body_id(),
                                   {0, 0, -rig.params.mass_kg * gravity_mps2(z)});
     rig.step();
   }

@@ -1,10 +1,8 @@
 #pragma once
 /// A flying wing in a world of its own.
 
-#include <cmath>
-
 #include "engine/math/angles.h"
-#include "tests/vehicles/small_worlds.h"
+#include "tests/vehicles/flight_rig.h"
 #include "vehicles/fixed_wing/fixed_wing.h"
 
 namespace vinerow::vehicles::test {
@@ -23,27 +21,12 @@ inline FixedWingParams plain_params() {
   return params;
 }
 
-struct WingRig {
+struct WingRig : FlightRig<FixedWingParams, FixedWing> {
   explicit WingRig(const FixedWingParams& the_params = plain_params(),
                    WorldModel model = make_flat_world(), std::int64_t step_ns = 1'000'000,
                    double yaw_rad = 0.0, double gravity = kGravity)
-      : params(the_params),
-        world_model(std::move(model)),
-        world(settings(step_ns, gravity), world_model),
-        plane(params, context()),
-        dt{step_ns} {
-    plane.spawn(world, pose_on_ground(world_model, 0.0, 0.0, yaw_rad, params.shape.belly_m));
-  }
-  static physics::PhysicsSettings settings(std::int64_t step_ns, double gravity) {
-    physics::PhysicsSettings result = settings_with_step(step_ns);
-    result.gravity_mps2 = gravity;
-    return result;
-  }
-  static VehicleContext context() {
-    VehicleContext context;
-    context.vehicle = context.part = "plane";
-    return context;
-  }
+      : FlightRig("plane", the_params, the_params.shape.belly_m, std::move(model), step_ns, yaw_rad,
+                  gravity) {}
 
   /// In flight along x, nose up by `pitch_rad`, moving level.
   static physics::BodyState level(double height_m, double speed_mps, double pitch_rad) {
@@ -55,32 +38,13 @@ struct WingRig {
     return state;
   }
   void fly(const physics::BodyState& state, const FixedWing::Actuators& actuators) {
-    plane.set_motion(state, actuators);
+    vehicle.set_motion(state, actuators);
   }
   void actuate(double throttle, double left_rad, double right_rad) {
     const FixedWing::Actuators values = {throttle, left_rad, right_rad};
-    plane.actuate(values);
+    vehicle.actuate(values);
   }
-  void step() {
-    plane.before_physics(now, dt);
-    world.step(dt);
-    now = now + dt;
-    plane.after_physics(now, dt);
-  }
-  void run(double time_s) {
-    for (auto i = std::llround(time_s / dt.s()); i > 0; --i) step();
-  }
-  const physics::BodyState& body() const { return plane.body(); }
-  Eigen::Vector3d rates_B() const { return body().X_WB.q.conjugate() * body().w_WB_W; }
   double pitch_rad() const { return -rpy_from_quaternion(body().X_WB.q).pitch_rad; }
-  std::string crash() const { return std::string(plane.crash()); }
-
-  FixedWingParams params;
-  WorldModel world_model;
-  physics::PhysicsWorld world;
-  FixedWing plane;
-  Time now;
-  Duration dt;
 };
 
 }  // namespace vinerow::vehicles::test

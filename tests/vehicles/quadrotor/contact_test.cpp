@@ -23,9 +23,9 @@ TEST(QuadrotorGear, StandsAsDrawnWithTheRotorsOff) {
   rig.run(2.0);
   EXPECT_NEAR(rig.body().X_WB.p.z(), 0.22, 1e-9);
   EXPECT_LT(rig.body().v_WB_W.norm(), 1e-12);
-  EXPECT_NEAR(rig.drone.specific_force_B().z(), kGravity, 1e-9);
+  EXPECT_NEAR(rig.vehicle.specific_force_B().z(), kGravity, 1e-9);
   EXPECT_EQ(rig.crash(), "");
-  for (const double speed : rig.drone.actuator_states()) EXPECT_EQ(speed, 0.0);
+  for (const double speed : rig.vehicle.actuator_states()) EXPECT_EQ(speed, 0.0);
 }
 
 TEST(QuadrotorGear, RestsStillOnASlopeOfTenDegrees) {
@@ -139,10 +139,10 @@ TEST(QuadrotorCrash, LeavesTouchedByABlade) {
   const double edge = 1.5 - 0.3 - (0.31 / std::sqrt(2.0) + 0.19);
   EXPECT_NEAR(touched, edge, 2e-3);
   EXPECT_NEAR(rig.body().v_WB_W.y(), 1.0, 1e-6);
-  EXPECT_LT(rig.drone.foliage_watch().questions(), 400);  // of 790 steps, all of the last 5 cm
+  EXPECT_LT(rig.vehicle.foliage_watch().questions(), 400);  // of 790 steps, all of the last 5 cm
   rig.run(0.3);
-  EXPECT_LT(rig.drone.rotors()[0].speed_radps, 0.01 * hover);  // the rotors stop
-  EXPECT_LT(rig.body().X_WB.p.z(), 1.45);                      // it falls
+  EXPECT_LT(rig.vehicle.rotors()[0].speed_radps, 0.01 * hover);  // the rotors stop
+  EXPECT_LT(rig.body().X_WB.p.z(), 1.45);                        // it falls
 }
 
 TEST(QuadrotorCrash, NoLeafIsTouchedBesideTheRow) {
@@ -193,7 +193,7 @@ TEST(QuadrotorCrash, StaysTheFirstReason) {
   EXPECT_EQ(rig.crash(), first);
   rig.actuate(400.0);
   rig.run(1.0);
-  EXPECT_LT(rig.drone.rotors()[0].speed_radps, 1.0);  // wrecked: it does not start again
+  EXPECT_LT(rig.vehicle.rotors()[0].speed_radps, 1.0);  // wrecked: it does not start again
 }
 
 }  // namespace

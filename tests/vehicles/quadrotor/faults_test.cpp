@@ -19,7 +19,7 @@ QuadrotorParams with_fault(QuadrotorFault fault) {
 struct Listener {
   explicit Listener(QuadrotorRig& the_rig) : rig(the_rig) {
     Ports ports(bus, "drone", "drone");
-    rig.drone.connect(ports);
+    rig.vehicle.connect(ports);
     event = bus.subscribe<Event>("drone/vehicle_event", "test");
   }
   void run(double time_s) {
@@ -48,7 +48,7 @@ TEST(QuadrotorFaults, AFailedRotorMakesItTumbleAndCrash) {
   EXPECT_LT(rig.tilt_rad(), 1e-9);
   listener.run(0.4);
   EXPECT_GT(rig.rates_B().head<2>().norm(), 3.0);
-  EXPECT_LT(rig.drone.rotors()[1].speed_radps, 0.01 * rig.params.hover_radps());
+  EXPECT_LT(rig.vehicle.rotors()[1].speed_radps, 0.01 * rig.params.hover_radps());
   EXPECT_EQ(rig.crash(), "");  // not yet: it is in the air
   listener.run(5.0);
   EXPECT_EQ(rig.crash().substr(0, 17), "hit the ground at") << rig.crash();
@@ -62,8 +62,8 @@ TEST(QuadrotorFaults, AShareOfTheThrustIsLeft) {
   rig.fly(50.0, 280.0);
   rig.actuate(280.0);
   rig.run(1.0);
-  EXPECT_NEAR(rig.drone.rotors()[2].thrust_N / rig.drone.rotors()[0].thrust_N, 0.6, 0.02);
-  EXPECT_NEAR(rig.drone.rotors()[2].speed_radps, 280.0 * std::sqrt(0.6), 1e-3);
+  EXPECT_NEAR(rig.vehicle.rotors()[2].thrust_N / rig.vehicle.rotors()[0].thrust_N, 0.6, 0.02);
+  EXPECT_NEAR(rig.vehicle.rotors()[2].speed_radps, 280.0 * std::sqrt(0.6), 1e-3);
 }
 
 TEST(QuadrotorFaults, AnEmptyBatteryStopsTheRotors) {
@@ -78,8 +78,8 @@ TEST(QuadrotorFaults, AnEmptyBatteryStopsTheRotors) {
   ASSERT_EQ(listener.texts.size(), 1u);
   EXPECT_EQ(listener.texts[0], "battery empty: the rotors stop");
   EXPECT_NEAR(listener.times_s[0], 5e-4 * 111.0 * 3600.0 / power, 0.003);
-  EXPECT_EQ(rig.drone.battery().charge, 0.0);
-  EXPECT_EQ(rig.drone.battery().power_W, 0.0);
+  EXPECT_EQ(rig.vehicle.battery().charge, 0.0);
+  EXPECT_EQ(rig.vehicle.battery().power_W, 0.0);
   EXPECT_EQ(rig.crash().substr(0, 17), "hit the ground at");
 }
 
@@ -91,9 +91,9 @@ TEST(QuadrotorFaults, TheBatteryFailsWhenTheScenarioSaysSo) {
   rig.fly(20.0, params.hover_radps());
   rig.actuate(params.hover_radps());
   listener.run(1.0);
-  EXPECT_NEAR(rig.drone.rotors()[0].speed_radps, params.hover_radps(), 1e-9);
+  EXPECT_NEAR(rig.vehicle.rotors()[0].speed_radps, params.hover_radps(), 1e-9);
   listener.run(0.5);
-  EXPECT_LT(rig.drone.rotors()[3].speed_radps, 0.01 * params.hover_radps());
+  EXPECT_LT(rig.vehicle.rotors()[3].speed_radps, 0.01 * params.hover_radps());
   // Two at once are told one after the other.
   EXPECT_EQ(listener.texts.size(), 2u);
 }

@@ -16,7 +16,7 @@ TEST(QuadrotorFlight, FallsFreelyWithoutAir) {
   rig.run(3.0);
   EXPECT_NEAR(rig.body().X_WB.p.z(), 100.0 - 0.5 * kGravity * 9.0, 1e-9);
   EXPECT_NEAR(rig.body().v_WB_W.z(), -3.0 * kGravity, 1e-9);
-  EXPECT_LT(rig.drone.specific_force_B().norm(), 1e-9);
+  EXPECT_LT(rig.vehicle.specific_force_B().norm(), 1e-9);
 }
 
 TEST(QuadrotorFlight, FallsAsDragAllowsToItsTerminalSpeed) {
@@ -44,7 +44,7 @@ TEST(QuadrotorFlight, HoversWhereThrustEqualsWeight) {
   EXPECT_NEAR(rig.body().X_WB.p.z(), 20.0, 1e-9);
   EXPECT_LT(rig.body().v_WB_W.norm(), 1e-9);
   EXPECT_LT(rig.rates_B().norm(), 1e-9);
-  EXPECT_NEAR(rig.drone.specific_force_B().z(), kGravity, 1e-9);
+  EXPECT_NEAR(rig.vehicle.specific_force_B().z(), kGravity, 1e-9);
 }
 
 /// All rotors at full speed: climbs with (T - m g) / m; twice the throttle lag late.
@@ -54,11 +54,11 @@ TEST(QuadrotorFlight, ThrustFollowsTheRotorsLagInClosedForm) {
   rig.actuate(500.0);
   const double t = 0.12, tau = 0.05, u = 500.0, d = 200.0 - 500.0;
   rig.run(t);
-  EXPECT_NEAR(rig.drone.rotors()[0].speed_radps, u + d * std::exp(-t / tau), 1e-9);
+  EXPECT_NEAR(rig.vehicle.rotors()[0].speed_radps, u + d * std::exp(-t / tau), 1e-9);
   const double integral_w2 = u * u * t + 2.0 * u * d * tau * (1.0 - std::exp(-t / tau)) +
                              d * d * tau / 2.0 * (1.0 - std::exp(-2.0 * t / tau));
   EXPECT_NEAR(rig.body().v_WB_W.z(), 4.0 * 5.98e-5 * integral_w2 / 2.0 - kGravity * t, 1e-9);
-  EXPECT_NEAR(rig.drone.actuator_states()[2], rig.drone.rotors()[2].speed_radps, 0.0);
+  EXPECT_NEAR(rig.vehicle.actuator_states()[2], rig.vehicle.rotors()[2].speed_radps, 0.0);
 }
 
 /// Constant unequal speeds: the rate about each axis grows by torque / inertia.
@@ -112,15 +112,15 @@ TEST(QuadrotorFlight, KeepsAngularMomentumOfBodyAndRotors) {
   physics::BodyState state = at_height(500.0);
   state.w_WB_W = {2.0, -1.0, 3.0};
   rig.fly(state, {0.0, 0.0, 0.0, 0.0});
-  const Vector3d before = rig.drone.angular_momentum_W();
+  const Vector3d before = rig.vehicle.angular_momentum_W();
   double most_rotors = 0.0, worst = 0.0;
   for (int i = 0; i < 8; ++i) {
     const double odd = i % 2 == 0 ? 600.0 : 100.0, even = i % 3 == 0 ? 200.0 : 0.0;
     rig.actuate({odd, even, odd, even});
     for (int k = 0; k < 250; ++k) {
       rig.step();
-      most_rotors = std::max(most_rotors, std::abs(rig.drone.rotor_momentum_Nms()));
-      worst = std::max(worst, (rig.drone.angular_momentum_W() - before).norm());
+      most_rotors = std::max(most_rotors, std::abs(rig.vehicle.rotor_momentum_Nms()));
+      worst = std::max(worst, (rig.vehicle.angular_momentum_W() - before).norm());
     }
   }
   EXPECT_GT(most_rotors, 3.0 * before.norm());

@@ -59,7 +59,7 @@ TEST(QuadrotorLayout, EveryRotorOfAPlusTurnsTheBodyItsWay) {
 
 TEST(QuadrotorLayout, TellsWhatControllersAskFor) {
   const QuadrotorRig rig;
-  const VehicleDescription& about = rig.drone.description();
+  const VehicleDescription& about = rig.vehicle.description();
   const auto number = [&](const char* name) { return about.number(name, "the test"); };
   EXPECT_EQ(number("rotor_count"), 4.0);
   EXPECT_NEAR(number("rotor_1_x_m"), 0.219203, 1e-6);
@@ -81,7 +81,7 @@ TEST(QuadrotorLayout, FootprintFitsTheDiscs) {
     QuadrotorParams params;
     params.layout = layout;
     const QuadrotorRig rig(params);
-    const VehicleDescription& about = rig.drone.description();
+    const VehicleDescription& about = rig.vehicle.description();
     const std::vector<Eigen::Vector2d>& outline = about.footprint_B;
     ASSERT_GE(outline.size(), 8u);
     for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -106,8 +106,8 @@ TEST(QuadrotorLayout, RotorsTurnOppositeWaysInPictures) {
   rig.fly(20.0, 300.0);
   rig.actuate(300.0);
   rig.run(0.003);  // 0.9 rad
-  std::vector<Pose> poses(rig.drone.links().size());
-  rig.drone.read_links(poses);
+  std::vector<Pose> poses(rig.vehicle.links().size());
+  rig.vehicle.read_links(poses);
   ASSERT_EQ(poses.size(), 5u);
   for (int i = 0; i < 4; ++i) {
     const double yaw = yaw_from_quaternion((poses[0].inverse() * poses[1 + i]).q);
@@ -146,7 +146,7 @@ std::string refusal(const std::function<void(QuadrotorParams&)>& change) {
   QuadrotorParams params;
   change(params);
   try {
-    Quadrotor(params, QuadrotorRig::context());
+    Quadrotor(params, QuadrotorRig::context("drone"));
   } catch (const ConfigError& error) {
     return error.what();
   }

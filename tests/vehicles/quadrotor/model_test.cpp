@@ -109,17 +109,17 @@ TEST(QuadrotorFlight, FeelsTheGroundByTheHeightOfEachRotor) {
   };
   rig.fly(1.0, 280.0);
   rig.step();
-  EXPECT_NEAR(rig.drone.rotors()[0].thrust_ratio, ratio(1.05), 1e-9);
-  EXPECT_NEAR(rig.drone.rotors()[0].thrust_N, ratio(1.05) * 5.98e-5 * 280.0 * 280.0, 1e-9);
+  EXPECT_NEAR(rig.vehicle.rotors()[0].thrust_ratio, ratio(1.05), 1e-9);
+  EXPECT_NEAR(rig.vehicle.rotors()[0].thrust_N, ratio(1.05) * 5.98e-5 * 280.0 * 280.0, 1e-9);
   // Rolled by 20 deg to the right: the right rotors are lower and feel more.
   physics::BodyState state = at_height(0.8);
   state.X_WB.q = quaternion_from_rpy({rad_from_deg(20.0), 0.0, 0.0});
   rig.fly(state, {280.0, 280.0, 280.0, 280.0});
   rig.step();
-  EXPECT_GT(rig.drone.rotors()[2].thrust_ratio, rig.drone.rotors()[1].thrust_ratio + 0.009);
+  EXPECT_GT(rig.vehicle.rotors()[2].thrust_ratio, rig.vehicle.rotors()[1].thrust_ratio + 0.009);
   rig.fly(4.0, 280.0);
   rig.step();
-  EXPECT_EQ(rig.drone.rotors()[0].thrust_ratio, 1.0);
+  EXPECT_EQ(rig.vehicle.rotors()[0].thrust_ratio, 1.0);
 }
 
 TEST(QuadrotorFlight, DrawsTheShaftPowerOverTheEfficiency) {
@@ -129,9 +129,9 @@ TEST(QuadrotorFlight, DrawsTheShaftPowerOverTheEfficiency) {
   rig.actuate(hover);
   rig.run(1.0);
   const double power = 4.0 * 1.32e-6 * hover * hover * hover / 0.75 + 15.0;
-  EXPECT_NEAR(rig.drone.battery().power_W, power, 1e-6);
-  EXPECT_NEAR(rig.drone.battery().energy_used_J, power, 1e-3);
-  EXPECT_NEAR(rig.drone.battery().charge, 1.0 - power / (111.0 * 3600.0), 1e-9);
+  EXPECT_NEAR(rig.vehicle.battery().power_W, power, 1e-6);
+  EXPECT_NEAR(rig.vehicle.battery().energy_used_J, power, 1e-3);
+  EXPECT_NEAR(rig.vehicle.battery().charge, 1.0 - power / (111.0 * 3600.0), 1e-9);
 }
 
 TEST(QuadrotorFlight, SameInputsGiveTheSameBitsInWind) {

@@ -139,11 +139,7 @@ class Trajectory final : public Guidance {
 
   /// Allocates.
   void tell(Time now, Event::Level level, std::string text) {
-    Event event;
-    event.level = level;
-    event.source = source_;
-    event.text = std::move(text);
-    news_.write(now, event);
+    news_.write(now, {level, source_, std::move(text)});
   }
 
   std::string source_;

@@ -17,7 +17,8 @@ struct CommandResult {
 };
 
 /// @param environment  variables before the command, "NAME=value"
-inline CommandResult run_vinerow(const std::string& arguments, const std::string& environment = "") {
+inline CommandResult run_vinerow(const std::string& arguments,
+                                 const std::string& environment = "") {
   CommandResult result;
   const std::string command =
       environment + " " + std::string(VINEROW_BINARY_DIR) + "/bin/vinerow " + arguments + " 2>&1";
@@ -56,7 +57,7 @@ inline std::string read_text(const std::filesystem::path& file) {
 }
 
 inline std::string scenario_file(const std::string& name) {
-  return std::string(VINEROW_SOURCE_DIR) + "/assets/scenarios/" + name + ".yaml";
+  return VINEROW_SOURCE_DIR "/assets/scenarios/" + name + ".yaml";
 }
 
 /// The line that starts with `key`, without it: digest_of(output, "digest").

@@ -173,9 +173,9 @@ std::vector<ParameterSpec> waypoint_guidance_parameters() {
                                   "airspeed of the glide; default airspeed_mps, where the "
                                   "controllers' trims are")),
       angle("glide_deg", 5.0, 30.0, "of the glide over ground"),
-      positive_parameter("flare_height_m", "m", 1.5,
+      positive_parameter("flare_height_m", "m", 1.0,
                          "above the touchdown, where the sink rate begins to fade"),
-      number_parameter("power_off_height_m", "m", 0.2, 0.0, 1e3,
+      number_parameter("power_off_height_m", "m", 0.1, 0.0, 1e3,
                        "above the touchdown, where the propeller stops"),
   };
 }

@@ -254,7 +254,7 @@ TEST(AirMission, LandsAtItsStartAgainstTheWind) {
     ASSERT_GE(phases.seen.size(), 3u);
     EXPECT_EQ(phases.seen[phases.seen.size() - 2], AirPhase::kLand);
     EXPECT_EQ(phases.seen[phases.seen.size() - 3], AirPhase::kLoiter);
-    EXPECT_NEAR(power_off_m, 0.2, 0.1);
+    EXPECT_NEAR(power_off_m, 0.1, 0.06);
     EXPECT_GT(touch_climb_mps, -0.6);
     EXPECT_GT(least_climb_mps, -12.0 * std::sin(rad_from_deg(12.0)));
     EXPECT_LT((touch - Eigen::Vector2d(5, -3)).norm(), 25.0) << wind.transpose();

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -24,8 +25,21 @@ struct TrimArguments {
   bool as_json = false;
 };
 
+/// @throws ConfigError if the file is a whole scenario
+void refuse_scenario(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("vehicles:")) continue;
+    throw ConfigError(
+        fmt::format("trim: '{}' is a scenario, must be the file of one vehicle, as the scenario's "
+                    "vehicle includes it (e.g. assets/vehicles/mh900_like.yaml)",
+                    file.string()));
+  }
+}
+
 /// The vehicle of a file as a scenario's `include` reads it.
 io::VehicleConfig load_vehicle(const TrimArguments& arguments, const Registry& registry) {
+  refuse_scenario(arguments.file);
   std::string quoted;
   for (const char c : std::filesystem::absolute(arguments.file).string()) {
     quoted += c == '\'' ? std::string("''") : std::string(1, c);

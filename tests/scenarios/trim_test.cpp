@@ -142,7 +142,8 @@ TEST(TrimCommand, RefusesInOneSentence) {
   expect_refused(vehicle_file("quadrotor_q4t"),
                  "quadrotor_q4t.yaml: vehicle type 'quadrotor' has no wings");
   expect_refused("none.yaml", "none.yaml");
-  expect_refused(test::scenario_file("survey_still"), "is a scenario, must be the file of one vehicle");
+  expect_refused(test::scenario_file("survey_still"),
+                 "is a scenario, must be the file of one vehicle");
   expect_refused(file + " --set mas_kg=1", "did you mean 'mass_kg'?");
   expect_refused(file + " --bank 90", "trim: --bank = 90, must be between -90 and 90 deg");
   expect_refused(file + " --period 0", "trim: --period = 0, must be > 0");

@@ -124,6 +124,39 @@ TEST(FixedWingMission, OneSeedHasOneDigest) {
   EXPECT_NE(digest(1), digest(2));
 }
 
+TEST(FixedWingMission, WhatHasEndedInTheAirStaysThereWhileOthersFly) {
+  const auto plane = [](const std::string& name, double x_m, double to_m, const std::string& end) {
+    const std::string x = std::to_string(x_m);
+    return "  " + name + ":\n    include: assets/vehicles/mh900_like.yaml\n    spawn: {x_m: " + x +
+           ", y_m: -200, yaw_deg: 90}\n    launch: air\n    start_height_m: 60\n" +
+           "    planner: {type: waypoints, x_m: [" + x + ", " + x + "], y_m: [-200, " +
+           std::to_string(to_m) + "], z_m: [60, 60]}\n" +
+           "    guidance: {type: waypoint_guidance, " + end + "}\n    controller: {type: trmpc}\n";
+  };
+  TestRun run = TestRun::from_yaml(
+      "vinerow: 1\nname: ends\nseed: 1\nduration_s: 120\nphysics: {step_s: 0.0025}\n"
+      "world: {type: vineyard, row_count: 2, row_length_m: 20, relief_m: 0, surroundings_m: 600, "
+      "terrain_cell_m: 4, occupancy_cell_m: 0}\nvehicles:\n" +
+          plane("stops", -100.0, -80.0, "end: stop") +
+          plane("circles", 100.0, -80.0, "end: loiter, loiter_s: 10") +
+          plane("flies", 0.0, 600.0, "end: stop"),
+      VINEROW_SOURCE_DIR);
+  run.run_for_s(30.0);
+  EXPECT_FALSE(run.finished());
+  EXPECT_EQ(run.metric("stops", "finished"), 1.0);
+  run.run_to_end();
+  EXPECT_TRUE(run.finished());
+  EXPECT_NEAR(run.time_s(), 800.0 / 12.0, 2.0);
+  for (const auto& [name, x_m] : {std::pair{"stops", -100.0}, {"circles", 100.0}}) {
+    const Eigen::Vector3d away = run.truth(name).X_WB.p - Eigen::Vector3d(x_m, -80.0, 60.0);
+    EXPECT_EQ(run.metric(name, "crashed"), 0.0) << name;
+    EXPECT_EQ(run.metric(name, "finished"), 1.0) << name;
+    EXPECT_NEAR(away.z(), 0.0, 1.0) << name;
+    // 1.5 radii of a turn at 35 deg of bank and 12 m/s.
+    EXPECT_NEAR(away.head<2>().norm(), 31.5, 3.0) << name;
+  }
+}
+
 /// 14 m too low and 24 deg off: @returns ticks outside limits under a controller
 Outside stress(int seed, const Sets& controller) {
   Sets sets = on_two_rows(16, {"seed=" + std::to_string(seed)});

@@ -10,6 +10,7 @@
 
 #include "engine/api/map.h"
 #include "engine/api/mesh.h"
+#include "engine/api/scenery.h"
 #include "engine/api/wind.h"
 
 namespace vinerow {
@@ -75,6 +76,7 @@ struct WorldModel {
   std::vector<SpawnPoint> spawn_points;
   Daylight daylight;
   Wind wind;
+  Scenery scenery;  ///< for pictures alone
   std::vector<std::string>
       notes;  ///< what the loader wants the user to know (missing textures, ...)
 };

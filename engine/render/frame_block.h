@@ -20,6 +20,7 @@ struct FrameBlock {
   float haze_from_sun[4];
   float mask_rect[4];
   float shadow_info[4];
+  float land_rect[4];
 };
 
 /// Column-major floats.

@@ -11,6 +11,7 @@
 #include "engine/render/frame_target.h"
 #include "engine/render/grid_overlay.h"
 #include "engine/render/ground_mask.h"
+#include "engine/render/land_use.h"
 #include "engine/render/light.h"
 #include "engine/render/offscreen_context.h"
 #include "engine/render/shaders.h"
@@ -40,10 +41,13 @@ class GlRenderer final : public Renderer {
 
  private:
   Program make_program(const char* name, const shaders::Pair& sources) const;
-  void make_programs();
+  void make_programs(const Scenery& scenery);
   void make_textures();
   void make_terrain(const WorldModel& world);
   void make_shadows();
+  void make_scenery(const Scenery& scenery);
+  void upload_land_use(const LandUse& land);
+  void add_trees(const Scenery& scenery);
 
   void update_shadows(const Camera& camera, const std::vector<Drawable>& vehicles);
   void cast_shadows(const std::vector<const Drawable*>& casters,
@@ -53,6 +57,7 @@ class GlRenderer final : public Renderer {
                     const std::vector<Drawable>& vehicles);
   void draw_ground(const Frame& frame, const Frustum& frustum);
   void draw_tufts(const Frame& frame, const Frustum& frustum);
+  void draw_hedges(const Frustum& frustum);
   void draw_sky();
   /// Readies texture and programs of the frame's grid; they are made when the first frame has one.
   void prepare_grid(const Frame& frame);
@@ -70,15 +75,21 @@ class GlRenderer final : public Renderer {
   std::optional<HeightField> terrain_;
   DrawableStore store_;
   FrameTarget target_;
-  std::vector<LodGroup> groups_;         ///< all but ground
+  std::vector<LodGroup> groups_;         ///< all but ground; the scenery's trees come last
+  std::size_t first_tree_ = 0;           ///< shadows of these and those after it are in LandUse
   std::vector<Drawable> ground_meshes_;  ///< meshes of class kTerrain
   std::vector<GpuMesh> chunks_;
   std::array<GpuMesh, kTerrainLevels> chunk_indices_;
   std::vector<GpuMesh> surroundings_;
+  std::vector<Drawable> hedges_;  ///< a field each, of the scenery
+  std::vector<GpuMesh> hedge_meshes_;
+  Eigen::Vector4f land_rect_ = {0, 0, 0, 0};
+  bool has_land_ = false;
   std::unique_ptr<ShadowMaps> shadows_;
   Program sky_, ground_, country_, surface_, foliage_, foliage_depth_, grass_, ribbon_,
       shadow_solid_, shadow_cards_;
   GridOverlay grid_;
+  Program hedge_;
   Program grid_map_, grid_ground_, grid_grass_;  ///< made by prepare_grid
   bool grid_on_ground_ = false;                  ///< in this frame
   GLuint frame_buffer_ = 0;

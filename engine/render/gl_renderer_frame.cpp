@@ -121,7 +121,8 @@ void GlRenderer::update_shadows(const Camera& camera, const std::vector<Drawable
   const ShadowMaps::DrawCasters draw_world = [&](const Eigen::Matrix4d& clip_from_world,
                                                  const Eigen::AlignedBox2d& rectangle, bool near) {
     std::vector<const Drawable*> casters;
-    for (const LodGroup& group : groups_) {
+    for (std::size_t i = 0; i < first_tree_; ++i) {
+      const LodGroup& group = groups_[i];
       // A level for good: shadows of leaves look alike at any level of detail.
       const std::size_t level = std::min<std::size_t>(group.levels.size() - 1, near ? 1 : 2);
       const Drawable& drawable = group.levels[level];
@@ -170,6 +171,7 @@ void GlRenderer::upload_frame_block(const Frame& frame, const Eigen::Matrix4d& c
   block.mask_rect[1] = static_cast<float>(mask_.corner_W.y());
   block.mask_rect[2] = static_cast<float>(1.0 / mask_.size_m.x());
   block.mask_rect[3] = static_cast<float>(1.0 / mask_.size_m.y());
+  std::copy_n(land_rect_.data(), 4, block.land_rect);
   gl_.BindBuffer(GL_UNIFORM_BUFFER, frame_buffer_);
   gl_.BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer_);
@@ -268,7 +270,7 @@ void GlRenderer::prepare_grid(const Frame& frame) {
   if (frame.grid == nullptr) return;
   if (grid_map_.id == 0) {
     grid_map_ = make_program("grid_map", shaders::grid_map());
-    grid_ground_ = make_program("grid_ground", shaders::ground(true));
+    grid_ground_ = make_program("grid_ground", shaders::ground(true, has_land_));
     grid_grass_ = make_program("grid_grass", shaders::grass(true));
   }
   grid_.show(frame.grid);
@@ -357,6 +359,7 @@ Image GlRenderer::draw(const Frame& frame) {
   upload_frame_block(frame, clip_from_world);
   target_.begin(frame.width, frame.height, scale);
   draw_objects(frame, frustum, vehicles);
+  draw_hedges(frustum);
   draw_tufts(frame, frustum);
   draw_ground(frame, frustum);
   draw_sky();

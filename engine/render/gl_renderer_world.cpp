@@ -20,7 +20,7 @@ GlRenderer::GlRenderer(std::unique_ptr<OffscreenContext> context, const WorldMod
       store_(gl_),
       target_(gl_),
       grid_(gl_) {
-  make_programs();
+  make_programs(world.scenery);
   gl_.GenBuffers(1, &frame_buffer_);
   gl_.GenVertexArrays(1, &empty_array_);
   tufts_ = make_gpu_mesh(gl_);
@@ -35,8 +35,10 @@ GlRenderer::GlRenderer(std::unique_ptr<OffscreenContext> context, const WorldMod
     }
   }
   groups_ = store_.make_groups(objects);
+  first_tree_ = groups_.size();
   make_terrain(world);
   if (settings_.shadows) make_shadows();
+  make_scenery(world.scenery);
 
   gl_.GenVertexArrays(1, &ribbon_array_);
   gl_.GenBuffers(1, &ribbon_buffer_);
@@ -71,9 +73,10 @@ Program GlRenderer::make_program(const char* name, const shaders::Pair& sources)
   return program;
 }
 
-void GlRenderer::make_programs() {
+void GlRenderer::make_programs(const Scenery& scenery) {
   sky_ = make_program("sky", shaders::sky());
-  ground_ = make_program("ground", shaders::ground());
+  has_land_ = !scenery.empty() && terrain_;
+  ground_ = make_program("ground", shaders::ground(false, has_land_));
   country_ = make_program("country", shaders::country());
   surface_ = make_program("surface", shaders::surface());
   foliage_ = make_program("foliage", shaders::foliage());

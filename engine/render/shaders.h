@@ -11,14 +11,16 @@ struct Pair {
 };
 
 Pair sky();
-Pair ground(bool with_grid = false);  ///< terrain; with the occupancy grid painted on it
-Pair country();                       ///< what lies beyond it
-Pair surface();                       ///< posts, trunks, vehicles, anything opaque
-Pair foliage();                       ///< leaf cards, where their depth is drawn already
-Pair foliage_depth();                 ///< alpha-tested leaf cards, depth only
-Pair grass(bool with_grid = false);   ///< alpha-tested tufts near the camera
-Pair grid_map();                      ///< the occupancy grid over a view from above
-Pair ribbon();                        ///< lines in clip space
+/// Terrain; with the occupancy grid painted on it; with the scenery's fields and tracks.
+Pair ground(bool with_grid = false, bool with_land = false);
+Pair country();                      ///< what lies beyond it
+Pair surface();                      ///< posts, trunks, vehicles, anything opaque
+Pair foliage();                      ///< leaf cards, where their depth is drawn already
+Pair foliage_depth();                ///< alpha-tested leaf cards, depth only
+Pair grass(bool with_grid = false);  ///< alpha-tested tufts near the camera
+Pair hedge();                        ///< rows of the scenery
+Pair grid_map();                     ///< the occupancy grid over a view from above
+Pair ribbon();                       ///< lines in clip space
 Pair shadow_solid();
 Pair shadow_cards();
 
@@ -30,6 +32,10 @@ const std::string& grass_colour();
 const std::string& untiled_noise();
 /// float octave_of(vec2 q): how fine q is seen, for fragment shaders.
 const std::string& pixel_octave();
+/// vec3 leaf_light(albedo, n, p, lift): radiance of leaves.
+const std::string& leaf_light();
+/// Land land_at(...): fields and tracks at a place; after the ground's own inputs.
+const std::string& land_use();
 /// vec4 grid_tint(vec2 place): colour and opacity of the occupancy grid.
 const std::string& grid_tint();
 

@@ -24,6 +24,7 @@ layout(std140) uniform FrameBlock {
   vec4 haze_from_sun;      // rgb
   vec4 mask_rect;          // xy: corner in m; zw: 1 / size
   vec4 shadow_info;        // texel of the near and far map in m; z: 1 when there are shadows; w: taps
+  vec4 land_rect;          // of the scenery's fields, as mask_rect
 };
 )";
   return text;
@@ -160,7 +161,10 @@ vec4 untiled(sampler2D tile, vec2 uv, float lod, bool sharp, vec4 mean) {
   float side = 2.0 * upper - 1.0;
   vec3 w = vec3(-rest * side, upper - f.y * side, upper - f.x * side);
   w *= w;
-  if (sharp) w *= w;
+  if (sharp) {
+    w *= w;
+    w *= w;
+  }
   w /= w.x + w.y + w.z;
   ivec2 corner = ivec2(cell);
   int u = int(upper);

@@ -101,18 +101,52 @@ float turf_relief(Turf t, float bare) {
 }
 )";
 
+/// Colours of the country from afar.
+const char* const kPatchwork = R"(
+// Fields about 190 m long on a grid that is bent, in strips that are shifted against each other.
+vec3 patchwork(vec2 q, float octave, vec4 regions, vec4 trees) {
+  vec2 bent = q + 150.0 * vec2(value_noise(q * 0.0031, 11u), value_noise(q * 0.0031 + 0.5, 12u));
+  vec2 p = mat2(0.87, 0.5, -0.5, 0.87) * bent * vec2(1.0 / 190.0, 1.0 / 130.0);
+  ivec2 cell = ivec2(0, int(floor(p.y)));
+  p.x += float(mixed_bits(cell, 13u) & 255u) / 256.0;
+  cell.x = int(floor(p.x));
+  uint h = mixed_bits(cell, 14u);
+  float kind = float(h & 255u) / 255.0, shade = float((h >> 8) & 255u) / 255.0;
+  vec3 green = mix(vec3(0.070, 0.096, 0.036), vec3(0.112, 0.130, 0.056), shade);
+  vec3 straw = mix(vec3(0.150, 0.134, 0.072), vec3(0.225, 0.190, 0.108), shade);
+  float dry = smoothstep(0.62, 0.66, kind + 0.5 * (regions.r - 0.5));
+  vec3 field = mix(green, straw, dry) * (0.85 + 0.3 * trees.g);
+  // Hedges and grass between them, lost where a pixel covers them.
+  vec2 edge = min(fract(p), 1.0 - fract(p)) * vec2(190.0, 130.0);
+  float hedge = 1.0 - smoothstep(2.0, 4.5 + exp2(octave), min(edge.x, edge.y) + 3.0 * (trees.a - 0.5));
+  vec3 seam = mix(vec3(0.150, 0.140, 0.095), vec3(0.045, 0.062, 0.028), smoothstep(0.45, 0.55, trees.r));
+  return mix(mix(field, seam, hedge * 0.7), vec3(0.118, 0.120, 0.058), smoothstep(4.0, 7.0, octave));
+}
+)";
+
 /// What a shader's `seen` becomes where the grid covers its place.
 const char* const kApplyGrid = R"(
   vec4 tint = grid_tint(p_W.xy);
   seen = mix(seen, tint.rgb, tint.a);
 )";
 
+/// What the scenery makes of grass and soil.
+const char* const kApplyLand = R"(
+  Land land = land_at(q, t, octave_of(q), ragged * 0.6);
+  grass = mix(grass, land.grass * 0.92, max(smoothstep(1.2, 1.6, d.y), 1.0 - mask.b) * (1.0 - strip));
+  bare = max(bare, land.bare);
+)";
+const char* const kApplyTrack = R"(
+  vec3 gravel = vec3(0.300, 0.258, 0.190) * (0.62 + 0.45 * t.detail.b + 0.18 * t.meso.r);
+  albedo = mix(albedo, gravel, land.track);
+)";
+
 }  // namespace
 
-Pair ground(bool with_grid) {
+Pair ground(bool with_grid, bool with_land) {
   const std::string fragment = frame_block() + light_functions() + grass_colour() +
                                untiled_noise() + pixel_octave() + kGroundInputs +
-                               (with_grid ? grid_tint() : "") + R"(
+                               (with_grid ? grid_tint() : "") + (with_land ? land_use() : "") + R"(
 void main() {
   vec3 n = normalize(n_W);
   vec2 q = p_W.xy;
@@ -133,9 +167,15 @@ void main() {
 
   // The mown middle of an alley is lighter, the fringe at the vines taller and darker.
   vec3 grass = t.grass * (0.88 + 0.18 * mask.b * smoothstep(0.9, 0.2, d.y));
+)" + (with_land ? kApplyLand : "") +
+                               R"(
   vec3 albedo = mix(grass, t.soil, bare);
+)" + (with_land ? kApplyTrack : "") +
+                               R"(
 
   float sun = sun_visibility(p_W, n, 0.0);
+)" + (with_land ? "  sun *= land.sun;\n" : "") +
+                               R"(
   vec3 light = sun_irradiance.rgb * (max(dot(n, sun_direction.xyz), 0.0) * sun) + ambient(n) * turf_relief(t, bare);
   // The foot of the vines sees little sky.
   light *= 1.0 - 0.22 * (1.0 - smoothstep(0.0, 0.8, d.x));
@@ -150,20 +190,20 @@ void main() {
 
 Pair country() {
   const std::string fragment = frame_block() + light_functions() + grass_colour() +
-                               untiled_noise() + pixel_octave() + kGroundInputs + R"(
+                               untiled_noise() + pixel_octave() + kGroundInputs + kPatchwork + R"(
 void main() {
   vec3 n = normalize(n_W);
   vec2 q = p_W.xy;
   Turf t = turf_at(q);
   vec3 albedo = mix(t.grass * 0.88, t.soil, t.scar);
 
-  // Farther away meadow, stubble and dark woods take turns over hundreds of metres.
+  // Farther away fields and dark woods take turns over hundreds of metres.
   float far = smoothstep(80.0, 700.0, length(p_W - eye.xyz));
-  vec4 fields = texture(noise_tile, q * 0.00071 + 0.2);
+  vec4 regions = texture(noise_tile, q * 0.00071 + 0.2);
   vec4 trees = texture(noise_tile, q * 0.0051 + 0.6);
-  vec3 field = mix(vec3(0.082, 0.102, 0.042), vec3(0.165, 0.152, 0.078), smoothstep(0.30, 0.70, fields.r + 0.3 * (trees.g - 0.5)));
-  float woods = smoothstep(0.50, 0.66, fields.a * 0.50 + trees.r * 0.35 + t.macro.b * 0.15);
-  field = mix(field, vec3(0.034, 0.050, 0.026) * (0.6 + 0.8 * trees.a), woods * 0.9);
+  vec3 field = patchwork(q, octave_of(q), regions, trees);
+  float woods = smoothstep(0.52, 0.60, regions.a * 0.50 + trees.r * 0.30 + trees.a * 0.10 + t.macro.b * 0.10);
+  field = mix(field, vec3(0.036, 0.052, 0.026) * (0.55 + 0.9 * trees.a), woods * 0.9);
   albedo = mix(albedo, field, far * 0.9);
 
   float sun = sun_visibility(p_W, n, 0.0);

@@ -84,8 +84,31 @@ void main() {
   return {frame_block() + kMeshVertex, fragment};
 }
 
+const std::string& leaf_light() {
+  static const std::string text = R"(
+// Radiance of leaves at p; lift: by how much shadows start nearer to the sun, m.
+vec3 leaf_light(vec3 albedo, vec3 n, vec3 p, float lift) {
+  vec3 v = -view_direction(p);
+  float n_l = dot(n, sun_direction.xyz);
+  float sun = sun_visibility(p, n, lift);
+  // Leaves let about a third of the light through, yellower than what they reflect.
+  float front = max((n_l + 0.25) / 1.25, 0.0);
+  float toward = max(dot(-v, sun_direction.xyz), 0.0);
+  float through = max((0.35 - n_l) / 1.35, 0.0) * (0.35 + 1.1 * toward * toward * toward);
+  vec3 transmitted = albedo * vec3(1.25, 1.22, 0.55);
+  vec3 h = normalize(sun_direction.xyz + v);
+  float gloss = pow(max(dot(n, h), 0.0), 22.0) * 0.03;
+
+  vec3 direct = sun_irradiance.rgb * sun;
+  vec3 radiance = kOneOverPi * (albedo * (direct * front + ambient(n)) + transmitted * direct * through);
+  return radiance + direct * gloss;
+}
+)";
+  return text;
+}
+
 Pair foliage() {
-  const std::string fragment = frame_block() + light_functions() + R"(
+  const std::string fragment = frame_block() + light_functions() + leaf_light() + R"(
 in vec3 p_W;
 in vec3 n_W;
 in vec3 p_M;
@@ -105,22 +128,8 @@ void main() {
   vec2 tilt = (leaf.gb - 0.5) * 2.2;
   n = normalize(n + t * tilt.x + cross(n, t) * tilt.y);
 
-  vec3 v = -view_direction(p_W);
-  float n_l = dot(n, sun_direction.xyz);
-  float sun = sun_visibility(p_W, n, 0.10);
   vec3 albedo = material.rgb * vertex_colour * (0.30 + 1.40 * leaf.r);
-  // Leaves let about a third of the light through, yellower than what they reflect.
-  float front = max((n_l + 0.25) / 1.25, 0.0);
-  float toward = max(dot(-v, sun_direction.xyz), 0.0);
-  float through = max((0.35 - n_l) / 1.35, 0.0) * (0.35 + 1.1 * toward * toward * toward);
-  vec3 transmitted = albedo * vec3(1.25, 1.22, 0.55);
-  vec3 h = normalize(sun_direction.xyz + v);
-  float gloss = pow(max(dot(n, h), 0.0), 22.0) * 0.03;
-
-  vec3 direct = sun_irradiance.rgb * sun;
-  vec3 radiance = kOneOverPi * (albedo * (direct * front + ambient(n)) + transmitted * direct * through);
-  radiance += direct * gloss;
-  colour = vec4(finish(radiance, p_W), 1.0);
+  colour = vec4(finish(leaf_light(albedo, n, p_W, 0.10), p_W), 1.0);
 }
 )";
   return {frame_block() + kMeshVertex, fragment};

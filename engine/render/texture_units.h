@@ -12,6 +12,8 @@ enum TextureUnit : int {
   kUnitLeaves = 5,
   kUnitImage = 6,
   kUnitGrid = 7,
+  kUnitLand = 8,
+  kUnitFields = 9,
 };
 
 struct SamplerUnit {
@@ -22,7 +24,8 @@ struct SamplerUnit {
 inline constexpr SamplerUnit kSamplerUnits[] = {
     {"shadow_maps", kUnitShadow}, {"sky_table", kUnitSky},   {"noise_tile", kUnitNoise},
     {"ground_tile", kUnitGround}, {"row_mask", kUnitMask},   {"leaf_cards", kUnitLeaves},
-    {"image", kUnitImage},        {"grid_cells", kUnitGrid},
+    {"image", kUnitImage},        {"grid_cells", kUnitGrid}, {"land_tile", kUnitLand},
+    {"field_table", kUnitFields},
 };
 
 }  // namespace vinerow::render

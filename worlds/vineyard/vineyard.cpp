@@ -8,6 +8,7 @@
 #include "engine/math/angles.h"
 #include "worlds/mapping/map_parameters.h"
 #include "worlds/parts/common.h"
+#include "worlds/parts/neighbours.h"
 #include "worlds/parts/obstacles.h"
 #include "worlds/parts/row_map.h"
 #include "worlds/parts/terrain.h"
@@ -64,6 +65,7 @@ PartSpec vineyard_spec() {
        terrain_parameters(1.5),
        origin_parameters(44.6150, 7.9244, 300),
        surroundings_parameters(),
+       neighbours_parameters(),
        map_parameters(),
        obstacle_parameters()});
   return spec;
@@ -188,7 +190,7 @@ std::string mesh_key(const ParameterSet& parameters, const HeightField& terrain)
   for (const char* name : {"sun_azimuth_deg", "sun_elevation_deg"}) shaping.set(name, 45.0);
   shaping.set("soil", std::string("dry_grass"));
   shaping.set("mesh_folder", std::string());
-  std::vector<std::string> without{"wind", "surroundings_m", "slope_fade_m"};
+  std::vector<std::string> without{"wind", "surroundings_m", "slope_fade_m", "neighbours"};
   for (const auto& specs : {map_parameters(), obstacle_parameters()}) {
     for (const ParameterSpec& spec : specs) without.push_back(spec.name);
   }
@@ -212,6 +214,8 @@ std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& given, const World
   const GroundHeight ground = ground_of(*world->terrain);
   world->rows = make_row_map(rows, ground, planting.canopy, boundary);
   add_alley_spawn_points(*world);
+  world->scenery =
+      read_neighbours(parameters, boundary, parameters.number("surroundings_m"), planting.seed);
 
   std::vector<VineRow> vine_rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -1,0 +1,91 @@
+// The scenery around a world: fields and tracks on the ground, rows, trees.
+#include <array>
+
+#include "engine/render/gl_renderer.h"
+#include "engine/render/land_use.h"
+#include "engine/render/noise.h"
+#include "engine/render/scenery_meshes.h"
+#include "engine/render/texture_units.h"
+
+namespace vinerow::render {
+
+void GlRenderer::upload_land_use(const LandUse& land) {
+  land_rect_ = {static_cast<float>(land.corner_W.x()), static_cast<float>(land.corner_W.y()),
+                static_cast<float>(1.0 / land.size_m.x()),
+                static_cast<float>(1.0 / land.size_m.y())};
+  gl_.ActiveTexture(GL_TEXTURE0 + kUnitLand);
+  upload_texture(gl_, {land.pixels}, true);
+  gl_.ActiveTexture(GL_TEXTURE0 + kUnitFields);
+  GLuint table = 0;
+  gl_.GenTextures(1, &table);
+  gl_.BindTexture(GL_TEXTURE_2D, table);
+  const std::vector<float> none(12, 0.0f);
+  const std::vector<float>& rows = land.table.empty() ? none : land.table;
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 3, static_cast<GLsizei>(rows.size() / 12), 0,
+                 GL_RGBA, GL_FLOAT, rows.data());
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_.ActiveTexture(GL_TEXTURE0 + kUnitImage);
+}
+
+void GlRenderer::make_scenery(const Scenery& scenery) {
+  if (scenery.empty() || !terrain_) return;
+  upload_land_use(make_land_use(scenery, *terrain_, light_.sun_direction_W));
+  hedge_ = make_program("hedge", shaders::hedge());
+  hedge_meshes_.reserve(scenery.fields.size());
+  for (const SceneryField& field : scenery.fields) {
+    const PreparedMesh mesh = make_hedges(field, *terrain_);
+    if (mesh.indices.empty()) continue;
+    hedge_meshes_.push_back(upload_mesh(gl_, mesh));
+    Drawable drawable;
+    drawable.mesh = &hedge_meshes_.back();
+    drawable.box_W = mesh.bounds_M;
+    drawable.surface = SurfaceClass::kCanopy;
+    hedges_.push_back(drawable);
+  }
+  add_trees(scenery);
+}
+
+void GlRenderer::add_trees(const Scenery& scenery) {
+  struct Tree {
+    std::shared_ptr<const TriangleMesh> crown, trunk;
+  };
+  std::array<Tree, kSceneryTreeKinds> kinds;
+  for (int i = 0; i < kSceneryTreeKinds; ++i) {
+    kinds[i] = {make_scenery_crown(kSceneryTrees[i], i), make_scenery_trunk(kSceneryTrees[i])};
+  }
+  Material leaves;
+  leaves.leaf_cards = true;
+  leaves.texture = "builtin:tree_leaf";
+  leaves.colour = {1, 1, 1};
+  Material bark;
+  bark.colour = {0.085f, 0.065f, 0.05f};
+  for (std::size_t i = 0; i < scenery.trees.size(); ++i) {
+    const SceneryTree& tree = scenery.trees[i];
+    if (tree.kind < 0 || tree.kind >= kSceneryTreeKinds) continue;
+    const double half_turn = 3.14159265 * hash01(static_cast<std::uint32_t>(i), 1u, 51u);
+    Pose X_WT;
+    X_WT.p = {tree.p_W.x(), tree.p_W.y(), terrain_->height_m(tree.p_W.x(), tree.p_W.y())};
+    X_WT.q = Eigen::Quaterniond(std::cos(half_turn), 0.0, 0.0, std::sin(half_turn));
+    const auto add = [&](const std::shared_ptr<const TriangleMesh>& mesh, SurfaceClass surface,
+                         const Material& material) {
+      LodGroup group;
+      group.levels.push_back(store_.make_drawable(mesh, X_WT, surface, material));
+      group.box_W = group.levels.front().box_W;
+      groups_.push_back(std::move(group));
+    };
+    add(kinds[tree.kind].crown, SurfaceClass::kCanopy, leaves);
+    add(kinds[tree.kind].trunk, SurfaceClass::kTrunk, bark);
+  }
+}
+
+void GlRenderer::draw_hedges(const Frustum& frustum) {
+  if (hedges_.empty()) return;
+  gl_.UseProgram(hedge_.id);
+  gl_.Disable(GL_CULL_FACE);
+  for (const Drawable& hedge : hedges_) {
+    if (!settings_.cull || frustum.may_see(hedge.box_W)) draw_mesh(*hedge.mesh);
+  }
+}
+
+}  // namespace vinerow::render

@@ -1,0 +1,130 @@
+/// Neighbouring fields in pictures: where they lie on the ground, what they are made of, and that
+/// their rows are seen.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/render/land_use.h"
+#include "engine/render/scenery_meshes.h"
+#include "tests/engine/render/test_scenes.h"
+
+namespace vinerow::render {
+namespace {
+
+const Eigen::Vector3d kSun = Eigen::Vector3d(0.0, 1.0, 1.0).normalized();
+
+std::vector<Eigen::Vector2d> square(const Eigen::Vector2d& middle, double half_m) {
+  const Eigen::Vector2d x(half_m, 0.0), y(0.0, half_m);
+  return {middle - x - y, middle + x - y, middle + x + y, middle - x + y};
+}
+
+/// Rows along x, 2.5 m apart, in a square of 60 m around the origin; a track and a tree beside it.
+Scenery make_scenery() {
+  Scenery scenery;
+  SceneryField field;
+  field.corners_W = square({0, 0}, 35.0);
+  field.planted_W = square({0, 0}, 30.0);
+  field.pitch_m = 2.5;
+  scenery.fields.push_back(field);
+  scenery.tracks.push_back({{-80, -45}, {80, -45}});
+  scenery.trees.push_back({{60, 60}, 1});
+  return scenery;
+}
+
+const std::uint8_t* land_at(const LandUse& land, const Eigen::Vector2d& p) {
+  const Eigen::Array2d share = (p - land.corner_W).array() / land.size_m.array();
+  return land.pixels.at(static_cast<int>(share.x() * land.pixels.width),
+                        static_cast<int>(share.y() * land.pixels.height));
+}
+
+TEST(LandUse, KnowsFieldsRowsTracksAndShadeByPlace) {
+  const LandUse land = make_land_use(make_scenery(), test::make_level_ground(100.0), kSun);
+  EXPECT_EQ(land_at(land, {0, 0})[0], 1);
+  EXPECT_EQ(land_at(land, {0, 0})[2], 255);
+  EXPECT_EQ(land_at(land, {0, 33})[2], 128);  // headland
+  EXPECT_EQ(land_at(land, {0, 37})[0], 0);
+  EXPECT_EQ(land_at(land, {0, 37})[2], 0);
+  EXPECT_NEAR(land_at(land, {10.2, -45})[1] / 255.0 * LandUse::kReach_m, 0.0, 0.3);
+  EXPECT_NEAR(land_at(land, {10.2, -42})[1] / 255.0 * LandUse::kReach_m, 3.0, 0.3);
+  EXPECT_EQ(land_at(land, {10.2, -39})[1], 255);
+  // The sun stands in the north, 45 deg high: the shadow's middle lies south by the crown's.
+  EXPECT_EQ(land_at(land, {60, 60 - 0.55 * kSceneryTrees[1].height_m})[3], 255);
+  EXPECT_EQ(land_at(land, {60, 60 + kSceneryTrees[1].height_m})[3], 0);
+}
+
+TEST(SceneryMeshes, RowsStandOnTheGroundWithinTheField) {
+  HeightField slope = test::make_level_ground(100.0);
+  for (int j = 0; j < slope.rows; ++j) {
+    for (int i = 0; i < slope.columns; ++i) {
+      slope.heights_m[static_cast<std::size_t>(j * slope.columns + i)] =
+          static_cast<float>(0.2 * i * slope.cell_m);
+    }
+  }
+  const SceneryField field = make_scenery().fields[0];
+  const PreparedMesh mesh = make_hedges(field, slope);
+  // 60 m at 2.5 m from the corner's -35 m: rows at -30, -27.5, ... 30; few triangles a metre.
+  double triangles_per_m = static_cast<double>(mesh.indices.size()) / 3.0 / (25 * 60.0);
+  EXPECT_GT(triangles_per_m, 0.3);
+  EXPECT_LT(triangles_per_m, 1.0);
+  for (const GpuVertex& vertex : mesh.vertices) {
+    const Eigen::Vector3d p(vertex.position[0], vertex.position[1], vertex.position[2]);
+    EXPECT_LE(std::abs(p.x()), 30.0 + 1e-3);
+    EXPECT_LE(std::abs(p.y()), 30.0 + field.row_width_m);
+    const double above = p.z() - slope.height_m(p.x(), p.y());
+    EXPECT_GE(above, field.row_base_m - 1e-3);
+    EXPECT_LE(above, 1.1 * field.row_top_m);
+  }
+  SceneryField meadow = field;
+  meadow.pitch_m = 0.0;
+  EXPECT_TRUE(make_hedges(meadow, slope).indices.empty());
+}
+
+/// How much brightness varies with the rows' pitch over a line of the picture along y:
+/// the share of its variance in that one frequency.
+double calc_rows_share(const Image& image, double metres_per_pixel, double pitch_m) {
+  double share = 0.0;
+  constexpr int kLines = 20;
+  for (int line = 0; line < kLines; ++line) {
+    const int x = image.width / 2 - 50 + 5 * line;
+    double mean = 0.0, square = 0.0, real = 0.0, imaginary = 0.0;
+    for (int y = 0; y < image.height; ++y) {
+      const double v = test::pixel(image, x, y)[1];
+      const double phase = 2.0 * 3.14159265358979 * y * metres_per_pixel / pitch_m;
+      mean += v / image.height;
+      square += v * v / image.height;
+      real += v * std::cos(phase) / image.height;
+      imaginary += v * std::sin(phase) / image.height;
+    }
+    share += 2.0 * (real * real + imaginary * imaginary) / (square - mean * mean) / kLines;
+  }
+  return share;
+}
+
+TEST(Scenery, RowsAreSeenFromAboveAndOnlyWhereTheyAre) {
+  WorldModel world;
+  world.terrain = test::make_level_ground(100.0);
+  RendererSettings settings;
+  settings.distant_hills = false;
+  Frame frame;
+  frame.camera = look_at({0, 0, 150}, {0, 0, 0}, 2.0 * std::atan(20.0 / 150.0));  // 40 m high
+  frame.width = 320;
+  frame.height = 320;
+  const double metres_per_pixel = 40.0 / 320;
+  const auto bare = test::renderer_of(world, settings);
+  ASSERT_TRUE(bare);
+  const Image without = bare->draw(frame);
+  world.scenery = make_scenery();
+  const auto renderer = test::renderer_of(world, settings);
+  ASSERT_TRUE(renderer);
+  const Image with = renderer->draw(frame);
+  EXPECT_GT(calc_rows_share(with, metres_per_pixel, 2.5), 0.25);
+  EXPECT_LT(calc_rows_share(without, metres_per_pixel, 2.5), 0.02);
+  // The same picture again, and from another renderer.
+  EXPECT_EQ(image_digest(renderer->draw(frame)), image_digest(with));
+  const auto another = test::renderer_of(world, settings);
+  EXPECT_EQ(image_digest(another->draw(frame)), image_digest(with));
+}
+
+}  // namespace
+}  // namespace vinerow::render

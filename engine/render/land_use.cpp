@@ -30,6 +30,18 @@ void fill(LandUse& land, const std::vector<Eigen::Vector2d>& polygon_W, Paint&& 
   }
 }
 
+/// With corners that are moved away from the middle.
+std::vector<Eigen::Vector2d> widened(const std::vector<Eigen::Vector2d>& polygon_W) {
+  constexpr double kBy_m = 3.0;
+  Eigen::Vector2d middle(0, 0);
+  for (const Eigen::Vector2d& p : polygon_W) middle += p / static_cast<double>(polygon_W.size());
+  std::vector<Eigen::Vector2d> wider;
+  for (const Eigen::Vector2d& p : polygon_W) {
+    wider.push_back(p + kBy_m * (p - middle).normalized());
+  }
+  return wider;
+}
+
 void stamp(LandUse& land, const SceneryTrack& track) {
   const Eigen::Array2d cell(land.size_m.x() / land.pixels.width,
                             land.size_m.y() / land.pixels.height);
@@ -100,10 +112,10 @@ LandUse make_land_use(const Scenery& scenery, const HeightField& terrain,
   const std::size_t count = std::min(scenery.fields.size(), kMostFields);
   for (std::size_t i = 0; i < count; ++i) {
     const SceneryField& field = scenery.fields[i];
-    fill(land, field.corners_W, [&](std::uint8_t* p) {
-      p[0] = static_cast<std::uint8_t>(i + 1);
-      p[2] = 128;
-    });
+    // The number reaches a little beyond the field, so that its edge lies between equal numbers.
+    fill(land, widened(field.corners_W),
+         [&](std::uint8_t* p) { p[0] = static_cast<std::uint8_t>(i + 1); });
+    fill(land, field.corners_W, [](std::uint8_t* p) { p[2] = 128; });
     fill(land, field.planted_W, [](std::uint8_t* p) { p[2] = 255; });
     const Eigen::Vector2d normal(-field.along_W.y(), field.along_W.x());
     const double offset_m = normal.dot(field.corners_W.front());

@@ -14,8 +14,9 @@ struct LandUse {
 
   Eigen::Vector2d corner_W = {0, 0};
   Eigen::Vector2d size_m = {1, 1};
-  Pixels pixels;  ///< R number of the field, 0: none; G distance to the middle of a track / 5.1 m;
-                  ///< B 128 in a field, 255 where its rows are; A shade of trees; row 0 is south
+  Pixels pixels;  ///< R number of the field in or just beside it, 0: none; G distance to the middle
+                  ///< of a track / 5.1 m; B 128 in a field, 255 where its rows are; A shade of
+                  ///< trees; row 0 is south
   /// Three texels of four numbers a field: normal of its rows, their offset along it and pitch (0:
   /// none); dryness, tilled, stubble, brightness; half width, foot and top of rows, 0.
   std::vector<float> table;

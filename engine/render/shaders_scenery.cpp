@@ -55,7 +55,9 @@ Land land_at(vec2 q, Turf t, float octave, float ragged) {
   float low = min(foot, top) - section.x, high = max(foot, top) + section.x;
   float shaded = smoothstep(-0.1 - seen, 0.1 + seen, high - ceil(low / pitch) * pitch);
   shaded = mix(shaded, min((high - low) / pitch, 1.0), smoothstep(0.4, 1.2, seen));
-  land.sun = (1.0 - 0.85 * planted * shaded) * (1.0 - 0.85 * smoothstep(0.2, 0.8, here.a + 1.2 * ragged));
+  // Light comes through between the leaves.
+  shaded *= mix(0.62, 0.92, smoothstep(0.35, 0.62, t.meso.a + 0.6 * (t.detail.a - 0.5)));
+  land.sun = (1.0 - planted * shaded) * (1.0 - 0.85 * smoothstep(0.2, 0.8, here.a + 1.2 * ragged));
 
   // Field tracks: two ruts in gravel and worn grass.
   float side = here.g * 5.1;

@@ -21,6 +21,7 @@ constexpr double kHeadland_m = 5.0;   // from a field's edge to the ends of its 
 constexpr double kLeastSurroundings_m = 60.0;
 constexpr double kLeastVines_m2 = 1500.0;
 constexpr double kTreesAway_m = 110.0;  // from places to be left free: what climbs there at 0.12
+constexpr double kTreesIn_m = 2.5;      // from the edge of a field
 constexpr double kTreesFromParcel_m = 25.0;
 
 Eigen::Vector2d left_of(const Eigen::Vector2d& d) {
@@ -169,7 +170,7 @@ class Layout {
     const double kind = random_.uniform(), lean_deg = 5.0 * random_.normal();
     const double across = random_.uniform(), tilled = random_.uniform();
     field.dryness = random_.uniform(0.1, 0.9);
-    field.brightness = random_.uniform(0.78, 1.1);
+    field.brightness = random_.uniform(0.74, 1.0);
     const double pitch_m = random_.uniform(2.2, 3.0), width_m = random_.uniform(0.5, 0.7);
     field.row_top_m = random_.uniform(1.8, 2.15);
     field.corners_W = shrink(block, kTrackSide_m);
@@ -190,7 +191,8 @@ class Layout {
       field.tilled = tilled < 0.4 ? 0.0 : tilled < 0.75 ? 0.5 : 1.0;
     } else {
       field.stubble = kind > 0.84 && !is_free ? random_.uniform(0.6, 1.0) : 0.0;
-      add_trees(field.corners_W[0], field.corners_W[1]);
+      const Polygon inner = shrink(field.corners_W, kTreesIn_m);
+      if (!inner.empty()) add_trees(inner[0], inner[1]);
     }
     scenery_.fields.push_back(std::move(field));
   }

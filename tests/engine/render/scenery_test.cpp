@@ -43,7 +43,7 @@ TEST(LandUse, KnowsFieldsRowsTracksAndShadeByPlace) {
   EXPECT_EQ(land_at(land, {0, 0})[0], 1);
   EXPECT_EQ(land_at(land, {0, 0})[2], 255);
   EXPECT_EQ(land_at(land, {0, 33})[2], 128);  // headland
-  EXPECT_EQ(land_at(land, {0, 37})[0], 0);
+  EXPECT_EQ(land_at(land, {0, 40})[0], 0);
   EXPECT_EQ(land_at(land, {0, 37})[2], 0);
   EXPECT_NEAR(land_at(land, {10.2, -45})[1] / 255.0 * LandUse::kReach_m, 0.0, 0.3);
   EXPECT_NEAR(land_at(land, {10.2, -42})[1] / 255.0 * LandUse::kReach_m, 3.0, 0.3);

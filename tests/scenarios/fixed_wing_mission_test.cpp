@@ -10,6 +10,7 @@
 #include "engine/sim/run.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
+#include "tests/support/data.h"
 #include "vinerow/testing.h"
 
 namespace vinerow {
@@ -18,6 +19,9 @@ namespace {
 using test::scenario_file;
 using testing::TestRun;
 using Sets = std::vector<std::string>;
+
+constexpr const char* kSamplePlan =
+    "mavsdk/cpp/src/mavsdk/plugins/mission_raw/test_plans/qgroundcontrol_sample.plan";
 
 /// The two outermost rows hold the hillside where the scenario's rows have it. Vines, posts and
 /// leaves below an aircraft at 150 m only take time to plant.
@@ -122,6 +126,42 @@ TEST(FixedWingMission, OneSeedHasOneDigest) {
   };
   EXPECT_EQ(digest(1), digest(1));
   EXPECT_NE(digest(1), digest(2));
+}
+
+TEST(FixedWingMission, FliesAMissionOfQGroundControlAndLands) {
+  VINEROW_OUTSIDE_DATA(file, kSamplePlan);
+  TestRun run = TestRun::from_yaml(
+      "vinerow: 1\nname: sample\nseed: 1\nduration_s: 300\nphysics: {step_s: 0.0025}\n"
+      "world: {type: vineyard, row_count: 2, row_length_m: 20, relief_m: 0, surroundings_m: 700, "
+      "terrain_cell_m: 4, occupancy_cell_m: 0, origin_latitude_deg: 47.3977507, "
+      "origin_longitude_deg: 8.5456075}\nvehicles:\n  plane:\n"
+      "    include: assets/vehicles/mh900_like.yaml\n"
+      "    spawn: {x_m: -300, y_m: 0, yaw_deg: 0}\n"
+      "    planner: {type: mission_file, file: '" +
+          std::filesystem::absolute(file).string() +
+          "'}\n    guidance: {type: waypoint_guidance, land_at_m: [100, -100], land_height_m: 0, "
+          "land_course_deg: 0}\n    controller: {type: trmpc}\n",
+      VINEROW_SOURCE_DIR);
+  // The file's waypoints from its take-off, at 111.32 km a degree of latitude.
+  const std::vector<Eigen::Vector3d> waypoints = {{75.7, 2.3, 50}, {75.2, 58.2, 50}, {0, 58.7, 50}};
+  std::vector<double> nearest_m(waypoints.size(), 1e9);
+  while (!run.finished() && run.time_s() < 299.0) {
+    run.run_for_s(0.1);
+    for (std::size_t i = 0; i < waypoints.size(); ++i) {
+      const double away_m = (run.truth("plane").X_WB.p - waypoints[i]).norm();
+      nearest_m[i] = std::min(nearest_m[i], away_m);
+    }
+  }
+  EXPECT_TRUE(run.finished());
+  EXPECT_EQ(run.metric("plane", "crashed"), 0.0);
+  const Outside outside(run);
+  EXPECT_EQ(outside.inputs(), 0.0);
+  EXPECT_EQ(outside.lat_states, 0.0);
+  // The plan wants 15 m/s from its first waypoint on, at once: the speed is 3 m/s off for a moment.
+  EXPECT_LE(outside.lon_states, 10.0);
+  // Corners of 90 deg are cut: by R (sqrt(2) - 1) = 13.6 m at the file's 15 m/s and 35 deg.
+  for (const double away_m : nearest_m) EXPECT_LT(away_m, 16.0);
+  EXPECT_NEAR((run.truth("plane").X_WB.p - Eigen::Vector3d(100, -100, 0)).norm(), 0.0, 25.0);
 }
 
 TEST(FixedWingMission, WhatHasEndedInTheAirStaysThereWhileOthersFly) {

@@ -164,9 +164,13 @@ TEST(Trmpc, StandsAndEndsWithThePropellerOff) {
   loop.reference().phase = AirReference::Phase::kStraight;
   loop.tick();
   EXPECT_GT(loop.actuators()[0], 0.3);
+  // Over, but in the air: it flies on.
   loop.reference().phase = AirReference::Phase::kDone;
   loop.tick();
-  EXPECT_EQ(loop.actuators()[0], 0.0);
+  EXPECT_GT(loop.actuators()[0], 0.3);
+  loop.reference().power = false;
+  loop.tick();
+  EXPECT_EQ(loop.actuators(), (std::vector<double>{0.0, 0.0, 0.0}));
 }
 
 TEST(Trmpc, LostEstimateLeavesTheTrim) {

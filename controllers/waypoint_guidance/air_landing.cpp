@@ -55,7 +55,7 @@ AirMission::Wanted AirMission::fly_descend(const AirState& state) {
   }
   if (is_on_final(state)) {
     stage_ = Stage::kLand;
-    airspeed_mps_ = params_.approach_mps;
+    wanted_airspeed_mps_ = params_.approach_mps;
     pilot_.start(final_, 0, state, generator_.heading_rad(), false);
     tell(false, fmt::format("glides from {:.1f} m above the touchdown",
                             state.height_m - slope_.touchdown_m()));

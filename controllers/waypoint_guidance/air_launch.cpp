@@ -37,7 +37,7 @@ void AirMission::join(const AirState& state) {
   pilot_.start(legs_, 0, state, state.yaw_rad, false);
   const double course_rad = unwrap_near(frame.course_rad(), state.yaw_rad);
   course_ = {course_rad, 0.0};
-  airspeed_mps_ = legs_.front().airspeed_mps;
+  airspeed_mps_ = wanted_airspeed_mps_ = legs_.front().airspeed_mps;
   // On the plan from the first moment: what the vehicle is off is a deviation, as long as it is
   // small enough to be one; else the reference begins at the vehicle.
   constexpr double kDeviation_rad = 45.0 * kPi / 180.0, kDeviation_m = 20.0;

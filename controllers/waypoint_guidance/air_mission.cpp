@@ -15,7 +15,8 @@ AirMission::AirMission(const WaypointGuidanceParams& params)
     : params_(params),
       generator_(params.legs.turn),
       pilot_(params.pilot),
-      airspeed_mps_(params.legs.airspeed_mps) {}
+      airspeed_mps_(params.legs.airspeed_mps),
+      wanted_airspeed_mps_(params.legs.airspeed_mps) {}
 
 void AirMission::take_plan(FlightLegs plan, const AirState& start) {
   length_m_ = plan.length_m;
@@ -82,6 +83,8 @@ void AirMission::advance(double dt_s, const AirState& state) {
     return;
   }
   course_ = wanted.course;
+  const double most_mps = params_.airspeed_rate_mps2 * dt_s;
+  airspeed_mps_ += std::clamp(wanted_airspeed_mps_ - airspeed_mps_, -most_mps, most_mps);
   watch_wind(dt_s, state);
   const double heading_rad =
       course_.course_rad + calc_crab(course_.course_rad, state.wind, airspeed_mps_).angle_rad;
@@ -105,7 +108,7 @@ AirMission::Wanted AirMission::fly_legs(double dt_s, const AirState& state) {
   Wanted wanted = hold();
   wanted.course = pilot_.advance(legs_, state, generator_, dt_s);
   if (pilot_.leg() != before) stage_ = Stage::kLegs;
-  airspeed_mps_ = legs_[pilot_.leg()].airspeed_mps;
+  wanted_airspeed_mps_ = legs_[pilot_.leg()].airspeed_mps;
   const HeightPoint height =
       calc_height(legs_, pilot_.leg(), pilot_.ramp_along_m(), params_.kink_m);
   wanted.height_m = height.height_m;

@@ -101,9 +101,10 @@ class AirMission {
   LandingSlope slope_;
   Stage stage_ = Stage::kWait;
   bool has_power_ = false;
-  bool is_launched_ = false;        // the launch's height is reached
-  bool has_own_first_leg_ = false;  // in place of the plan's, whose first leg leads off the start
-  double airspeed_mps_ = 0.0;
+  bool is_launched_ = false;          // the launch's height is reached
+  bool has_own_first_leg_ = false;    // in place of the plan's, whose first leg leads off the start
+  double airspeed_mps_ = 0.0;         // of the reference
+  double wanted_airspeed_mps_ = 0.0;  // where it goes, by its rate
   double circling_s_ = 0.0;
   double standing_s_ = 0.0;
   double against_s_ = 0.0;

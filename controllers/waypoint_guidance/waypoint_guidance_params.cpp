@@ -131,6 +131,9 @@ std::vector<ParameterSpec> waypoint_guidance_parameters() {
       positive_parameter("tolerance_least_m", "m", 1.0, "law paper: least tolerance"),
       optional(positive_parameter("airspeed_mps", "m/s", 12.0,
                                   "where the plan tells none; default the vehicle's cruise speed")),
+      positive_parameter(
+          "airspeed_rate_mps2", "m/s2", 0.5,
+          "with which the airspeed changes where the plan or the landing wants another"),
       optional(angle("bank_deg", 35.0, 80.0,
                      "most, in turns; default 35 deg or what the vehicle can, if that is less")),
       positive_parameter("bank_rate_degps", "deg/s", 60.0, "most"),
@@ -203,6 +206,7 @@ WaypointGuidanceParams read_waypoint_guidance_params(const ParameterSet& paramet
   params.launch_climb_rad = rad_from_deg(parameters.number("launch_climb_deg"));
   params.launch_height_m = parameters.number("launch_height_m");
   params.join_m = parameters.number("join_m");
+  params.airspeed_rate_mps2 = parameters.number("airspeed_rate_mps2");
   params.loiter_side = parameters.text("loiter_side") == "left" ? 1.0 : -1.0;
   params.loiter_s = parameters.number("loiter_s");
   const std::string& end = parameters.text("end");

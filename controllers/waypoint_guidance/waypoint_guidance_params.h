@@ -24,6 +24,7 @@ struct WaypointGuidanceParams {
   double launch_climb_rad = 0.17;
   double launch_height_m = 20.0;
   double join_m = 60.0;
+  double airspeed_rate_mps2 = 0.5;
   double loiter_radius_m = 30.0;
   double loiter_side = 1.0;  ///< +1 left
   double loiter_s = 60.0;
@@ -36,8 +37,8 @@ struct WaypointGuidanceParams {
   double approach_height_m = 30.0;
   double approach_mps = 10.0;
   double glide_rad = 0.0873;
-  double flare_m = 1.5;
-  double power_off_m = 0.2;
+  double flare_m = 1.0;
+  double power_off_m = 0.1;
 };
 
 std::vector<ParameterSpec> waypoint_guidance_parameters();

@@ -230,8 +230,8 @@ TEST(AirMission, StopsAtTheLastWaypointAndCirclesThere) {
 
 TEST(AirMission, AirspeedChangesByItsRate) {
   PlannedPath plan = make_waypoints({{0, 0, 100}, {200, 0, 100}, {600, 0, 100}});
-  plan.points[0].speed_mps = plan.points[1].speed_mps = 12.0;
-  plan.points[2].speed_mps = 15.0;
+  plan.points[0].speed_mps = 12.0;
+  plan.points[1].speed_mps = plan.points[2].speed_mps = 15.0;
   AirBench bench({{"end", std::string("stop")}, {"airspeed_rate_mps2", 0.75}},
                  in_the_air({0, 0, 100}, 0.0));
   bench.give_plan(plan);

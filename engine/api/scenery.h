@@ -3,7 +3,6 @@
 /// Nothing collides with them, no ray, map or metric meets them, and no log holds them.
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <vector>
 
 namespace vinerow {
@@ -47,22 +46,5 @@ struct Scenery {
   std::vector<SceneryTree> trees;
   bool empty() const { return fields.empty() && tracks.empty() && trees.empty(); }
 };
-
-/// Where a straight line p + t d runs inside a convex counter-clockwise polygon.
-/// @returns {from, to} in units of t; from >= to where it does not
-inline Eigen::Vector2d clip_line(const std::vector<Eigen::Vector2d>& polygon,
-                                 const Eigen::Vector2d& p, const Eigen::Vector2d& d) {
-  Eigen::Vector2d t(-1e9, 1e9);
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d& a = polygon[i];
-    const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - a;
-    const Eigen::Vector2d inward(-edge.y(), edge.x());
-    const double slope = inward.dot(d), height = inward.dot(p - a);
-    if (slope == 0.0 && height < 0.0) return {1.0, 0.0};
-    if (slope > 0.0) t[0] = std::max(t[0], -height / slope);
-    if (slope < 0.0) t[1] = std::min(t[1], -height / slope);
-  }
-  return t;
-}
 
 }  // namespace vinerow

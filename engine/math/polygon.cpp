@@ -1,6 +1,7 @@
 #include "engine/math/polygon.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 namespace vinerow {
@@ -30,6 +31,19 @@ bool meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2
          (c_side == 0.0 && between(a, b, c)) || (d_side == 0.0 && between(a, b, d));
 }
 
+/// What of a polygon lies to the left of the line through p along d.
+void keep_left(const Polygon& polygon, const Vector2d& p, const Vector2d& d, Polygon& left) {
+  left.clear();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double a_side = cross(d, a - p), b_side = cross(d, b - p);
+    if (a_side >= 0.0) left.push_back(a);
+    if ((a_side > 0.0 && b_side < 0.0) || (a_side < 0.0 && b_side > 0.0)) {
+      left.emplace_back(a + a_side / (a_side - b_side) * (b - a));
+    }
+  }
+}
+
 }  // namespace
 
 double signed_area_m2(const Polygon& polygon) {
@@ -49,6 +63,18 @@ bool contains(const Polygon& polygon, const Vector2d& p) {
     if (a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > p.x()) inside = !inside;
   }
   return inside;
+}
+
+double distance_m(const Polygon& polygon, const Vector2d& p) {
+  if (contains(polygon, p)) return 0.0;
+  double away_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d& a = polygon[i];
+    const Vector2d edge = polygon[(i + 1) % polygon.size()] - a;
+    const double t = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    away_m = std::min(away_m, (p - a - t * edge).norm());
+  }
+  return away_m;
 }
 
 Polygon convex_hull(Polygon points) {
@@ -74,19 +100,29 @@ Polygon convex_hull(Polygon points) {
 Polygon clip(const Polygon& subject, const Polygon& convex) {
   Polygon rest = subject, next;
   for (std::size_t i = 0; i < convex.size() && !rest.empty(); ++i) {
-    const Vector2d &from = convex[i], &to = convex[(i + 1) % convex.size()];
-    next.clear();
-    for (std::size_t k = 0; k < rest.size(); ++k) {
-      const Vector2d &a = rest[k], &b = rest[(k + 1) % rest.size()];
-      const double a_side = side(from, to, a), b_side = side(from, to, b);
-      if (a_side >= 0.0) next.push_back(a);
-      if ((a_side > 0.0 && b_side < 0.0) || (a_side < 0.0 && b_side > 0.0)) {
-        next.emplace_back(a + a_side / (a_side - b_side) * (b - a));
-      }
-    }
+    keep_left(rest, convex[i], convex[(i + 1) % convex.size()] - convex[i], next);
     rest.swap(next);
   }
   return rest;
+}
+
+Polygon cut(const Polygon& convex, const Vector2d& p, const Vector2d& d) {
+  Polygon part;
+  keep_left(convex, p, d, part);
+  return part.size() < 3 ? Polygon{} : part;
+}
+
+Vector2d clip_line(const Polygon& convex, const Vector2d& p, const Vector2d& d) {
+  Vector2d t(-1e9, 1e9);
+  for (std::size_t i = 0; i < convex.size(); ++i) {
+    const Vector2d& a = convex[i];
+    const Vector2d edge = convex[(i + 1) % convex.size()] - a;
+    const double slope = cross(edge, d), height = cross(edge, p - a);
+    if (slope == 0.0 && height < 0.0) return {1.0, 0.0};
+    if (slope > 0.0) t[0] = std::max(t[0], -height / slope);
+    if (slope < 0.0) t[1] = std::min(t[1], -height / slope);
+  }
+  return t;
 }
 
 std::optional<std::pair<int, int>> find_crossing(const Polygon& polygon) {

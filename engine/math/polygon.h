@@ -1,6 +1,6 @@
 #pragma once
-/// Polygons in the plane: area, what is inside, what two have in common. Corners in order, the last
-/// joins the first.
+/// Polygons in the plane: area, what is inside, how far it is, what two have in common. Corners in
+/// order, the last joins the first.
 
 #include <Eigen/Core>
 #include <optional>
@@ -17,6 +17,9 @@ double signed_area_m2(const Polygon& polygon);
 /// By the even-odd rule; points on an edge may fall to either side.
 bool contains(const Polygon& polygon, const Eigen::Vector2d& p);
 
+/// From p to the nearest point of the polygon; 0 inside. @pre two corners or more
+double distance_m(const Polygon& polygon, const Eigen::Vector2d& p);
+
 /// Smallest convex polygon around the points, counter-clockwise, without corners on its edges.
 /// Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
 Polygon convex_hull(Polygon points);
@@ -26,6 +29,15 @@ Polygon convex_hull(Polygon points);
 /// "Reentrant polygon clipping", 1974.
 /// @param convex  counter-clockwise
 Polygon clip(const Polygon& subject, const Polygon& convex);
+
+/// The part of a convex polygon to the left of the line through p along d; empty if it has no area.
+Polygon cut(const Polygon& convex, const Eigen::Vector2d& p, const Eigen::Vector2d& d);
+
+/// Where the straight line p + t d runs inside a convex polygon.
+/// @param convex  counter-clockwise
+/// @returns {from, to} in units of t; from >= to where it does not
+Eigen::Vector2d clip_line(const Polygon& convex, const Eigen::Vector2d& p,
+                          const Eigen::Vector2d& d);
 
 /// The first two edges, by the index of their first corner, that cross or touch elsewhere than at a
 /// corner that they share. Nothing: the polygon is simple.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/polygon.h"
+
 namespace vinerow::render {
 
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/polygon.h"
 #include "engine/render/noise.h"
 
 namespace vinerow::render {

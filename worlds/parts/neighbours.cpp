@@ -8,12 +8,11 @@
 #include "engine/core/error.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
+#include "engine/math/polygon.h"
 #include "worlds/parts/row_map.h"
 
 namespace vinerow::worlds {
 namespace {
-
-using Polygon = std::vector<Eigen::Vector2d>;
 
 constexpr double kVerge_m = 6.0;      // between the parcel's boundary and the track around it
 constexpr double kTrackSide_m = 3.5;  // from a track's middle to the field beside it
@@ -26,18 +25,6 @@ constexpr double kTreesFromParcel_m = 25.0;
 
 Eigen::Vector2d left_of(const Eigen::Vector2d& d) {
   return {-d.y(), d.x()};
-}
-
-/// The part of a convex polygon on the left of the line through p along d.
-Polygon cut(const Polygon& polygon, const Eigen::Vector2d& p, const Eigen::Vector2d& d) {
-  Polygon part;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double side_a = left_of(d).dot(a - p), side_b = left_of(d).dot(b - p);
-    if (side_a >= 0.0) part.push_back(a);
-    if ((side_a < 0.0) != (side_b < 0.0)) part.push_back(a + side_a / (side_a - side_b) * (b - a));
-  }
-  return part.size() < 3 ? Polygon{} : part;
 }
 
 /// With every edge moved inwards.
@@ -60,29 +47,6 @@ Polygon widen(const Polygon& oblong, double by_m) {
     outer.push_back(oblong[i] - by_m * (left_of(before) + left_of(after)));
   }
   return outer;
-}
-
-double calc_area_m2(const Polygon& polygon) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return 0.5 * twice;
-}
-
-/// 0 inside. @pre convex, counter-clockwise
-double calc_distance_m(const Polygon& polygon, const Eigen::Vector2d& p) {
-  double away = std::numeric_limits<double>::infinity();
-  bool inside = true;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d& a = polygon[i];
-    const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - a;
-    const double t = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    away = std::min(away, (p - a - t * edge).norm());
-    inside = inside && left_of(edge).dot(p - a) >= 0.0;
-  }
-  return inside ? 0.0 : away;
 }
 
 Eigen::Vector2d longest_edge(const Polygon& polygon) {
@@ -115,7 +79,7 @@ class Layout {
     while (static_cast<int>(blocks.size()) < options_.count) {
       const auto largest = std::max_element(
           blocks.begin(), blocks.end(),
-          [](const Polygon& a, const Polygon& b) { return calc_area_m2(a) < calc_area_m2(b); });
+          [](const Polygon& a, const Polygon& b) { return signed_area_m2(a) < signed_area_m2(b); });
       const Polygon whole = *largest;
       blocks.erase(largest);
       divide(whole, blocks);
@@ -181,10 +145,10 @@ class Layout {
         Eigen::Rotation2Dd(rad_from_deg(lean_deg)) * (across < 0.3 ? left_of(edge) : edge);
     const bool is_free = std::any_of(
         options_.meadow_W.begin(), options_.meadow_W.end(), [&](const Eigen::Vector2d& p) {
-          return calc_distance_m(field.corners_W, p) < options_.meadow_radius_m;
+          return distance_m(field.corners_W, p) < options_.meadow_radius_m;
         });
     const bool has_vines =
-        kind < 0.66 && !is_free && calc_area_m2(field.planted_W) > kLeastVines_m2;
+        kind < 0.66 && !is_free && signed_area_m2(field.planted_W) > kLeastVines_m2;
     if (has_vines) {
       field.pitch_m = pitch_m;
       field.row_width_m = width_m;
@@ -217,7 +181,7 @@ class Layout {
     for (const Eigen::Vector2d& free : options_.meadow_W) {
       if ((p - free).norm() < kTreesAway_m) return false;
     }
-    return calc_distance_m(parcel_W_, p) > kTreesFromParcel_m;
+    return distance_m(parcel_W_, p) > kTreesFromParcel_m;
   }
 
   const Polygon& parcel_W_;

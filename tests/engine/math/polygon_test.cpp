@@ -33,6 +33,34 @@ TEST(Polygon, ContainsByTheEvenOddRule) {
   EXPECT_FALSE(contains(kL, {-0.5, 0.5}));
 }
 
+TEST(Polygon, DistanceIsToTheNearestEdgeOrCorner) {
+  EXPECT_EQ(distance_m(kL, {0.5, 1.5}), 0.0);
+  EXPECT_DOUBLE_EQ(distance_m(kL, {3.0, 0.5}), 1.0);
+  EXPECT_DOUBLE_EQ(distance_m(kL, {1.25, 1.75}), 0.25);
+  EXPECT_DOUBLE_EQ(distance_m(kL, {-3.0, -4.0}), 5.0);
+}
+
+TEST(Polygon, CutKeepsWhatIsLeftOfALine) {
+  EXPECT_EQ(cut(kUnit, {0.25, 0}, {0, 1}), (Polygon{{0, 0}, {0.25, 0}, {0.25, 1}, {0, 1}}));
+  EXPECT_DOUBLE_EQ(signed_area_m2(cut(kUnit, {0, 0}, {1, 1})), 0.5);
+  EXPECT_EQ(cut(kUnit, {0, 0}, {1, 1}).size(), 3u);  // through corners: none stands twice
+  EXPECT_EQ(cut(kUnit, {0, 2}, {-1, 0}), kUnit);
+  EXPECT_TRUE(cut(kUnit, {0, 2}, {1, 0}).empty());
+  EXPECT_TRUE(cut(kUnit, {0, 1}, {1, 0}).empty());  // an edge has no area
+}
+
+TEST(Polygon, LinesRunInsideFromEdgeToEdge) {
+  EXPECT_EQ(clip_line(kUnit, {-2.0, 0.5}, {0.5, 0.0}), Vector2d(4.0, 6.0));
+  EXPECT_EQ(clip_line(kUnit, {0.5, 0.5}, {0.0, -1.0}), Vector2d(-0.5, 0.5));
+  const Vector2d diagonal = clip_line(kUnit, {-1.0, -1.0}, {1.0, 1.0});
+  EXPECT_DOUBLE_EQ(diagonal[0], 1.0);
+  EXPECT_DOUBLE_EQ(diagonal[1], 2.0);
+  for (const Vector2d& d : {Vector2d(1, 0), Vector2d(1, 0.1), Vector2d(-1, 0.1)}) {
+    const Vector2d beside = clip_line(kUnit, {-1.0, 1.5}, d);
+    EXPECT_GE(beside[0], beside[1]) << d.transpose();
+  }
+}
+
 TEST(Polygon, TheHullLeavesOutWhatLiesInsideOrOnAnEdge) {
   const Polygon hull =
       convex_hull({{1, 1}, {0, 0}, {2, 0}, {1, 0}, {2, 2}, {0, 2}, {0, 0}, {0.5, 1}});

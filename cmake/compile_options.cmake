@@ -17,6 +17,10 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # What ccache wants to be told before it caches what uses a precompiled header.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # For what is compiled with a precompiled header: ccache wants it.
+  set(VINEROW_PCH_OPTIONS -fpch-preprocess)
+endif()
 
 # -ffp-contract=off: the same expression gives the same bits wherever the compiler places it.
 # -fno-semantic-interposition: calls inside the shared library stay direct.

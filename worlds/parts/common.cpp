@@ -48,7 +48,7 @@ void read_surroundings(const ParameterSet& parameters, std::uint64_t seed, World
   const bool without_wind =
       world.wind.mean_speed_mps == 0.0 && world.wind.turbulence_wind_mps <= 0.0;
   if (world.wind.turbulence > 0.0 && without_wind) {
-    world.notes.push_back(
+    world.notes.emplace_back(
         "wind.turbulence has no wind to scale with and is left out; give wind.mean_speed_mps or "
         "wind.turbulence_wind_mps");
   }

@@ -37,7 +37,7 @@ class GpsPose final : public Estimator {
     if (extrapolate_) estimate.X_WB.p += (now - fix_time_).s() * fix_.v_W;
     estimate.w_WB_B = heading_.w_WB_B();
     estimate.v_WB_B = q_WB.conjugate() * fix_.v_W - estimate.w_WB_B.cross(p_BA_);
-    estimate.position_std_m = fix_.std_m;
+    estimate.position_variance_m2 = fix_.std_m.cwiseAbs2();
     estimate_.write(now, estimate);
   }
 

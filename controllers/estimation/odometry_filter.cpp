@@ -186,7 +186,8 @@ class OdometryFilter final : public Estimator {
     estimate.X_WB.p = {filter_.p().x(), filter_.p().y(), height_m_};
     estimate.v_WB_B.head<2>() = filter_.scale() * v_B;
     estimate.w_WB_B = heading_.w_WB_B();
-    estimate.position_std_m.head<2>() = filter_.std_m();
+    estimate.position_variance_m2.head<2>() = filter_.covariance().diagonal().head<2>();
+    estimate.position_covariance_m2.x() = filter_.covariance()(0, 1);
     estimate_.write(now, estimate);
   }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/mesh.h"
+
 namespace vinerow {
 
 /// A plant row: its centre line at ground level and the canopy's cross-section.
@@ -47,12 +49,29 @@ struct OccupancyGrid {
   }
 };
 
-/// What guidance and estimators know of the world.
+/// A row's canopy on the low-complexity 3D map: a closed hull of few triangles in W. Papers A,
+/// section 3.2, and C, section 2.2.
+struct RowMesh {
+  int row = 0;  ///< PlantRow::id
+  TriangleMesh mesh_W;
+};
+
+/// What a map's maker states about the distance from its row meshes to the true canopy.
+struct MapAccuracy {
+  double surface_std_m = 0.03;        ///< 1 sigma along the meshes' normals
+  double correlation_length_m = 0.3;  ///< along the row, over which such an error stays
+  Eigen::Vector3d offset_std_m =
+      Eigen::Vector3d::Zero();  ///< 1 sigma of a shift of the whole map, east, north, up
+};
+
+/// What planners, guidance and estimators know of the world.
 struct RowMap {
   std::vector<PlantRow> rows;
   std::vector<Alley> alleys;                ///< in driving order across the block
   std::vector<Eigen::Vector2d> boundary_W;  ///< parcel polygon, counter-clockwise, or empty
   OccupancyGrid occupancy;                  ///< empty where the world has none
+  std::vector<RowMesh> meshes;              ///< empty where the map has none
+  MapAccuracy accuracy;                     ///< of the meshes
 };
 
 }  // namespace vinerow

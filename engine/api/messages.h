@@ -17,19 +17,41 @@
 
 namespace vinerow {
 
+/// A symmetric matrix by its diagonal and what is above it (xy, xz, yz).
+inline Eigen::Matrix3d symmetric_matrix(const Eigen::Vector3d& diagonal,
+                                        const Eigen::Vector3d& beside) {
+  Eigen::Matrix3d m = diagonal.asDiagonal();
+  m(0, 1) = m(1, 0) = beside.x();
+  m(0, 2) = m(2, 0) = beside.y();
+  m(1, 2) = m(2, 1) = beside.z();
+  return m;
+}
+
 /// Pose and twist of a body; truth or estimate. ROS 2: nav_msgs/msg/Odometry.
 struct Odometry {
   static constexpr const char* kType = "Odometry";
   Pose X_WB;
   Eigen::Vector3d v_WB_B = Eigen::Vector3d::Zero();  ///< velocity of B's origin, m/s, in B
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< angular velocity, rad/s, in B
-  Eigen::Vector3d position_std_m =
-      Eigen::Vector3d::Zero();  ///< 1 sigma of the position in W; zero for truth
+  /// Of the position's error in W: variances (xx, yy, zz) and covariances (xy, xz, yz), m2; zero
+  /// for truth.
+  Eigen::Vector3d position_variance_m2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position_covariance_m2 = Eigen::Vector3d::Zero();
   double yaw_std_rad = 0.0;
 
   template <class F>
   void fields(F&& f) {
-    f(X_WB.p), f(X_WB.q), f(v_WB_B), f(w_WB_B), f(position_std_m), f(yaw_std_rad);
+    f(X_WB.p), f(X_WB.q), f(v_WB_B), f(w_WB_B), f(position_variance_m2);
+    f(position_covariance_m2), f(yaw_std_rad);
+  }
+
+  /// Both as one symmetric matrix.
+  Eigen::Matrix3d position_covariance() const {
+    return symmetric_matrix(position_variance_m2, position_covariance_m2);
+  }
+  void set_position_covariance(const Eigen::Matrix3d& covariance_m2) {
+    position_variance_m2 = covariance_m2.diagonal();
+    position_covariance_m2 = {covariance_m2(0, 1), covariance_m2(0, 2), covariance_m2(1, 2)};
   }
 };
 
@@ -49,17 +71,28 @@ struct ImuSample {
 /// Satellite position fix, both in WGS84 and in W. ROS 2: sensor_msgs/msg/NavSatFix.
 struct GnssFix {
   static constexpr const char* kType = "GnssFix";
+  enum class Mode : std::uint8_t {
+    kNone = 0,
+    kStandalone = 1,  ///< code measurements alone
+    kSbas = 2,        ///< with corrections from satellites
+    kFloat = 3,       ///< carrier phase, ambiguities not resolved
+    kFixed = 4        ///< carrier phase, ambiguities resolved
+  };
   bool valid = false;
+  Mode mode = Mode::kNone;      ///< kNone too where the receiver's model knows no modes
+  std::int32_t satellites = 0;  ///< used; 0 where the model knows none
   double latitude_rad = 0.0;
   double longitude_rad = 0.0;
   double altitude_m = 0.0;                          ///< above the ellipsoid
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();    ///< antenna, m
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();    ///< m/s
   Eigen::Vector3d std_m = Eigen::Vector3d::Zero();  ///< 1 sigma east, north, up
+  double velocity_std_mps = 0.0;                    ///< 1 sigma of each component; 0: not told
 
   template <class F>
   void fields(F&& f) {
-    f(valid), f(latitude_rad), f(longitude_rad), f(altitude_m), f(p_W), f(v_W), f(std_m);
+    f(valid), f(mode), f(satellites), f(velocity_std_mps), f(latitude_rad), f(longitude_rad),
+        f(altitude_m), f(p_W), f(v_W), f(std_m);
   }
 };
 
@@ -75,6 +108,62 @@ struct RangeSample {
   template <class F>
   void fields(F&& f) {
     f(range_m), f(min_range_m), f(max_range_m), f(half_angle_rad), f(X_WS.p), f(X_WS.q);
+  }
+};
+
+/// Static pressure of the air. ROS 2: sensor_msgs/msg/FluidPressure.
+struct PressureSample {
+  static constexpr const char* kType = "PressureSample";
+  double pressure_Pa = 0.0;
+  double std_Pa = 0.0;
+
+  template <class F>
+  void fields(F&& f) {
+    f(pressure_Pa), f(std_Pa);
+  }
+};
+
+/// Flux density of the magnetic field. ROS 2: sensor_msgs/msg/MagneticField.
+struct MagneticSample {
+  static constexpr const char* kType = "MagneticSample";
+  Eigen::Vector3d field_S_T = Eigen::Vector3d::Zero();  ///< tesla, in S
+  double std_T = 0.0;                                   ///< 1 sigma of each component
+
+  template <class F>
+  void fields(F&& f) {
+    f(field_S_T), f(std_T);
+  }
+};
+
+/// One turn of a scanning rangefinder in the plane z = 0 of S. ROS 2: sensor_msgs/msg/LaserScan.
+struct LaserScan {
+  static constexpr const char* kType = "LaserScan";
+  double first_angle_rad = 0.0;  ///< of ranges_m[0], from x of S towards y
+  double angle_step_rad = 0.0;
+  double min_range_m = 0.0;
+  double max_range_m = 0.0;
+  std::vector<double> ranges_m;  ///< +infinity where nothing was seen; constant in number
+  Pose X_WS;                     ///< true pose of the sensor at the stamp, for pictures and checks
+
+  template <class F>
+  void fields(F&& f) {
+    f(first_angle_rad), f(angle_step_rad), f(min_range_m), f(max_range_m), f(ranges_m);
+    f(X_WS.p), f(X_WS.q);
+  }
+};
+
+/// A set that is to contain the true position: (p - c)' P^-1 (p - c) <= 1. ROS 2:
+/// geometry_msgs/msg/PoseWithCovarianceStamped.
+struct PositionEllipsoid {
+  static constexpr const char* kType = "PositionEllipsoid";
+  Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();
+  /// P in W: diagonal (xx, yy, zz) and what is beside it (xy, xz, yz), m2.
+  Eigen::Vector3d shape_diagonal_m2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d shape_beside_m2 = Eigen::Vector3d::Zero();
+
+  template <class F>
+  void fields(F&& f) {
+    f(centre_W), f(shape_diagonal_m2), f(shape_beside_m2);
   }
 };
 
@@ -345,6 +434,10 @@ void for_each_message_type(F&& f) {
   f(static_cast<ImuSample*>(nullptr));
   f(static_cast<GnssFix*>(nullptr));
   f(static_cast<RangeSample*>(nullptr));
+  f(static_cast<PressureSample*>(nullptr));
+  f(static_cast<MagneticSample*>(nullptr));
+  f(static_cast<LaserScan*>(nullptr));
+  f(static_cast<PositionEllipsoid*>(nullptr));
   f(static_cast<VelocityCommand*>(nullptr));
   f(static_cast<LocalCommand*>(nullptr));
   f(static_cast<LineList*>(nullptr));

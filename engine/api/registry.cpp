@@ -13,6 +13,8 @@ const char* to_string(PartKind kind) {
       return "world";
     case PartKind::kVehicle:
       return "vehicle";
+    case PartKind::kMap:
+      return "map";
     case PartKind::kSensor:
       return "sensor";
     case PartKind::kEstimator:
@@ -48,6 +50,8 @@ auto Registry::visit(PartKind kind, Visitor&& visitor) const {
       return visitor(worlds_);
     case PartKind::kVehicle:
       return visitor(vehicles_);
+    case PartKind::kMap:
+      return visitor(maps_);
     case PartKind::kSensor:
       return visitor(sensors_);
     case PartKind::kEstimator:
@@ -80,6 +84,9 @@ void Registry::add_world(PartSpec spec, PartFactory<WorldModel, WorldContext> ma
 }
 void Registry::add_vehicle(PartSpec spec, PartFactory<Vehicle, VehicleContext> make) {
   add(PartKind::kVehicle, vehicles_, std::move(spec), std::move(make));
+}
+void Registry::add_map(PartSpec spec, PartFactory<RowMap, MapContext> make) {
+  add(PartKind::kMap, maps_, std::move(spec), std::move(make));
 }
 void Registry::add_sensor(PartSpec spec, PartFactory<Sensor, SensorContext> make) {
   add(PartKind::kSensor, sensors_, std::move(spec), std::move(make));
@@ -125,6 +132,10 @@ std::unique_ptr<Vehicle> Registry::make_vehicle(const std::string& name,
                                                 const ParameterSet& parameters,
                                                 const VehicleContext& context) const {
   return find(PartKind::kVehicle, vehicles_, name).make(parameters, context);
+}
+std::unique_ptr<RowMap> Registry::make_map(const std::string& name, const ParameterSet& parameters,
+                                           const MapContext& context) const {
+  return find(PartKind::kMap, maps_, name).make(parameters, context);
 }
 std::unique_ptr<Sensor> Registry::make_sensor(const std::string& name,
                                               const ParameterSet& parameters,

@@ -16,6 +16,7 @@ namespace vinerow {
 enum class PartKind {
   kWorld,
   kVehicle,
+  kMap,
   kSensor,
   kEstimator,
   kPlanner,
@@ -24,8 +25,9 @@ enum class PartKind {
   kMetric
 };
 constexpr PartKind kAllPartKinds[] = {
-    PartKind::kWorld,   PartKind::kVehicle,  PartKind::kSensor,     PartKind::kEstimator,
-    PartKind::kPlanner, PartKind::kGuidance, PartKind::kController, PartKind::kMetric};
+    PartKind::kWorld,    PartKind::kVehicle,    PartKind::kMap,
+    PartKind::kSensor,   PartKind::kEstimator,  PartKind::kPlanner,
+    PartKind::kGuidance, PartKind::kController, PartKind::kMetric};
 const char* to_string(PartKind kind);
 
 template <class Product, class Context>
@@ -39,6 +41,7 @@ class Registry {
   /// (built-in, file.so)".
   void add_world(PartSpec spec, PartFactory<WorldModel, WorldContext> make);
   void add_vehicle(PartSpec spec, PartFactory<Vehicle, VehicleContext> make);
+  void add_map(PartSpec spec, PartFactory<RowMap, MapContext> make);
   void add_sensor(PartSpec spec, PartFactory<Sensor, SensorContext> make);
   void add_estimator(PartSpec spec, PartFactory<Estimator, EstimatorContext> make);
   void add_planner(PartSpec spec, PartFactory<Planner, PlannerContext> make);
@@ -59,6 +62,8 @@ class Registry {
                                          const WorldContext&) const;
   std::unique_ptr<Vehicle> make_vehicle(const std::string& name, const ParameterSet&,
                                         const VehicleContext&) const;
+  std::unique_ptr<RowMap> make_map(const std::string& name, const ParameterSet&,
+                                   const MapContext&) const;
   std::unique_ptr<Sensor> make_sensor(const std::string& name, const ParameterSet&,
                                       const SensorContext&) const;
   std::unique_ptr<Estimator> make_estimator(const std::string& name, const ParameterSet&,
@@ -96,6 +101,7 @@ class Registry {
 
   Table<WorldModel, WorldContext> worlds_;
   Table<Vehicle, VehicleContext> vehicles_;
+  Table<RowMap, MapContext> maps_;
   Table<Sensor, SensorContext> sensors_;
   Table<Estimator, EstimatorContext> estimators_;
   Table<Planner, PlannerContext> planners_;

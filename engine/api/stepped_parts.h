@@ -61,6 +61,15 @@ class Estimator : public SteppedPart {};
 struct EstimatorContext : PartContext {
   const VehicleDescription* vehicle_description = nullptr;
   const RowMap* map = nullptr;
+  std::vector<SensorMounting> sensors;  ///< those with a mounting, in the file's order
+  GeoOrigin origin;                     ///< of W
+};
+
+/// What the maker of a vehicle's map needs. A map is plain data (RowMap): the vehicle's planner,
+/// guidance, estimator and controller know the world by it alone.
+struct MapContext : PartContext {
+  const WorldModel* world = nullptr;  ///< the truth, which is surveyed
+  const SceneQuery* scene = nullptr;
 };
 
 /// What a planner tells about its work beside the path.

@@ -54,6 +54,7 @@ struct VehicleConfig {
   PartConfig vehicle;
   SpawnConfig spawn;
   OnCrash on_crash = OnCrash::kEnd;
+  std::optional<PartConfig> map;        ///< absent: the vehicle knows the true rows
   std::vector<NamedPart> sensors;       ///< in file order
   std::optional<PartConfig> estimator;  ///< absent: estimate = truth
   std::optional<PartConfig> planner;

@@ -105,6 +105,8 @@ const std::vector<StructuralKey>& vehicle_keys() {
       parameter(choice_parameter("on_crash", "end", {"end", "fail"},
                                  "what a crash of the vehicle does beside failing the run: it ends "
                                  "there, or goes on for the others")),
+      part("map", KeyShape::kPart, PartKind::kMap, true,
+           "what the vehicle is told of the world; absent: the true rows"),
       part("sensors", KeyShape::kNamedParts, PartKind::kSensor, true, "the sensors by name"),
       part("estimator", KeyShape::kPart, PartKind::kEstimator, true,
            "makes the estimate from sensors; absent: the estimate is the truth"),

@@ -91,6 +91,8 @@ SpawnConfig read_spawn(const YamlEntry& entry, const std::string& path, YamlNode
 
 std::optional<PartConfig>& slot_of(VehicleConfig& vehicle, PartKind kind) {
   switch (kind) {
+    case PartKind::kMap:
+      return vehicle.map;
     case PartKind::kEstimator:
       return vehicle.estimator;
     case PartKind::kPlanner:

@@ -63,6 +63,25 @@ constexpr std::array kDefinitions = {
                "uint8 COVARIANCE_TYPE_UNKNOWN=0\nuint8 COVARIANCE_TYPE_APPROXIMATED=1\n"
                "uint8 COVARIANCE_TYPE_DIAGONAL_KNOWN=2\nuint8 COVARIANCE_TYPE_KNOWN=3\n"
                "uint8 position_covariance_type\n"},
+    Definition{"sensor_msgs/FluidPressure",
+               "std_msgs/Header header\n# Pa\nfloat64 fluid_pressure\n# Pa^2\n"
+               "float64 variance\n"},
+    Definition{"sensor_msgs/MagneticField",
+               "std_msgs/Header header\n# T\ngeometry_msgs/Vector3 magnetic_field\n"
+               "float64[9] magnetic_field_covariance\n"},
+    Definition{"sensor_msgs/LaserScan",
+               "std_msgs/Header header\n# rad\nfloat32 angle_min\nfloat32 angle_max\n"
+               "float32 angle_increment\n# s\nfloat32 time_increment\nfloat32 scan_time\n"
+               "# m\nfloat32 range_min\nfloat32 range_max\n# +inf: nothing seen\n"
+               "float32[] ranges\nfloat32[] intensities\n"},
+    Definition{"geometry_msgs/PoseWithCovarianceStamped",
+               "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n"},
+    Definition{"vinerow_msgs/LaserScan",
+               "std_msgs/Header header\n# rad, in the plane z = 0 of the sensor, from its x\n"
+               "float64 first_angle\nfloat64 angle_step\n# m\nfloat64 min_range\n"
+               "float64 max_range\n# +inf: nothing seen\nfloat64[] ranges\n"
+               "# of the vehicle in header.frame_id, and of the sensor in the vehicle\n"
+               "geometry_msgs/Pose body\ngeometry_msgs/Pose sensor\n"},
     Definition{"sensor_msgs/Range",
                "std_msgs/Header header\nuint8 ULTRASOUND=0\nuint8 INFRARED=1\n"
                "uint8 radiation_type\nfloat32 field_of_view\nfloat32 min_range\n"
@@ -169,7 +188,10 @@ constexpr std::array kDefinitions = {
                "float64 latitude\nfloat64 longitude\nfloat64 altitude\n"
                "# antenna in header.frame_id (east, north, up): m, m/s, 1 sigma m\n"
                "geometry_msgs/Point position\ngeometry_msgs/Vector3 velocity\n"
-               "geometry_msgs/Vector3 position_std\n"},
+               "geometry_msgs/Vector3 position_std\n# m/s, of each component; 0: not told\n"
+               "float64 velocity_std\n"
+               "uint8 NONE=0\nuint8 STANDALONE=1\nuint8 SBAS=2\nuint8 FLOAT=3\nuint8 FIXED=4\n"
+               "uint8 mode\n# used; 0: not told\nint32 satellites\n"},
     Definition{"vinerow_msgs/PathPoint",
                "uint8 LEG=0\nuint8 TURN=1\nuint8 TRANSIT=2\nuint8 VERTICAL=3\nuint8 RETURN=4\n"
                "geometry_msgs/Point position\n# rad, direction of travel\nfloat64 yaw\n"

@@ -8,10 +8,20 @@ namespace {
 
 // Row-major 6x6 covariance, axes x y z roll pitch yaw: x, y, z and yaw are known.
 constexpr std::size_t kCovarianceSize = 36;
-constexpr std::size_t kCovarianceX = 0;
-constexpr std::size_t kCovarianceY = 7;
-constexpr std::size_t kCovarianceZ = 14;
 constexpr std::size_t kCovarianceYaw = 35;
+
+/// The part of x, y, z: diagonal and what is beside it (xy, xz, yz).
+void fill_position(const Eigen::Vector3d& diagonal, const Eigen::Vector3d& beside,
+                   double* covariance) {
+  covariance[0] = diagonal.x(), covariance[7] = diagonal.y(), covariance[14] = diagonal.z();
+  covariance[1] = covariance[6] = beside.x();
+  covariance[2] = covariance[12] = beside.y();
+  covariance[8] = covariance[13] = beside.z();
+}
+void take_position(const double* covariance, Eigen::Vector3d& diagonal, Eigen::Vector3d& beside) {
+  diagonal = {covariance[0], covariance[7], covariance[14]};
+  beside = {covariance[1], covariance[2], covariance[8]};
+}
 
 // Least bytes of one element of a sequence: bounds a damaged count.
 constexpr std::size_t kLeastTransform = 8 + 4 + 4 + 7 * 8;
@@ -33,9 +43,7 @@ void RosMapping<Odometry>::write(CdrWriter& out, const WriteContext& to, const O
   out.add(std::string_view(to.frames.body));
   write_pose(out, value.X_WB);
   double covariance[kCovarianceSize] = {};
-  covariance[kCovarianceX] = variance(value.position_std_m.x());
-  covariance[kCovarianceY] = variance(value.position_std_m.y());
-  covariance[kCovarianceZ] = variance(value.position_std_m.z());
+  fill_position(value.position_variance_m2, value.position_covariance_m2, covariance);
   covariance[kCovarianceYaw] = variance(value.yaw_std_rad);
   out.add_doubles(covariance, kCovarianceSize);
   out.add(value.v_WB_B);
@@ -49,13 +57,32 @@ bool RosMapping<Odometry>::read(CdrReader& in, const FrameNames&, Odometry& valu
   read_pose(in, value.X_WB);
   double covariance[kCovarianceSize];
   in.read_doubles(covariance, kCovarianceSize);
-  value.position_std_m = {std_of_variance(covariance[kCovarianceX]),
-                          std_of_variance(covariance[kCovarianceY]),
-                          std_of_variance(covariance[kCovarianceZ])};
+  take_position(covariance, value.position_variance_m2, value.position_covariance_m2);
   value.yaw_std_rad = std_of_variance(covariance[kCovarianceYaw]);
   in.read(value.v_WB_B);
   in.read(value.w_WB_B);
   in.skip_doubles(kCovarianceSize);
+  return in.ok();
+}
+
+void RosMapping<PositionEllipsoid>::write(CdrWriter& out, const WriteContext& to,
+                                          const PositionEllipsoid& value) {
+  write_header(out, to.stamp, to.frames.world);
+  write_pose(out, {Eigen::Quaterniond::Identity(), value.centre_W});
+  double covariance[kCovarianceSize] = {};
+  fill_position(value.shape_diagonal_m2, value.shape_beside_m2, covariance);
+  out.add_doubles(covariance, kCovarianceSize);
+}
+
+bool RosMapping<PositionEllipsoid>::read(CdrReader& in, const FrameNames&,
+                                         PositionEllipsoid& value) {
+  skip_header(in);
+  Pose pose;
+  read_pose(in, pose);
+  value.centre_W = pose.p;
+  double covariance[kCovarianceSize];
+  in.read_doubles(covariance, kCovarianceSize);
+  take_position(covariance, value.shape_diagonal_m2, value.shape_beside_m2);
   return in.ok();
 }
 

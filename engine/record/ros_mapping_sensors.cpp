@@ -12,6 +12,8 @@ namespace {
 // Constants of the ROS 2 definitions.
 constexpr std::int8_t kStatusNoFix = -1;
 constexpr std::int8_t kStatusFix = 0;
+constexpr std::int8_t kStatusSbas = 1;
+constexpr std::int8_t kStatusGbas = 2;  // corrections from the ground: RTK
 constexpr std::uint16_t kServiceGps = 1;
 constexpr std::uint8_t kCovarianceDiagonalKnown = 2;
 constexpr std::uint8_t kUltrasound = 0;
@@ -19,7 +21,29 @@ constexpr std::uint8_t kCharging = 1;
 constexpr std::uint8_t kDischarging = 2;
 constexpr std::uint8_t kNotCharging = 3;
 
+std::int8_t status_of(const GnssFix& fix) {
+  if (!fix.valid) return kStatusNoFix;
+  if (fix.mode == GnssFix::Mode::kSbas) return kStatusSbas;
+  return fix.mode >= GnssFix::Mode::kFloat ? kStatusGbas : kStatusFix;
+}
+
 constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
+
+/// A sensor's pose as the body's and its own in the body. The body's is the same bytes as in the
+/// truth beside it, which compresses to nothing.
+void write_pose_beside_body(CdrWriter& out, const WriteContext& to, const Pose& X_WS) {
+  write_pose(out, to.X_WB ? *to.X_WB : Pose{});
+  write_pose(out, to.X_WB ? pose_in_body(*to.X_WB, X_WS) : X_WS);
+}
+
+void read_pose_beside_body(CdrReader& in, Pose& X_WS) {
+  Pose X_WB;
+  read_pose(in, X_WB);
+  read_pose(in, X_WS);
+  // Not multiplied by the identity, which would turn -0 into 0.
+  const bool is_in_world = X_WB.p.isZero(0) && X_WB.q.coeffs() == Pose{}.q.coeffs();
+  if (!is_in_world) X_WS = X_WB * X_WS;
+}
 
 }  // namespace
 
@@ -46,7 +70,7 @@ bool RosMapping<ImuSample>::read(CdrReader& in, const FrameNames&, ImuSample& va
 
 void RosMapping<GnssFix>::write(CdrWriter& out, const WriteContext& to, const GnssFix& value) {
   write_header(out, to.stamp, to.frames.own);
-  out.add(value.valid ? kStatusFix : kStatusNoFix);
+  out.add(status_of(value));
   out.add(kServiceGps);
   out.add(deg_from_rad(value.latitude_rad));
   out.add(deg_from_rad(value.longitude_rad));
@@ -68,6 +92,9 @@ void RosMapping<GnssFix>::write_exact(CdrWriter& out, const WriteContext& to,
   out.add(value.p_W);
   out.add(value.v_W);
   out.add(value.std_m);
+  out.add(value.velocity_std_mps);
+  out.add(static_cast<std::uint8_t>(value.mode));
+  out.add(value.satellites);
 }
 
 bool RosMapping<GnssFix>::read(CdrReader& in, const FrameNames&, GnssFix& value) {
@@ -79,6 +106,11 @@ bool RosMapping<GnssFix>::read(CdrReader& in, const FrameNames&, GnssFix& value)
   in.read(value.p_W);
   in.read(value.v_W);
   in.read(value.std_m);
+  value.velocity_std_mps = in.read<double>();
+  const auto mode = in.read<std::uint8_t>();
+  if (mode > static_cast<std::uint8_t>(GnssFix::Mode::kFixed)) return false;
+  value.mode = static_cast<GnssFix::Mode>(mode);
+  value.satellites = in.read<std::int32_t>();
   return in.ok();
 }
 
@@ -99,9 +131,7 @@ void RosMapping<RangeSample>::write_exact(CdrWriter& out, const WriteContext& to
   out.add(value.min_range_m);
   out.add(value.max_range_m);
   out.add(value.half_angle_rad);
-  // The body's pose is the same bytes as in the truth beside it, which compresses to nothing.
-  write_pose(out, to.X_WB ? *to.X_WB : Pose{});
-  write_pose(out, to.X_WB ? pose_in_body(*to.X_WB, value.X_WS) : value.X_WS);
+  write_pose_beside_body(out, to, value.X_WS);
 }
 
 bool RosMapping<RangeSample>::read(CdrReader& in, const FrameNames&, RangeSample& value) {
@@ -110,12 +140,77 @@ bool RosMapping<RangeSample>::read(CdrReader& in, const FrameNames&, RangeSample
   value.min_range_m = in.read<double>();
   value.max_range_m = in.read<double>();
   value.half_angle_rad = in.read<double>();
-  Pose X_WB;
-  read_pose(in, X_WB);
-  read_pose(in, value.X_WS);
-  // Not multiplied by the identity, which would turn -0 into 0.
-  const bool is_in_world = X_WB.p.isZero(0) && X_WB.q.coeffs() == Pose{}.q.coeffs();
-  if (!is_in_world) value.X_WS = X_WB * value.X_WS;
+  read_pose_beside_body(in, value.X_WS);
+  return in.ok();
+}
+
+void RosMapping<PressureSample>::write(CdrWriter& out, const WriteContext& to,
+                                       const PressureSample& value) {
+  write_header(out, to.stamp, to.frames.own);
+  out.add(value.pressure_Pa);
+  out.add(variance(value.std_Pa));
+}
+
+bool RosMapping<PressureSample>::read(CdrReader& in, const FrameNames&, PressureSample& value) {
+  skip_header(in);
+  value.pressure_Pa = in.read<double>();
+  value.std_Pa = std_of_variance(in.read<double>());
+  return in.ok();
+}
+
+void RosMapping<MagneticSample>::write(CdrWriter& out, const WriteContext& to,
+                                       const MagneticSample& value) {
+  write_header(out, to.stamp, to.frames.own);
+  out.add(value.field_S_T);
+  const double var = variance(value.std_T);
+  const double covariance[9] = {var, 0, 0, 0, var, 0, 0, 0, var};
+  out.add_doubles(covariance, 9);
+}
+
+bool RosMapping<MagneticSample>::read(CdrReader& in, const FrameNames&, MagneticSample& value) {
+  skip_header(in);
+  in.read(value.field_S_T);
+  value.std_T = std_of_variance(in.read<double>());
+  in.skip_doubles(8);
+  return in.ok();
+}
+
+void RosMapping<LaserScan>::write(CdrWriter& out, const WriteContext& to, const LaserScan& value) {
+  write_header(out, to.stamp, to.frames.own);
+  const auto steps = value.ranges_m.empty() ? 0.0 : static_cast<double>(value.ranges_m.size() - 1);
+  out.add(static_cast<float>(value.first_angle_rad));
+  out.add(static_cast<float>(value.first_angle_rad + steps * value.angle_step_rad));
+  out.add(static_cast<float>(value.angle_step_rad));
+  out.add(0.0f);  // time_increment: a scan is of one instant
+  out.add(0.0f);  // scan_time
+  out.add(static_cast<float>(value.min_range_m));
+  out.add(static_cast<float>(value.max_range_m));
+  out.add_count(value.ranges_m.size());
+  for (const double range_m : value.ranges_m) out.add(static_cast<float>(range_m));
+  out.add_count(0);  // intensities
+}
+
+void RosMapping<LaserScan>::write_exact(CdrWriter& out, const WriteContext& to,
+                                        const LaserScan& value) {
+  write_header(out, to.stamp, to.frames.world);
+  out.add(value.first_angle_rad);
+  out.add(value.angle_step_rad);
+  out.add(value.min_range_m);
+  out.add(value.max_range_m);
+  out.add_count(value.ranges_m.size());
+  out.add_doubles(value.ranges_m.data(), value.ranges_m.size());
+  write_pose_beside_body(out, to, value.X_WS);
+}
+
+bool RosMapping<LaserScan>::read(CdrReader& in, const FrameNames&, LaserScan& value) {
+  skip_header(in);
+  value.first_angle_rad = in.read<double>();
+  value.angle_step_rad = in.read<double>();
+  value.min_range_m = in.read<double>();
+  value.max_range_m = in.read<double>();
+  value.ranges_m.resize(in.read_count(sizeof(double)));
+  in.read_doubles(value.ranges_m.data(), value.ranges_m.size());
+  read_pose_beside_body(in, value.X_WS);
   return in.ok();
 }
 

@@ -32,17 +32,22 @@ class DelayLine {
       out.write(measured, reading);
       return;
     }
-    VINEROW_DEMAND(count_ < ring_.size());
-    Entry& entry = ring_[(first_ + count_++) % ring_.size()];
+    Entry& entry = next();
     entry.measured = measured;
     entry.reading = reading;
+    entry.is_lost = false;
   }
 
-  /// Hands over the oldest reading; its stamp is the time of the measurement.
+  /// A reading that will not arrive; it takes its place, so that others keep their time.
+  void push_lost() {
+    if (delay_.ns > 0) next().is_lost = true;
+  }
+
+  /// Hands over the oldest reading, if it was not lost; its stamp is the time of the measurement.
   void deliver(SignalWriter<T>& out) {
-    if (count_ == 0) return;  // the measurement was lost (an outage without message)
+    if (count_ == 0) return;
     const Entry& oldest = ring_[first_];
-    out.write(oldest.measured, oldest.reading);
+    if (!oldest.is_lost) out.write(oldest.measured, oldest.reading);
     first_ = (first_ + 1) % ring_.size();
     --count_;
   }
@@ -51,7 +56,12 @@ class DelayLine {
   struct Entry {
     Time measured;
     T reading;
+    bool is_lost = false;
   };
+  Entry& next() {
+    VINEROW_DEMAND(count_ < ring_.size());
+    return ring_[(first_ + count_++) % ring_.size()];
+  }
   Duration delay_;
   std::vector<Entry> ring_;
   std::size_t first_ = 0;

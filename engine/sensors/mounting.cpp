@@ -4,6 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "engine/sensors/readings.h"
 
 namespace vinerow {
 
@@ -39,6 +40,13 @@ ParameterSpec outage_parameter() {
       {required(number_parameter("begin_s", "s", 0.0, 0.0, 1e7, "start of the outage")),
        required(number_parameter("end_s", "s", 0.0, 0.0, 1e7, "end of the outage"))},
       "time windows without a reading");
+}
+
+std::vector<ParameterSpec> reading_parameters() {
+  return {delay_parameter(),
+          number_parameter("dropout_share", "", 0.0, 0.0, 1.0,
+                           "share of the readings that never arrive, drawn one by one"),
+          outage_parameter()};
 }
 
 std::vector<Outage> outages_of(const ParameterSet& parameters) {

@@ -110,6 +110,7 @@ VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext
       Stage::kSense, name + ".diagnostics",
       diagnostics_period(run_.scenario.record.truth_rate_Hz, run_.scenario.physics_step), {},
       [this](Time now) { publish_diagnostics(now); });
+  make_map();
   add_sensors();
   add_estimator();
   add_planner();
@@ -119,6 +120,14 @@ VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext
 
 double VehicleRuntime::control_rate_Hz() const {
   return config_.controller ? config_.controller->rate_Hz : kDefaultControlRate_Hz;
+}
+
+void VehicleRuntime::make_map() {
+  if (!config_.map) return;
+  auto map_context = context<MapContext>(config_.name + ".map", 0.0);
+  map_context.world = &run_.world;
+  map_context.scene = &run_.physics.scene();
+  own_map_ = run_.registry.make_map(config_.map->type, config_.map->parameters, map_context);
 }
 
 void VehicleRuntime::add_sensors() {
@@ -133,6 +142,8 @@ void VehicleRuntime::add_sensors() {
         run_.registry.make_sensor(sensor.part.type, sensor.part.parameters, sensor_context));
     Sensor& built = *sensors_.back();
     add_stepped(Stage::kSense, part, sensor.part.type, sensor.part.rate_Hz, built);
+    // What a sensor would read without error follows from the truth.
+    diagnostic_signals_.push_back(fmt::format("{}/{}_truth", config_.name, sensor.name));
     if (const auto X_BS = built.mounting_X_BS()) {
       mountings_.push_back({sensor.name, sensor.part.type, *X_BS});
     }
@@ -152,7 +163,9 @@ void VehicleRuntime::add_estimator() {
       given && config_.estimator->rate_Hz > 0.0 ? config_.estimator->rate_Hz : control_rate_Hz();
   auto estimator_context = context<EstimatorContext>(part, rate_Hz);
   estimator_context.vehicle_description = &vehicle_->description();
-  estimator_context.map = &run_.world.rows;
+  estimator_context.map = &map();
+  estimator_context.sensors = mountings_;
+  estimator_context.origin = run_.world.origin;
   estimator_ =
       given ? run_.registry.make_estimator(type, config_.estimator->parameters, estimator_context)
             : std::make_unique<TruthEstimator>();
@@ -164,7 +177,7 @@ void VehicleRuntime::add_planner() {
   const std::string part = config_.name + ".planner";
   auto planner_context = context<PlannerContext>(part, control_rate_Hz());
   planner_context.vehicle_description = &vehicle_->description();
-  planner_context.map = &run_.world.rows;
+  planner_context.map = &map();
   planner_context.scene = &run_.physics.scene();
   planner_context.origin = run_.world.origin;
   planner_ = run_.registry.make_planner(config_.planner->type, config_.planner->parameters,
@@ -206,7 +219,7 @@ void VehicleRuntime::add_controller() {
   const auto controller_context_of = [&](const std::string& part, double rate_Hz) {
     auto result = context<ControllerContext>(part, rate_Hz);
     result.vehicle_description = &vehicle_->description();
-    result.map = &run_.world.rows;
+    result.map = &map();
     result.sensors = mountings_;
     return result;
   };

@@ -66,6 +66,8 @@ class VehicleRuntime {
   Context context(const std::string& part, double rate_Hz) const;
   void add_stepped(Stage stage, const std::string& part, const std::string& type, double rate_Hz,
                    SteppedPart& stepped);
+  void make_map();
+  const RowMap& map() const { return own_map_ ? *own_map_ : run_.world.rows; }
   void add_sensors();
   void add_estimator();
   void add_planner();
@@ -88,6 +90,7 @@ class VehicleRuntime {
   RunContext run_;
   std::unique_ptr<Vehicle> vehicle_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
+  std::unique_ptr<RowMap> own_map_;  ///< null: the world's rows
   std::unique_ptr<Estimator> estimator_;
   std::unique_ptr<Planner> planner_;
   std::unique_ptr<Guidance> guidance_;

@@ -55,6 +55,7 @@ struct FillField {
 template <class T>
 void fill(RandomStream& random, T& value) {
   const auto size = static_cast<std::size_t>(random.next_u64() % 7);
+  if constexpr (std::is_same_v<T, LaserScan>) value.ranges_m.resize(size);
   if constexpr (std::is_same_v<T, NamedValues>) {
     value.names.resize(size);
     value.values.resize(size);
@@ -73,6 +74,11 @@ void fill(RandomStream& random, T& value) {
   if constexpr (std::is_same_v<T, ReferenceTrajectory>) {
     value.phase = static_cast<ReferenceTrajectory::Phase>(random.next_u64() % 9);
   }
+  if constexpr (std::is_same_v<T, GnssFix>) {
+    value.mode = static_cast<GnssFix::Mode>(random.next_u64() % 5);
+  }
+  if constexpr (std::is_same_v<T, PressureSample>) value.std_Pa = std::abs(value.std_Pa);
+  if constexpr (std::is_same_v<T, MagneticSample>) value.std_T = std::abs(value.std_T);
   if constexpr (std::is_same_v<T, AirReference>) {
     value.phase = static_cast<AirReference::Phase>(random.next_u64() % 7);
   }
@@ -90,7 +96,6 @@ void fill(RandomStream& random, T& value) {
   }
   if constexpr (std::is_same_v<T, Odometry>) {
     // A standard deviation has no sign.
-    value.position_std_m = value.position_std_m.cwiseAbs();
     value.yaw_std_rad = std::abs(value.yaw_std_rad);
   }
 }

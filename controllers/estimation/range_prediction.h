@@ -1,0 +1,49 @@
+#pragma once
+/// What a range sensor should read at a pose on the map, how that depends on the pose, and how well
+/// it is known. Source: ../../docs/localisation.md; paper C, section 3, with the slab of an echo
+/// taken from the facet's plane N.x = D in place of its eq. 10-12.
+
+#include <optional>
+
+#include "controllers/estimation/row_mesh_index.h"
+#include "engine/math/pose.h"
+
+namespace vinerow {
+
+/// A range sensor as an estimator knows it.
+struct RangeSensorModel {
+  std::string name;             ///< of its signal
+  Pose X_BS;                    ///< it looks along x of S
+  double half_angle_rad = 0.0;  ///< of its cone; 0: a single ray
+  int fan_rays = 1;  ///< rays over the cone in the plane z = 0 of S, odd; the first return counts
+  double bound_m = 0.003;  ///< largest error of a reading
+};
+
+/// The first return.
+struct RangePrediction {
+  double range_m = 0.0;                                ///< h
+  Eigen::Vector3d origin_W = Eigen::Vector3d::Zero();  ///< of the ray: the sensor
+  Eigen::Vector3d dir_W = Eigen::Vector3d::UnitX();    ///< u, unit
+  RowMeshIndex::Hit hit;                               ///< facet N.x = D; N.u < 0
+
+  double slope() const { return hit.normal_W.dot(dir_W); }  ///< N.u
+  /// dh/dp, p the body's origin in W: -N' / (N.u).
+  Eigen::Vector3d gradient_p() const { return -hit.normal_W / slope(); }
+  /// dh/dpsi of a turn of the body about the vertical through its origin at p_WB.
+  double gradient_yaw(const Eigen::Vector3d& p_WB) const;
+};
+
+/// @returns nothing where no ray of the fan meets the map within max_range_m
+std::optional<RangePrediction> predict_range(const RowMeshIndex& map, const Pose& X_WB,
+                                             const RangeSensorModel& sensor, double max_range_m);
+
+/// By how much the variance of a map error must be enlarged where readings follow each other faster
+/// than the error changes along the row: max(1, 2.5 l / (v T)).
+/// @param correlation_length_m  l  @param speed_mps  v  @param period_s  T between readings
+double correlation_inflation(double correlation_length_m, double speed_mps, double period_s);
+
+/// Variance of reading minus h, m2: r sigma_m^2 / (N.u)^2 + bound^2 / 3 + (dh/dpsi sigma_psi)^2.
+double range_variance(const RangePrediction& prediction, const Eigen::Vector3d& p_WB,
+                      double surface_std_m, double inflation, double bound_m, double yaw_std_rad);
+
+}  // namespace vinerow

@@ -1,0 +1,67 @@
+#pragma once
+/// What becomes of every reading: it may be lost, it may come late, and the truth is laid beside it.
+///
+/// A sensor `gps` writes the signals "gps" (what the vehicle gets) and "gps_truth" (the same without
+/// any error, at the instant of the measurement, for people and checks; no part of a vehicle may
+/// read it). Parameters: `delay_s`, `dropout_share`, `outages`.
+///
+/// A dropout is a message that never arrives: nothing is written. What an outage gives is the
+/// sensor's own affair: an invalid fix, no echo. Random numbers of dropouts come from a stream of
+/// their own, one a reading, so they shift no noise.
+
+#include <string>
+#include <vector>
+
+#include "engine/api/stepped_parts.h"
+#include "engine/sensors/delay_line.h"
+#include "engine/sensors/mounting.h"
+
+namespace vinerow {
+
+/// `delay_s`, `dropout_share`, `outages`.
+std::vector<ParameterSpec> reading_parameters();
+
+template <class T>
+class Readings {
+ public:
+  /// @param parameters  with reading_parameters()
+  Readings(const ParameterSet& parameters, const SensorContext& context)
+      : name_(context.name),
+        outages_(outages_of(parameters)),
+        dropout_share_(parameters.number("dropout_share")),
+        line_(delay_of(parameters), context.period),
+        random_(context.random("dropout")) {}
+
+  void connect(Ports& ports) {
+    out_ = ports.write<T>(name_);
+    truth_out_ = ports.write<T>(name_ + "_truth");
+  }
+  /// For readings that own memory: see DelayLine.
+  void prefill(const T& reading) { line_.prefill(reading); }
+  Duration delay() const { return line_.delay(); }
+  void deliver() { line_.deliver(out_); }
+
+  bool is_in_outage(Time now) const { return vinerow::is_in_outage(outages_, now); }
+
+  /// Once a tick, outages included.
+  void push(Time now, const T& reading, const T& truth) {
+    truth_out_.write(now, truth);
+    const bool is_lost = dropout_share_ > 0.0 && random_.uniform() < dropout_share_;
+    if (is_lost) {
+      line_.push_lost();
+    } else {
+      line_.push(now, reading, out_);
+    }
+  }
+
+ private:
+  std::string name_;
+  std::vector<Outage> outages_;
+  double dropout_share_;
+  DelayLine<T> line_;
+  RandomStream random_;
+  SignalWriter<T> out_;
+  SignalWriter<T> truth_out_;
+};
+
+}  // namespace vinerow

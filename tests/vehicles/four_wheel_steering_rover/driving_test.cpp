@@ -46,7 +46,7 @@ Turn drive_turn(const FourWheelSteeringRoverParams& params, double v_mps,
     point = rig.body().X_WB.p.head<2>();
     for (auto i = std::llround(part_s / 0.001); i > 0; --i) {
       rig.step();
-      for (const WheelOutput& out : rig.rover.platform().outputs()) {
+      for (const WheelOutput& out : rig.vehicle.platform().outputs()) {
         squares += out.slip() * out.slip();
         largest = std::max(largest, std::abs(out.slip()));
         ++count;

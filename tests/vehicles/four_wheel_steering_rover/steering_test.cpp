@@ -75,8 +75,8 @@ TEST(FourWheelSteeringRover, TheMechanismTurnsItsWheelsToTheOraclesAngles) {
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_NEAR(deg_from_rad(rig.wheel(i).steer_rad), row.wheels_deg[i], 0.01);
     }
-    EXPECT_NEAR(deg_from_rad(rig.rover.actuator_states()[0]), row.front_deg, 1e-6);
-    EXPECT_NEAR(deg_from_rad(rig.rover.actuator_states()[1]), row.rear_deg, 1e-6);
+    EXPECT_NEAR(deg_from_rad(rig.vehicle.actuator_states()[0]), row.front_deg, 1e-6);
+    EXPECT_NEAR(deg_from_rad(rig.vehicle.actuator_states()[1]), row.rear_deg, 1e-6);
   }
 }
 
@@ -138,12 +138,12 @@ TEST(FourWheelSteeringRover, ServosKeepTheirRateLimitAndLag) {
   std::array<double, 4> last_wheels{};
   for (int i = 1; i <= 400; ++i) {
     rig.step();
-    const double t = 0.001 * i, angle = rig.rover.actuator_states()[0];
+    const double t = 0.001 * i, angle = rig.vehicle.actuator_states()[0];
     const double expected =
         t < ramp_s ? rate * t : target - rate * lag * std::exp(-(t - ramp_s) / lag);
     EXPECT_NEAR(angle, expected, 2e-4) << t;  // one step astride the change: rate dt / 10
     EXPECT_LE(angle - last, rate * 0.001 * (1.0 + 1e-9)) << t;
-    EXPECT_DOUBLE_EQ(rig.rover.actuator_states()[1], -angle);
+    EXPECT_DOUBLE_EQ(rig.vehicle.actuator_states()[1], -angle);
     // The inner wheel turns d(wheel)/d(axle) as fast as the axle: with t = tan(axle) and
     // f = t / (1 - t B / L), (1 + t^2) / (1 + f^2) / (1 - t B / L)^2, at the ramp's end 1.415.
     for (std::size_t w = 0; w < 4; ++w) {
@@ -173,11 +173,11 @@ TEST(FourWheelSteeringRover, KnucklesSteerAndWheelsRollToo) {
   FourWheelRig rig(make_flat_world());
   rig.actuate(20.0, -20.0, {2, 2, 2, 2});
   rig.run(0.6);
-  std::vector<Pose> poses(rig.rover.links().size());
-  rig.rover.read_links(poses);
+  std::vector<Pose> poses(rig.vehicle.links().size());
+  rig.vehicle.read_links(poses);
   ASSERT_EQ(poses.size(), 9u);
-  EXPECT_EQ(rig.rover.links()[1].name, "wheel_fl");
-  EXPECT_EQ(rig.rover.links()[5].name, "knuckle_fl");
+  EXPECT_EQ(rig.vehicle.links()[1].name, "wheel_fl");
+  EXPECT_EQ(rig.vehicle.links()[5].name, "knuckle_fl");
   const Eigen::Quaterniond q_BW = poses[0].q.conjugate();
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector3d knuckle_x = q_BW * poses[5 + i].q * Eigen::Vector3d::UnitX();

@@ -4,6 +4,7 @@
 /// taken from the facet's plane N.x = D in place of its eq. 10-12.
 
 #include <optional>
+#include <string>
 
 #include "controllers/estimation/row_mesh_index.h"
 #include "engine/math/pose.h"
@@ -15,7 +16,8 @@ struct RangeSensorModel {
   std::string name;             ///< of its signal
   Pose X_BS;                    ///< it looks along x of S
   double half_angle_rad = 0.0;  ///< of its cone; 0: a single ray
-  int fan_rays = 1;  ///< rays over the cone in the plane z = 0 of S, odd; the first return counts
+  int fan_rays = 1;  ///< rays over the cone from edge to edge in the plane z = 0 of S, odd; the
+                     ///< first return counts
   double bound_m = 0.003;  ///< largest error of a reading
 };
 
@@ -26,6 +28,7 @@ struct RangePrediction {
   Eigen::Vector3d dir_W = Eigen::Vector3d::UnitX();    ///< u, unit
   RowMeshIndex::Hit hit;                               ///< facet N.x = D; N.u < 0
 
+  /// N.u, < 0.
   double slope() const { return hit.normal_W.dot(dir_W); }  ///< N.u
   /// dh/dp, p the body's origin in W: -N' / (N.u).
   Eigen::Vector3d gradient_p() const { return -hit.normal_W / slope(); }
@@ -37,9 +40,13 @@ struct RangePrediction {
 std::optional<RangePrediction> predict_range(const RowMeshIndex& map, const Pose& X_WB,
                                              const RangeSensorModel& sensor, double max_range_m);
 
+constexpr double kMaxCorrelationInflation = 1e6;
+
 /// By how much the variance of a map error must be enlarged where readings follow each other faster
 /// than the error changes along the row: max(1, 2.5 l / (v T)).
 /// @param correlation_length_m  l  @param speed_mps  v  @param period_s  T between readings
+/// @returns at most kMaxCorrelationInflation, which a standing vehicle gets: its readings all have
+/// one and the same map error
 double correlation_inflation(double correlation_length_m, double speed_mps, double period_s);
 
 /// Variance of reading minus h, m2: r sigma_m^2 / (N.u)^2 + bound^2 / 3 + (dh/dpsi sigma_psi)^2.

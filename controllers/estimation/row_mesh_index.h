@@ -1,13 +1,16 @@
 #pragma once
 /// Rays against the row meshes of a map, for estimators: what a range sensor should read at a pose.
 ///
-/// Only what lies near is looked at: triangles are kept by row and by stretches along the row, so
-/// that a ray tests some tens of them however large the map is. This is the moving window of paper
-/// C, section 3.2, without its cut into segments: a plane cut and rays in the plane give the same
-/// distances as rays against the triangles (to 4e-13 m, tests/controllers/estimation).
+/// Only what lies near is looked at: facets are listed by the squares of a grid over east and
+/// north, and a ray walks the squares below it (Amanatides and Woo, "A fast voxel traversal
+/// algorithm for ray tracing", Eurographics 1987), so that it tests some tens of facets however
+/// large the map is, and rows may bend or cross. This is the moving window of paper C, section 3.2,
+/// without its cut into segments: a plane cut and rays in the plane give the same distances as rays
+/// against the facets (to 4e-13 m, tests/controllers/estimation).
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -22,33 +25,70 @@ class RowMeshIndex {
     Eigen::Vector3d normal_W = Eigen::Vector3d::UnitX();  ///< N, unit, towards the ray's origin
     double plane_m = 0.0;                                 ///< D of the facet's plane N.x = D
     int row = -1;                                         ///< PlantRow::id
-    int facet = -1;                                       ///< of all facets of the map
+    int facet = -1;  ///< number among all triangles of the map's meshes, in their order
   };
 
-  /// A segment of a cut, in W.
+  /// A segment of a cut, in W. Seen against the plane's normal the plants lie to its left.
   struct Segment {
     Eigen::Vector3d from_W, to_W;
     Eigen::Vector3d normal_W;  ///< of the facet, outwards
     int row = -1;
   };
 
-  /// @param stretch_m  length of the stretches that facets are kept by
-  /// @throws ConfigError "the map has no row meshes ..." if there are none
-  explicit RowMeshIndex(const RowMap& map, double stretch_m = 1.0);
+  /// @param cell_m  side of the grid's squares, > 0; larger ones are taken where the map would need
+  /// more than four million
+  /// @throws ConfigError "the map has no row meshes ..." if there are none; one sentence naming row
+  /// and triangle where a mesh is not well formed
+  explicit RowMeshIndex(const RowMap& map, double cell_m = 0.5);
 
-  /// First facet that faces the ray. No heap, thread safe. @param dir_W  unit
+  /// First facet that faces the ray; a ray that starts inside the plants sees the next row. No
+  /// heap, thread safe. @param dir_W  unit @returns nothing if nothing nearer than that distance
+  /// is hit, or if the ray is not finite
   std::optional<Hit> cast_ray(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                               double max_distance_m) const;
 
-  /// Where the plane n.x = n.p cuts the facets within `radius_m` of p, seen from above: the slice
-  /// of paper C, eq. 5-6. Clears `segments`; allocates only beyond their capacity.
+  /// Where the plane n.x = n.p cuts the facets: all segments that come within `radius_m` of p, seen
+  /// from above, whole: the slice of paper C, eq. 5-6. Neighbouring facets share their end points
+  /// to the bit. Clears `segments`; allocates only beyond their capacity.
   /// @param normal_W  unit, of the plane
   void cut(const Eigen::Vector3d& p_W, const Eigen::Vector3d& normal_W, double radius_m,
            std::vector<Segment>& segments) const;
 
   /// Of everything that is kept.
   std::size_t memory_bytes() const;
-  int facet_count() const;
+  /// Triangles of the map's meshes.
+  int facet_count() const { return static_cast<int>(facets_.size()); }
+
+ private:
+  /// One line of the processor's cache. The corners are the map's own bits.
+  struct alignas(64) Facet {
+    Eigen::Vector3d normal;  // unit; zero: no area, in no list
+    Eigen::Vector3f a, b, c;
+    std::int32_t row;
+  };
+  /// A grid square.
+  struct Square {
+    int i, j;
+  };
+
+  void read_facets(const RowMap& map);
+  void lay_grid(double cell_m);
+  void list_facets();
+  Square square_at(double x, double y) const;
+  std::size_t index_of(Square square) const {
+    return static_cast<std::size_t>(square.j) * columns_ + square.i;
+  }
+  /// Calls visit(square) for those that the facet lies over.
+  template <class Visit>
+  void for_each_square_below(const Facet& facet, Visit&& visit) const;
+
+  std::vector<Facet> facets_;
+  int columns_ = 0, lines_ = 0;
+  double cell_m_ = 0.5;
+  Eigen::Vector2d low_ = {0, 0}, high_ = {0, 0};  // corners of the grid
+  double facet_reach_m_ = 0.0;  // largest distance of a corner from the facet's centre, from above
+  std::vector<std::uint32_t> first_;   // of each square's list, and the end
+  std::vector<std::uint32_t> listed_;  // facets
 };
 
 }  // namespace vinerow

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "engine/sensors/delay_line.h"
-#include "engine/sensors/mounting.h"
+#include "engine/sensors/readings.h"
 
 namespace vinerow {
 namespace {
@@ -11,10 +10,8 @@ namespace {
 class AirDataProbe final : public Sensor {
  public:
   AirDataProbe(const ParameterSet& parameters, const SensorContext& context)
-      : name_(context.name),
-        vehicle_(context.vehicle_truth),
-        outages_(outages_of(parameters)),
-        line_(delay_of(parameters), context.period),
+      : vehicle_(context.vehicle_truth),
+        readings_(parameters, context),
         random_(context.random()),
         noise_std_mps_(parameters.number("noise_std_mps")),
         scale_(1.0 + parameters.number("scale_error")),
@@ -23,9 +20,9 @@ class AirDataProbe final : public Sensor {
     kept_share_ = lag_s > 0.0 ? std::exp(-context.period.s() / lag_s) : 0.0;
   }
 
-  void connect(Ports& ports) override { out_ = ports.write<AirData>(name_); }
-  Duration delay() const override { return line_.delay(); }
-  void deliver(Time) override { line_.deliver(out_); }
+  void connect(Ports& ports) override { readings_.connect(ports); }
+  Duration delay() const override { return readings_.delay(); }
+  void deliver(Time) override { readings_.deliver(); }
 
   void step(Time now) override {
     const Eigen::Vector3d truth_B = vehicle_->air_velocity_B();
@@ -36,17 +33,15 @@ class AirDataProbe final : public Sensor {
     for (int axis = 0; axis < 3; ++axis) {
       reading.v_air_B[axis] = scale_ * lagged_B_[axis] + noise_std_mps_ * random_.normal();
     }
-    if (is_in_outage(outages_, now) || reading.v_air_B.norm() < least_airspeed_mps_) {
+    if (readings_.is_in_outage(now) || reading.v_air_B.norm() < least_airspeed_mps_) {
       reading.v_air_B.setZero();
     }
-    line_.push(now, reading, out_);
+    readings_.push(now, reading, AirData{truth_B});
   }
 
  private:
-  std::string name_;
   const Vehicle* vehicle_;
-  std::vector<Outage> outages_;
-  DelayLine<AirData> line_;
+  Readings<AirData> readings_;
   RandomStream random_;
   double noise_std_mps_;
   double scale_;
@@ -54,7 +49,6 @@ class AirDataProbe final : public Sensor {
   double kept_share_ = 0.0;  ///< of the last reading's difference from the truth
   Eigen::Vector3d lagged_B_ = Eigen::Vector3d::Zero();
   bool has_last_ = false;
-  SignalWriter<AirData> out_;
 };
 
 }  // namespace
@@ -72,11 +66,10 @@ PartSpec air_data_spec() {
       number_parameter("lag_s", "s", 0.05, 0.0, 60.0, "time constant of the tube and the vanes"),
       number_parameter("scale_error", "", 0.0, -0.5, 0.5, "share by which it reads too much"),
       number_parameter("min_airspeed_mps", "m/s", 2.0, 0.0, 100.0,
-                       "below this airspeed it reads zero"),
-      delay_parameter(),
-      outage_parameter()};
+                       "below this airspeed it reads zero")};
+  add_reading_parameters(spec.parameters);
   spec.reads = {"the vehicle's true velocity through the air"};
-  spec.writes = {"<name>: AirData"};
+  spec.writes = {"<name>: AirData", "<name>_truth: AirData"};
   return spec;
 }
 

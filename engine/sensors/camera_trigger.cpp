@@ -12,6 +12,7 @@
 #include "engine/math/angles.h"
 #include "engine/sensors/camera_gimbal.h"
 #include "engine/sensors/mounting.h"
+#include "engine/sensors/readings.h"
 
 namespace vinerow {
 namespace {
@@ -23,9 +24,9 @@ constexpr SurfaceMask kGround = mask_of(SurfaceClass::kTerrain);
 class CameraTrigger final : public Sensor {
  public:
   CameraTrigger(const ParameterSet& parameters, const SensorContext& context)
-      : name_(context.name),
-        scene_(context.scene),
+      : scene_(context.scene),
         X_BS_(mounting_pose(parameters)),
+        readings_(parameters, context),
         camera_(read_survey_camera(parameters)),
         on_lanes_(parameters.text("on") == "lanes"),
         has_gimbal_(parameters.text("mount") == "gimbal"),
@@ -65,8 +66,10 @@ class CameraTrigger final : public Sensor {
       static_cast<void>(ports.read<PlannedPath>("plan"));
       plan_.connect(ports);
     }
-    out_ = ports.write<CameraShot>(name_);
+    readings_.connect(ports);
   }
+  Duration delay() const override { return readings_.delay(); }
+  void deliver(Time) override { readings_.deliver(); }
   std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
 
   void step(Time now) override {
@@ -75,12 +78,16 @@ class CameraTrigger final : public Sensor {
     const Eigen::Quaterniond q_W =
         has_gimbal_ ? gimbal_.advance((now - last_).s(), truth.X_WB.q) : truth.X_WB.q;
     last_ = now;
-    if (!is_due(now, truth)) return;
+    if (!is_due(now, truth) || readings_.is_in_outage(now)) {
+      readings_.push_nothing();
+      return;
+    }
+    waits_for_lane_ = false;
     shot_.index += 1;
     look({q_W * X_BS_.q, truth.X_WB * X_BS_.p});
     shot_at_ = now;
     shot_from_W_ = truth.X_WB.p.head<2>();
-    out_.write(now, shot_);
+    readings_.push(now, shot_, shot_);
   }
 
  private:
@@ -101,7 +108,6 @@ class CameraTrigger final : public Sensor {
       const double way_m = (truth.X_WB.p.head<2>() - shot_from_W_).norm();
       if (!begins && way_m < distance_m_) return false;
     }
-    waits_for_lane_ = false;
     return true;
   }
 
@@ -121,9 +127,9 @@ class CameraTrigger final : public Sensor {
     }
   }
 
-  std::string name_;
   const SceneQuery* scene_;
   Pose X_BS_;
+  Readings<CameraShot> readings_;
   SurveyCamera camera_;
   bool on_lanes_;
   bool has_gimbal_;
@@ -140,7 +146,6 @@ class CameraTrigger final : public Sensor {
   bool waits_for_lane_ = false;  ///< a lane has begun, and there is no picture of it yet
   PlanStretch plan_;
   SignalReader<Odometry> truth_;
-  SignalWriter<CameraShot> out_;
 };
 
 }  // namespace
@@ -179,8 +184,9 @@ PartSpec camera_trigger_spec() {
   spec.parameters.push_back(
       number_parameter("gimbal_lag_s", "s", 0.05, 0.0, 10.0,
                        "time constant with which the gimbal follows; 0: at once"));
+  add_reading_parameters(spec.parameters);
   spec.reads = {"truth", "plan (where on: lanes)"};
-  spec.writes = {"<name>: CameraShot"};
+  spec.writes = {"<name>: CameraShot", "<name>_truth: CameraShot"};
   return spec;
 }
 

@@ -6,8 +6,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
-#include "engine/sensors/delay_line.h"
-#include "engine/sensors/mounting.h"
+#include "engine/sensors/readings.h"
 
 namespace vinerow {
 namespace {
@@ -26,11 +25,7 @@ struct Channel {
 class Encoders final : public Sensor {
  public:
   Encoders(const ParameterSet& parameters, const SensorContext& context)
-      : name_(context.name),
-        vehicle_(context.vehicle_truth),
-        outages_(outages_of(parameters)),
-        line_(delay_of(parameters), context.period),
-        random_(context.random()) {
+      : vehicle_(context.vehicle_truth), readings_(parameters, context), random_(context.random()) {
     const Channel angle{parameters.number("angle_resolution_rad"),
                         parameters.number("angle_noise_std_rad")};
     const Channel speed{parameters.number("speed_resolution_radps"),
@@ -52,32 +47,32 @@ class Encoders final : public Sensor {
       reading_.names.push_back(actuator.name);
     }
     reading_.values.assign(channels_.size(), 0.0);
-    line_.prefill(reading_);
+    exact_ = reading_;
+    readings_.prefill(reading_);
   }
 
-  void connect(Ports& ports) override { out_ = ports.write<NamedValues>(name_); }
-  Duration delay() const override { return line_.delay(); }
-  void deliver(Time) override { line_.deliver(out_); }
+  void connect(Ports& ports) override { readings_.connect(ports); }
+  Duration delay() const override { return readings_.delay(); }
+  void deliver(Time) override { readings_.deliver(); }
 
   void step(Time now) override {
     const std::span<const double> truth = vehicle_->actuator_states();
-    const bool out = is_in_outage(outages_, now);
+    const bool out = readings_.is_in_outage(now);
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       const double value = channels_[i].read(truth[i], random_);
+      exact_.values[i] = truth[i];
       reading_.values[i] = out ? std::numeric_limits<double>::infinity() : value;
     }
-    line_.push(now, reading_, out_);
+    readings_.push(now, reading_, exact_);
   }
 
  private:
-  std::string name_;
   const Vehicle* vehicle_;
-  std::vector<Outage> outages_;
-  DelayLine<NamedValues> line_;
+  Readings<NamedValues> readings_;
   RandomStream random_;
   std::vector<Channel> channels_;  // per actuator
   NamedValues reading_;
-  SignalWriter<NamedValues> out_;
+  NamedValues exact_;
 };
 
 }  // namespace
@@ -99,10 +94,9 @@ PartSpec encoders_spec() {
                        "step of speed readings; 0 = none"),
       number_parameter("speed_noise_std_radps", "rad/s", 0.01, 0.0, 10.0,
                        "white noise of speed readings"),
-      delay_parameter(),
-      outage_parameter(),
   };
-  spec.writes = {"<name>: NamedValues"};
+  add_reading_parameters(spec.parameters);
+  spec.writes = {"<name>: NamedValues", "<name>_truth: NamedValues"};
   return spec;
 }
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "engine/io/geo.h"
-#include "engine/sensors/delay_line.h"
 #include "engine/sensors/mounting.h"
+#include "engine/sensors/readings.h"
 
 namespace vinerow {
 namespace {
@@ -14,11 +14,9 @@ enum class ErrorModel { kIdeal, kUniform, kGaussian };
 class Gps final : public Sensor {
  public:
   Gps(const ParameterSet& parameters, const SensorContext& context)
-      : name_(context.name),
-        frame_(context.world->origin),
+      : frame_(context.world->origin),
         X_BS_(mounting_pose(parameters)),
-        outages_(outages_of(parameters)),
-        line_(delay_of(parameters), context.period),
+        readings_(parameters, context),
         random_(context.random()) {
     const std::string& error = parameters.text("error");
     model_ = error == "uniform"    ? ErrorModel::kUniform
@@ -36,32 +34,37 @@ class Gps final : public Sensor {
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
-    out_ = ports.write<GnssFix>(name_);
+    readings_.connect(ports);
   }
-  Duration delay() const override { return line_.delay(); }
+  Duration delay() const override { return readings_.delay(); }
   std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
-  void deliver(Time) override { line_.deliver(out_); }
+  void deliver(Time) override { readings_.deliver(); }
 
   void step(Time now) override {
     const Odometry& truth = truth_.value();
     const Eigen::Vector3d p_BS_W = truth.X_WB.q * X_BS_.p;
-    GnssFix fix;
-    fix.p_W = truth.X_WB.p + p_BS_W + draw_position_error();
-    fix.v_W = truth.X_WB.q * (truth.v_WB_B + truth.w_WB_B.cross(X_BS_.p)) + draw_velocity_error();
+    GnssFix exact;
+    exact.valid = true;
+    exact.p_W = truth.X_WB.p + p_BS_W;
+    exact.v_W = truth.X_WB.q * (truth.v_WB_B + truth.w_WB_B.cross(X_BS_.p));
+    GnssFix fix = exact;
+    fix.p_W += draw_position_error();
+    fix.v_W += draw_velocity_error();
     fix.std_m = stated_std();
-    fix.valid = !is_in_outage(outages_, now);
-    if (fix.valid) {
-      const io::Geodetic g = frame_.to_geodetic(fix.p_W);
-      fix.latitude_rad = g.latitude_rad;
-      fix.longitude_rad = g.longitude_rad;
-      fix.altitude_m = g.altitude_m;
-    } else {
-      fix = GnssFix{};
-    }
-    line_.push(now, fix, out_);
+    locate(exact);
+    locate(fix);
+    readings_.push(now, readings_.is_in_outage(now) ? GnssFix{} : fix, exact);
   }
 
  private:
+  /// Latitude, longitude and altitude of p_W.
+  void locate(GnssFix& fix) const {
+    const io::Geodetic g = frame_.to_geodetic(fix.p_W);
+    fix.latitude_rad = g.latitude_rad;
+    fix.longitude_rad = g.longitude_rad;
+    fix.altitude_m = g.altitude_m;
+  }
+
   Eigen::Vector3d draw_position_error() {
     if (model_ == ErrorModel::kUniform) {
       const double east = random_.uniform(-accuracy_m_, accuracy_m_);
@@ -97,11 +100,9 @@ class Gps final : public Sensor {
     return (white_std_m_.array().square() + walk_std_m_ * walk_std_m_).sqrt();
   }
 
-  std::string name_;
   io::LocalFrame frame_;
   Pose X_BS_;
-  std::vector<Outage> outages_;
-  DelayLine<GnssFix> line_;
+  Readings<GnssFix> readings_;
   RandomStream random_;
   ErrorModel model_ = ErrorModel::kIdeal;
   double accuracy_m_ = 0.0;
@@ -111,7 +112,6 @@ class Gps final : public Sensor {
   double walk_decay_ = 0.0;
   Eigen::Vector3d walk_m_ = Eigen::Vector3d::Zero();
   SignalReader<Odometry> truth_;
-  SignalWriter<GnssFix> out_;
 };
 
 }  // namespace
@@ -137,10 +137,9 @@ PartSpec gps_spec() {
                                              "gaussian: slowly moving part of the error"));
   spec.parameters.push_back(
       positive_parameter("walk_time_s", "s", 60.0, "gaussian: correlation time of that part"));
-  spec.parameters.push_back(delay_parameter());
-  spec.parameters.push_back(outage_parameter());
+  add_reading_parameters(spec.parameters);
   spec.reads = {"truth"};
-  spec.writes = {"<name>: GnssFix"};
+  spec.writes = {"<name>: GnssFix", "<name>_truth: GnssFix"};
   return spec;
 }
 

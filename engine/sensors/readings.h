@@ -1,9 +1,10 @@
 #pragma once
-/// What becomes of every reading: it may be lost, it may come late, and the truth is laid beside it.
+/// What becomes of every reading: it may be lost, it may come late, and the truth is laid beside
+/// it.
 ///
-/// A sensor `gps` writes the signals "gps" (what the vehicle gets) and "gps_truth" (the same without
-/// any error, at the instant of the measurement, for people and checks; no part of a vehicle may
-/// read it). Parameters: `delay_s`, `dropout_share`, `outages`.
+/// A sensor `gps` writes the signals "gps" (what the vehicle gets) and "gps_truth" (the same
+/// without any error, at the instant of the measurement, for people and checks; no part of a
+/// vehicle may read it). Parameters: `delay_s`, `dropout_share`, `outages`.
 ///
 /// A dropout is a message that never arrives: nothing is written. What an outage gives is the
 /// sensor's own affair: an invalid fix, no echo. Random numbers of dropouts come from a stream of
@@ -14,12 +15,14 @@
 
 #include "engine/api/stepped_parts.h"
 #include "engine/sensors/delay_line.h"
-#include "engine/sensors/mounting.h"
+#include "engine/sensors/time_window.h"
 
 namespace vinerow {
 
 /// `delay_s`, `dropout_share`, `outages`.
 std::vector<ParameterSpec> reading_parameters();
+/// Appends them to a sensor's own.
+void add_reading_parameters(std::vector<ParameterSpec>& parameters);
 
 template <class T>
 class Readings {
@@ -27,9 +30,9 @@ class Readings {
   /// @param parameters  with reading_parameters()
   Readings(const ParameterSet& parameters, const SensorContext& context)
       : name_(context.name),
-        outages_(outages_of(parameters)),
+        outages_(read_time_windows(parameters, "outages")),
         dropout_share_(parameters.number("dropout_share")),
-        line_(delay_of(parameters), context.period),
+        line_(duration_from_s(parameters.number("delay_s")), context.period),
         random_(context.random("dropout")) {}
 
   void connect(Ports& ports) {
@@ -41,9 +44,9 @@ class Readings {
   Duration delay() const { return line_.delay(); }
   void deliver() { line_.deliver(out_); }
 
-  bool is_in_outage(Time now) const { return vinerow::is_in_outage(outages_, now); }
+  bool is_in_outage(Time now) const { return is_in_any(outages_, now); }
 
-  /// Once a tick, outages included.
+  /// Once a tick, outages included. What is lost stands in the truth all the same.
   void push(Time now, const T& reading, const T& truth) {
     truth_out_.write(now, truth);
     const bool is_lost = dropout_share_ > 0.0 && random_.uniform() < dropout_share_;
@@ -54,9 +57,20 @@ class Readings {
     }
   }
 
+  /// In an outage of a sensor whose message has no word for "invalid": nothing goes out, the truth
+  /// stands all the same, and later dropouts stay where they were.
+  void push_silence(Time now, const T& truth) {
+    truth_out_.write(now, truth);
+    if (dropout_share_ > 0.0) random_.uniform();
+    line_.push_lost();
+  }
+
+  /// Instead of push() at a tick without a reading, of sensors that do not read at every tick.
+  void push_nothing() { line_.push_lost(); }
+
  private:
   std::string name_;
-  std::vector<Outage> outages_;
+  std::vector<TimeWindow> outages_;
   double dropout_share_;
   DelayLine<T> line_;
   RandomStream random_;

@@ -1,0 +1,63 @@
+#pragma once
+/// Any registered sensor on a bench with a wall, the ground, a lane and a vehicle that drives.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/sensors/register.h"
+#include "tests/engine/sensors/fixed_scene.h"
+
+namespace vinerow::test {
+
+/// With what works on lanes only: one along x from -100 m to 100 m.
+struct ConformanceBench : SensorBench {
+  using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
+
+  /// @param type  of a registered sensor; it ticks at its default rate
+  explicit ConformanceBench(const std::string& type, const Values& values = {},
+                            std::uint64_t seed = 1) {
+    scene.wall_x_m = 40.0;
+    PlannedPath lane;
+    lane.points.resize(2);
+    lane.points[0].p_W = {-100, 0, 1};
+    lane.points[1].p_W = {100, 0, 1};
+    plan.write(Time{0}, lane);
+    Registry registry;
+    register_sensors(registry);
+    const PartSpec& spec = registry.spec(PartKind::kSensor, type);
+    period = period_of_rate(spec.default_rate_Hz);
+    ParameterSet parameters(spec.parameters, type);
+    for (const auto& [name, value] : values) parameters.set(name, value);
+    sensor = registry.make_sensor(type, parameters, context(spec.default_rate_Hz, seed));
+    connect(*sensor);
+    reading = bus.find("rover/s");
+    exact = bus.find("rover/s_truth");
+  }
+
+  Time time_of(std::int64_t tick) const { return Time{tick * period.ns}; }
+
+  /// Measures on a way to and fro before the wall; a sensor with a delay does not deliver yet.
+  void step(std::int64_t tick) {
+    Odometry state;
+    state.X_WB.p = {38.5 + 0.01 * static_cast<double>(tick % 50), 0.0, 1.0};
+    state.v_WB_B = {0.5, 0.0, 0.0};
+    truth.write(time_of(tick), state);
+    sensor->step(time_of(tick));
+  }
+
+  Duration period;
+  std::unique_ptr<Sensor> sensor;
+  SignalBase* reading = nullptr;
+  SignalBase* exact = nullptr;  ///< the truth beside it
+};
+
+/// Name, time and value of what a signal holds.
+inline std::string digest_of(SignalBase& signal) {
+  Hasher hasher;
+  signal.hash_into(hasher);
+  return hasher.hex();
+}
+
+}  // namespace vinerow::test

@@ -1,87 +1,197 @@
 #include "engine/sensors/ultrasound.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "engine/sensors/delay_line.h"
+#include "engine/sensors/echo.h"
 #include "engine/sensors/mounting.h"
+#include "engine/sensors/readings.h"
+#include "engine/sensors/sound_cone.h"
 
 namespace vinerow {
 namespace {
 
-/// Unit directions in S: the axis, then rings of 6, 12, 18 ... rays at equal angular spacing.
-std::vector<Eigen::Vector3d> cone_directions(double half_angle_rad, int rings) {
-  std::vector<Eigen::Vector3d> directions{Eigen::Vector3d::UnitX()};
-  for (int ring = 1; ring <= rings; ++ring) {
-    const double off_axis = half_angle_rad * ring / rings;
-    for (int k = 0; k < 6 * ring; ++k) {
-      const double around = 2.0 * kPi * k / (6 * ring);
-      directions.emplace_back(std::cos(off_axis), std::sin(off_axis) * std::cos(around),
-                              std::sin(off_axis) * std::sin(around));
-    }
+constexpr double kNothing_m = std::numeric_limits<double>::infinity();
+constexpr double kFreezing_K = 273.15;
+
+/// When a sensor fires: at phase, phase + cycle, phase + 2 cycle ... of its ticks.
+struct Turn {
+  Duration cycle;
+  Duration phase;
+
+  bool is_at(Time now) const { return cycle.ns == 0 || now.ns % cycle.ns == phase.ns; }
+};
+
+Turn read_turn(const ParameterSet& parameters, Duration period) {
+  const double cycle_s = parameters.number("cycle_s"), phase_s = parameters.number("phase_s");
+  const Turn turn{duration_from_s(cycle_s), duration_from_s(phase_s)};
+  const auto check_ticks = [&](const char* name, Duration value, double value_s) {
+    if (value.ns % period.ns == 0) return;
+    throw ConfigError(fmt::format("{} = {} s, must be a multiple of the sensor's period of {} s",
+                                  name, value_s, period.s()));
+  };
+  check_ticks("cycle_s", turn.cycle, cycle_s);
+  check_ticks("phase_s", turn.phase, phase_s);
+  if (turn.phase.ns > 0 && turn.phase.ns >= turn.cycle.ns) {
+    throw ConfigError(fmt::format("phase_s = {} s, must be < cycle_s = {} s", phase_s, cycle_s));
   }
-  return directions;
+  return turn;
 }
 
 class Ultrasound final : public Sensor {
  public:
   Ultrasound(const ParameterSet& parameters, const SensorContext& context)
-      : name_(context.name),
-        scene_(context.scene),
+      : scene_(context.scene),
         X_BS_(mounting_pose(parameters)),
-        outages_(outages_of(parameters)),
-        line_(delay_of(parameters), context.period),
-        random_(context.random()),
+        readings_(parameters, context),
+        turn_(read_turn(parameters, context.period)),
+        noise_(context.random()),
+        faults_(context.random("faults")),
         half_angle_rad_(rad_from_deg(parameters.number("half_angle_deg"))),
         min_range_m_(parameters.number("min_range_m")),
         max_range_m_(parameters.number("max_range_m")),
+        is_uniform_(parameters.text("error") == "uniform"),
+        accuracy_m_(parameters.number("accuracy_m")),
         noise_std_m_(parameters.number("noise_std_m")),
-        directions_S_(
-            cone_directions(half_angle_rad_, static_cast<int>(parameters.integer("rings")))) {}
+        resolution_m_(parameters.number("resolution_m")),
+        // The speed of sound goes with the root of the absolute temperature.
+        scale_(std::sqrt((kFreezing_K + parameters.number("assumed_temperature_degC")) /
+                         (kFreezing_K + parameters.number("air_temperature_degC")))),
+        missed_share_(parameters.number("missed_share")),
+        false_share_(parameters.number("false_share")),
+        echo_(read_echo(parameters)),
+        rays_(cone_rays(half_angle_rad_, static_cast<int>(parameters.integer("rings")))) {
+    if (!(min_range_m_ < max_range_m_)) {
+      throw ConfigError(fmt::format("min_range_m = {} m, must be < max_range_m = {} m",
+                                    min_range_m_, max_range_m_));
+    }
+    double sum = 0.0;
+    for (const ConeRay& ray : rays_) sum += ray.share * beam_pattern(echo_, ray.off_axis_rad);
+    for (ConeRay& ray : rays_) ray.share *= beam_pattern(echo_, ray.off_axis_rad) / sum;
+    returns_.reserve(rays_.size());
+  }
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
-    out_ = ports.write<RangeSample>(name_);
+    readings_.connect(ports);
   }
-  Duration delay() const override { return line_.delay(); }
+  Duration delay() const override { return readings_.delay(); }
   std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
-  void deliver(Time) override { line_.deliver(out_); }
+  void deliver(Time) override { readings_.deliver(); }
 
   void step(Time now) override {
-    RangeSample sample;
-    sample.min_range_m = min_range_m_;
-    sample.max_range_m = max_range_m_;
-    sample.half_angle_rad = half_angle_rad_;
-    sample.X_WS = truth_.value().X_WB * X_BS_;
-    const double noise = noise_std_m_ * random_.normal();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3d& dir_S : directions_S_) {
-      const auto hit =
-          scene_->cast_ray(sample.X_WS.p, sample.X_WS.q * dir_S, std::min(nearest, max_range_m_));
-      if (hit) nearest = hit->distance_m;
+    // The same count is drawn at every tick, whatever is seen.
+    const Fate fate = draw_fate();
+    if (!turn_.is_at(now)) {
+      readings_.push_nothing();
+      return;
     }
-    const bool seen = std::isfinite(nearest) && !is_in_outage(outages_, now);
-    sample.range_m =
-        seen ? std::max(min_range_m_, nearest + noise) : std::numeric_limits<double>::infinity();
-    if (sample.range_m > max_range_m_) sample.range_m = std::numeric_limits<double>::infinity();
-    line_.push(now, sample, out_);
+    RangeSample truth;
+    truth.min_range_m = min_range_m_;
+    truth.max_range_m = max_range_m_;
+    truth.half_angle_rad = half_angle_rad_;
+    truth.X_WS = truth_.value().X_WB * X_BS_;
+    RangeSample sample = truth;
+    double heard_m;
+    if (echo_.threshold > 0.0) {
+      heard_m = listen(truth.X_WS, truth.range_m);
+    } else {
+      heard_m = truth.range_m = shortest_m(truth.X_WS);
+    }
+    sample.range_m = readings_.is_in_outage(now) ? kNothing_m : reading_of(heard_m, fate);
+    readings_.push(now, sample, truth);
   }
 
  private:
-  std::string name_;
+  /// What chance does to one reading.
+  struct Fate {
+    double noise_m;
+    bool is_missed;
+    bool is_false;
+    double false_place;  ///< between the shortest range and the true echo, 0 to 1
+  };
+
+  Fate draw_fate() {
+    Fate fate;
+    fate.noise_m =
+        is_uniform_ ? noise_.uniform(-accuracy_m_, accuracy_m_) : noise_std_m_ * noise_.normal();
+    fate.is_missed = faults_.uniform() < missed_share_;
+    fate.is_false = faults_.uniform() < false_share_;
+    fate.false_place = faults_.uniform();
+    return fate;
+  }
+
+  /// Shortest hit, infinity if there is none. Rays need not reach farther than the shortest so far.
+  double shortest_m(const Pose& X_WS) const {
+    double nearest_m = kNothing_m;
+    for (const ConeRay& ray : rays_) {
+      const auto hit =
+          scene_->cast_ray(X_WS.p, X_WS.q * ray.dir_S, std::min(nearest_m, max_range_m_));
+      if (hit) nearest_m = hit->distance_m;
+    }
+    return nearest_m;
+  }
+
+  /// Distance of the first return that is strong enough. @param nearest_m  set to the shortest hit
+  double listen(const Pose& X_WS, double& nearest_m) {
+    // What comes more than a pulse after the shortest hit matters only if that is too weak.
+    const double first_m = listen_up_to(X_WS, echo_.pulse_m, nearest_m);
+    if (first_m == nearest_m) return first_m;
+    return listen_up_to(X_WS, max_range_m_, nearest_m);
+  }
+
+  /// The same, leaving out what comes farther than `after_m` behind the shortest hit.
+  double listen_up_to(const Pose& X_WS, double after_m, double& nearest_m) {
+    returns_.clear();
+    nearest_m = kNothing_m;
+    for (const ConeRay& ray : rays_) {
+      const Eigen::Vector3d dir_W = X_WS.q * ray.dir_S;
+      const auto hit = scene_->cast_ray(X_WS.p, dir_W, std::min(nearest_m + after_m, max_range_m_));
+      if (!hit) continue;
+      nearest_m = std::min(nearest_m, hit->distance_m);
+      const double distance_m = std::max(hit->distance_m, min_range_m_);
+      returns_.push_back(
+          {hit->distance_m, ray.share * echo_spreading(echo_, distance_m) *
+                                surface_echo(echo_, hit->surface, -hit->normal_W.dot(dir_W))});
+    }
+    return first_heard_m(echo_, returns_);
+  }
+
+  double reading_of(double heard_m, const Fate& fate) const {
+    if (fate.is_false) {
+      const double until_m = std::max(min_range_m_, std::min(heard_m, max_range_m_));
+      return min_range_m_ + fate.false_place * (until_m - min_range_m_);
+    }
+    if (fate.is_missed || !std::isfinite(heard_m)) return kNothing_m;
+    double reading_m = scale_ * heard_m + fate.noise_m;
+    if (resolution_m_ > 0.0) reading_m = resolution_m_ * std::round(reading_m / resolution_m_);
+    return reading_m > max_range_m_ ? kNothing_m : std::max(min_range_m_, reading_m);
+  }
+
   const SceneQuery* scene_;
   Pose X_BS_;
-  std::vector<Outage> outages_;
-  DelayLine<RangeSample> line_;
-  RandomStream random_;
+  Readings<RangeSample> readings_;
+  Turn turn_;
+  RandomStream noise_;
+  RandomStream faults_;
   double half_angle_rad_;
   double min_range_m_;
   double max_range_m_;
+  bool is_uniform_;
+  double accuracy_m_;
   double noise_std_m_;
-  std::vector<Eigen::Vector3d> directions_S_;
+  double resolution_m_;
+  double scale_;
+  double missed_share_;
+  double false_share_;
+  EchoParams echo_;
+  std::vector<ConeRay> rays_;  ///< shares with the beam pattern, all together 1
+  std::vector<EchoReturn> returns_;
   SignalReader<Odometry> truth_;
-  SignalWriter<RangeSample> out_;
 };
 
 }  // namespace
@@ -89,23 +199,43 @@ class Ultrasound final : public Sensor {
 PartSpec ultrasound_spec() {
   PartSpec spec;
   spec.name = "ultrasound";
-  spec.description = "Ultrasonic ranger: first return in a cone of rays, with white noise";
+  spec.description =
+      "Ultrasonic ranger: first return in a cone of rays, with noise, echo strength, missed and "
+      "false echoes";
   spec.default_rate_Hz = 20.0;
-  // Defaults: HC-SR04 data sheet (2 cm to 4 m, 3 mm, 15 degrees effective cone).
+  // Defaults: HC-SR04 data sheet (2 cm to 4 m, 3 mm, 15 degrees effective cone); all else ideal.
+  // The real one is assets/sensors/hc_sr04.yaml.
   spec.parameters = mounting_parameters({0.0, 0.0, 0.0});
-  spec.parameters.push_back(number_parameter("half_angle_deg", "deg", 15.0, 0.0, 80.0,
-                                             "half angle of the cone; 0 = a single ray"));
-  spec.parameters.push_back(integer_parameter("rings", 2, 0, 8, "rings of rays around the axis"));
-  spec.parameters.push_back(
-      positive_parameter("min_range_m", "m", 0.02, "shortest distance it tells"));
-  spec.parameters.push_back(
-      positive_parameter("max_range_m", "m", 4.0, "longest distance it tells"));
-  spec.parameters.push_back(
-      number_parameter("noise_std_m", "m", 0.003, 0.0, 10.0, "white noise of the reading"));
-  spec.parameters.push_back(delay_parameter());
-  spec.parameters.push_back(outage_parameter());
+  const auto add = [&](ParameterSpec parameter) {
+    spec.parameters.push_back(std::move(parameter));
+  };
+  add(number_parameter("half_angle_deg", "deg", 15.0, 0.0, 80.0,
+                       "half angle of the cone; 0 = a single ray"));
+  add(integer_parameter("rings", 2, 0, 64, "rings of rays around the axis"));
+  add(positive_parameter("min_range_m", "m", 0.02, "shortest distance it tells"));
+  add(positive_parameter("max_range_m", "m", 4.0, "longest distance it tells"));
+  add(choice_parameter("error", "gaussian", {"uniform", "gaussian"},
+                       "distribution of the noise; paper C's accuracy is uniform"));
+  add(number_parameter("accuracy_m", "m", 0.003, 0.0, 10.0, "uniform: largest error"));
+  add(number_parameter("noise_std_m", "m", 0.003, 0.0, 10.0,
+                       "gaussian: white noise of the reading"));
+  add(number_parameter("resolution_m", "m", 0.0, 0.0, 1.0,
+                       "readings are multiples of it; 0: all values"));
+  add(number_parameter("air_temperature_degC", "degC", 20.0, -60.0, 80.0, "of the true air"));
+  add(number_parameter("assumed_temperature_degC", "degC", 20.0, -60.0, 80.0,
+                       "that the sensor's speed of sound belongs to"));
+  add(number_parameter("missed_share", "", 0.0, 0.0, 1.0, "share of the echoes that are missed"));
+  add(number_parameter("false_share", "", 0.0, 0.0, 1.0,
+                       "share of the readings that are a false echo, uniform between the shortest "
+                       "range and the true echo"));
+  for (ParameterSpec& parameter : echo_parameters()) add(std::move(parameter));
+  add(number_parameter("cycle_s", "s", 0.0, 0.0, 10.0,
+                       "time between pulses, a multiple of the period; 0: one at every tick"));
+  add(number_parameter("phase_s", "s", 0.0, 0.0, 10.0,
+                       "first pulse, a multiple of the period below cycle_s: rangers in turn"));
+  add_reading_parameters(spec.parameters);
   spec.reads = {"truth"};
-  spec.writes = {"<name>: RangeSample"};
+  spec.writes = {"<name>: RangeSample", "<name>_truth: RangeSample"};
   return spec;
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/sim/metrics/air_tracking.h"
 #include "engine/sim/metrics/clearance.h"
+#include "engine/sim/metrics/estimation.h"
 #include "engine/sim/metrics/flight.h"
 #include "engine/sim/metrics/path_deviation.h"
 #include "engine/sim/metrics/survey_coverage.h"
@@ -17,6 +18,7 @@ void register_metrics(Registry& registry) {
   registry.add_metric(travel_spec(), make_travel);
   registry.add_metric(wheel_slip_spec(), make_wheel_slip);
   registry.add_metric(flight_spec(), make_flight);
+  registry.add_metric(estimation_spec(), make_estimation);
   registry.add_metric(air_tracking_spec(), make_air_tracking);
   registry.add_metric(survey_coverage_spec(), make_survey_coverage);
 

@@ -1,0 +1,42 @@
+#pragma once
+/// How far the estimate is from the truth, and whether it knows.
+///
+/// Looked at where the estimate was written at the very instant of the tick, from `from_s` on, so
+/// that nothing is mistaken for an error that is only age. Nothing is measured (NaN) where the
+/// estimate is the truth itself: equal, and with zero covariance. Results:
+///   estimate_lateral_std_m, _rms_m, _max_m; estimate_longitudinal_std_m, _rms_m, _max_m: across
+///   and
+///     along the direction of the nearest true row within `row_reach_m`, elsewhere the true
+///     heading; lateral is positive to the left, std is about the mean
+///   estimate_vertical_rms_m, estimate_yaw_rms_deg
+///   nees_mean: mean of e' P^-1 e, e the horizontal error and P its stated covariance; 2 for a
+///     filter that is right about itself. NaN where it states none
+///   nees_in_95_share: share of the samples inside the 95 % ellipse, e' P^-1 e <= 5.991
+///   estimate_consistent: 1 where nees_mean lies in the 95 % interval of a chi-square variable with
+///     2 n degrees of freedom over n, widened by `nees_margin` at both ends, else 0. n is not the
+///     number of samples, which hang together, but how many independent ones they are worth by
+///     batch means (batch_means.h). A long run cannot do without the margin: with n large enough
+///     no model is right. Y. Bar-Shalom, X. R. Li, T. Kirubarajan, "Estimation with Applications to
+///     Tracking and Navigation", 2001, section 5.4
+///   ellipsoid_containment_share: share of the signal "ellipsoid" that contains the true position;
+///     one without height is judged in the plane
+///   nis_<source>_mean: mean of the values nis_<source> of "estimator_state", of those sources that
+///     the parameter `nis` names; a value counts when it has changed.
+
+#include <memory>
+
+#include "engine/api/registry.h"
+
+namespace vinerow {
+
+PartSpec estimation_spec();
+std::unique_ptr<Metric> make_estimation(const ParameterSet& parameters,
+                                        const MetricContext& context);
+
+/// Quantile of the chi-square distribution, also for fractional degrees of freedom; the bounds of
+/// 95 % within 1.5 % from 10 degrees on, the lower one below that too low. E. B. Wilson, M. M.
+/// Hilferty, "The distribution of chi-square", 1931.
+/// @param z  the normal quantile of the wanted probability
+double chi_square_quantile(double degrees_of_freedom, double z);
+
+}  // namespace vinerow

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 #include "controllers/estimation/heading_source.h"
 #include "controllers/estimation/odometry_kalman.h"
+#include "controllers/estimation/trace.h"
 #include "controllers/parts/differential_drive.h"
 #include "controllers/parts/pose2.h"
 #include "engine/core/error.h"
@@ -14,45 +14,6 @@
 
 namespace vinerow {
 namespace {
-
-/// Where the estimate was: late fixes are compared with the past they saw.
-class Trace {
- public:
-  void add(Time now, const Eigen::Vector2d& p) {
-    entries_[next_] = {now, p};
-    next_ = (next_ + 1) % entries_.size();
-    if (count_ < entries_.size()) ++count_;
-  }
-  /// Between the neighbours in time; the oldest kept for what is older, the newest for what is
-  /// newer.
-  Eigen::Vector2d at(Time time) const {
-    const Entry* newer = &entry(0);
-    if (time >= newer->time) return newer->p;
-    for (std::size_t age = 1; age < count_; ++age) {
-      const Entry& older = entry(age);
-      if (time >= older.time) {
-        const double share = (time - older.time).s() / (newer->time - older.time).s();
-        return older.p + share * (newer->p - older.p);
-      }
-      newer = &older;
-    }
-    return newer->p;
-  }
-  bool empty() const { return count_ == 0; }
-
- private:
-  struct Entry {
-    Time time;
-    Eigen::Vector2d p;
-  };
-  /// @param age  0 = newest
-  const Entry& entry(std::size_t age) const {
-    return entries_[(next_ + entries_.size() - 1 - age) % entries_.size()];
-  }
-  std::array<Entry, 256> entries_{};
-  std::size_t next_ = 0;
-  std::size_t count_ = 0;
-};
 
 class OdometryFilter final : public Estimator {
  public:
@@ -206,7 +167,7 @@ class OdometryFilter final : public Estimator {
   std::vector<Wheel> wheels_;
   double height_m_ = 0.0;
   Eigen::Vector2d velocity_B_ = Eigen::Vector2d::Zero();  ///< last from a valid fix
-  Trace trace_;
+  Trace<Eigen::Vector2d> trace_;                          ///< of the estimate
   std::uint64_t seen_fix_ = 0;
   SignalReader<GnssFix> gps_;
   SignalReader<VelocityCommand> command_;

@@ -1,0 +1,250 @@
+#include "controllers/estimation/distance_filter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "controllers/estimation/distance_filter_law.h"
+#include "controllers/estimation/distance_filter_params.h"
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The range sensors that an estimator is to use: those named, or all ultrasounds.
+std::vector<RangeSensorModel> find_range_sensors(const ParameterSet& parameters,
+                                                 const EstimatorContext& context) {
+  std::vector<RangeSensorModel> found;
+  if (!parameters.boolean("use_map")) return found;
+  const auto add = [&](const SensorMounting& mounting) {
+    RangeSensorModel sensor;
+    sensor.name = mounting.name;
+    sensor.X_BS = mounting.X_BS;
+    sensor.bound_m = parameters.number("range_bound_m");
+    if (parameters.boolean("cone")) {
+      sensor.half_angle_rad = rad_from_deg(parameters.number("cone_half_angle_deg"));
+      sensor.fan_rays = static_cast<int>(parameters.integer("fan_rays")) | 1;
+    }
+    found.push_back(sensor);
+  };
+  const std::vector<std::string>& names = parameters.texts("ranges");
+  if (names.empty()) {
+    for (const SensorMounting& mounting : context.sensors) {
+      if (mounting.type == "ultrasound") add(mounting);
+    }
+    return found;
+  }
+  for (const std::string& name : names) {
+    const auto mounting =
+        std::find_if(context.sensors.begin(), context.sensors.end(),
+                     [&](const SensorMounting& sensor) { return sensor.name == name; });
+    if (mounting == context.sensors.end()) {
+      std::string all;
+      for (const SensorMounting& sensor : context.sensors) {
+        all += (all.empty() ? "" : ", ") + sensor.name;
+      }
+      throw ConfigError(fmt::format(
+          "{} (distance_filter): ranges names '{}', but the vehicle's mounted sensors are: {}",
+          context.part, name, all.empty() ? "none" : all));
+    }
+    add(*mounting);
+  }
+  return found;
+}
+
+class DistanceFilter final : public Estimator {
+ public:
+  DistanceFilter(const ParameterSet& parameters, const EstimatorContext& context)
+      : ins_name_(parameters.text("ins")),
+        gps_name_(parameters.text("gps")),
+        start_std_m_(parameters.number("start_std_m")),
+        yaw_std_rad_(rad_from_deg(parameters.number("yaw_std_deg"))),
+        inertial_std_m_(parameters.number("inertial_std_m")),
+        sensors_(find_range_sensors(parameters, context)),
+        index_(make_index(context)),
+        law_(read_distance_filter_params(parameters),
+             context.map != nullptr ? context.map->accuracy : MapAccuracy{},
+             index_ ? &*index_ : nullptr, sensors_),
+        random_(context.random()),
+        seen_ranges_(sensors_.size(), 0) {
+    const auto& antenna = parameters.numbers("antenna_m");
+    p_BA_ = {antenna[0], antenna[1], antenna[2]};
+    readings_.reserve(sensors_.size());
+    taken_.resize(sensors_.size());
+    state_.names = {"echoes",      "echoes_gated", "echoes_unmatched", "fixes",
+                    "fixes_gated", "bad_numbers",  "backwards",        "not_positive",
+                    "lost",        "set_restarts", "echo_nis",         "fix_nis"};
+    state_.values.resize(state_.names.size());
+  }
+
+  void connect(Ports& ports) override {
+    truth_ = ports.read<Odometry>("truth");
+    ins_ = ports.read<Odometry>(ins_name_);
+    gps_ = ports.read<GnssFix>(gps_name_);
+    for (const RangeSensorModel& sensor : sensors_) {
+      ranges_.push_back(ports.read<RangeSample>(sensor.name));
+    }
+    estimate_ = ports.write<Odometry>("estimate");
+    ellipsoid_ = ports.write<PositionEllipsoid>("ellipsoid");
+    state_out_ = ports.write<NamedValues>("estimator_state");
+  }
+
+  void step(Time now) override {
+    if (!law_.has_started() && truth_.has_value()) start(now);
+    if (!law_.has_started()) return;
+    take_inertial(now);
+    if (gps_.is_newer_than(seen_fix_) && gps_.value().valid) {
+      const GnssFix& fix = gps_.value();
+      law_.take_fix(gps_.stamp(), fix.p_W, fix.std_m.cwiseMax(kLeastStd_m), p_BA_);
+    }
+    take_ranges();
+    write(now);
+  }
+
+ private:
+  std::optional<RowMeshIndex> make_index(const EstimatorContext& context) const {
+    if (sensors_.empty()) return std::nullopt;
+    if (context.map == nullptr || context.map->meshes.empty()) {
+      throw ConfigError(fmt::format(
+          "{} (distance_filter): the map has no row meshes to compare {} range sensors with; give "
+          "the vehicle a map that has them, or say use_map: false",
+          context.part, sensors_.size()));
+    }
+    return std::optional<RowMeshIndex>(std::in_place, *context.map);
+  }
+
+  /// As someone who knows roughly where the vehicle stands.
+  void start(Time now) {
+    Vector3d p_W = truth_.value().X_WB.p;
+    for (int i = 0; i < 3; ++i) p_W[i] += start_std_m_ * random_.normal();
+    law_.start(now, p_W, start_std_m_ * start_std_m_ * Eigen::Matrix3d::Identity());
+  }
+
+  void take_inertial(Time now) {
+    const bool is_new = ins_.is_newer_than(seen_ins_);
+    if (!ins_.has_value()) {
+      law_.predict(now, Vector3d::Zero(), truth_.value().X_WB.q, kStatedYawStd_rad);
+      return;
+    }
+    const Odometry& ins = ins_.value();
+    const double stated = ins.yaw_std_rad > 0.0 ? ins.yaw_std_rad : kStatedYawStd_rad;
+    law_.predict(now, ins.X_WB.q * ins.v_WB_B, ins.X_WB.q,
+                 yaw_std_rad_ > 0.0 ? yaw_std_rad_ : stated);
+    if (!is_new) return;
+    Vector3d std_m = Vector3d::Constant(inertial_std_m_);
+    if (ins.position_variance_m2.minCoeff() > 0.0) std_m = ins.position_variance_m2.cwiseSqrt();
+    law_.take_inertial_position(ins_.stamp(), ins.X_WB.p, std_m);
+  }
+
+  /// Readings of one moment together, in the order of the sensors.
+  void take_ranges() {
+    for (std::size_t i = 0; i < ranges_.size(); ++i) {
+      taken_[i] = !ranges_[i].is_newer_than(seen_ranges_[i]);
+    }
+    for (std::size_t i = 0; i < ranges_.size(); ++i) {
+      if (taken_[i]) continue;
+      const Time measured = ranges_[i].stamp();
+      readings_.clear();
+      for (std::size_t k = i; k < ranges_.size(); ++k) {
+        if (taken_[k] || ranges_[k].stamp() != measured) continue;
+        taken_[k] = true;
+        const RangeSample& sample = ranges_[k].value();
+        readings_.push_back({static_cast<int>(k), sample.range_m, sample.max_range_m});
+      }
+      law_.take_ranges(measured, readings_);
+    }
+  }
+
+  void write(Time now) {
+    Odometry estimate;
+    estimate.X_WB = {law_.q_WB(), law_.kalman().p_W()};
+    estimate.v_WB_B = law_.q_WB().conjugate() * law_.v_W();
+    if (ins_.has_value()) estimate.w_WB_B = ins_.value().w_WB_B;
+    estimate.set_position_covariance(law_.kalman().position_covariance());
+    estimate.yaw_std_rad = law_.yaw_std_rad();
+    estimate_.write(now, estimate);
+
+    PositionEllipsoid ellipsoid;
+    ellipsoid.centre_W = law_.set().centre_W();
+    const Eigen::Matrix3d& shape = law_.set().shape_m2();
+    ellipsoid.shape_diagonal_m2 = shape.diagonal();
+    ellipsoid.shape_beside_m2 = {shape(0, 1), shape(0, 2), shape(1, 2)};
+    ellipsoid_.write(now, ellipsoid);
+
+    const DistanceFilterLaw::Counters& c = law_.counters();
+    std::size_t i = 0;
+    for (const int count : {c.echoes, c.echoes_gated, c.echoes_unmatched, c.fixes, c.fixes_gated,
+                            c.bad_numbers, c.backwards, c.not_positive, c.lost, c.set_restarts}) {
+      state_.values[i++] = count;
+    }
+    state_.values[i++] = law_.echo_nis();
+    state_.values[i++] = law_.fix_nis();
+    state_out_.write(now, state_);
+  }
+
+  static constexpr double kLeastStd_m = 1e-3;            // an ideal receiver states zero
+  static constexpr double kStatedYawStd_rad = 3.491e-3;  // 0.2 deg, VN-200
+
+  std::string ins_name_, gps_name_;
+  double start_std_m_, yaw_std_rad_, inertial_std_m_;
+  std::vector<RangeSensorModel> sensors_;
+  std::optional<RowMeshIndex> index_;
+  DistanceFilterLaw law_;
+  RandomStream random_;
+  Vector3d p_BA_ = Vector3d::Zero();
+  std::vector<std::uint64_t> seen_ranges_;
+  std::vector<char> taken_;
+  std::vector<RangeReading> readings_;
+  NamedValues state_;
+  std::uint64_t seen_ins_ = 0, seen_fix_ = 0;
+  SignalReader<Odometry> truth_, ins_;
+  SignalReader<GnssFix> gps_;
+  std::vector<SignalReader<RangeSample>> ranges_;
+  SignalWriter<Odometry> estimate_;
+  SignalWriter<PositionEllipsoid> ellipsoid_;
+  SignalWriter<NamedValues> state_out_;
+};
+
+}  // namespace
+
+PartSpec distance_filter_spec() {
+  PartSpec spec;
+  spec.name = "distance_filter";
+  spec.description =
+      "Position from an inertial unit, satellite fixes and echoes off mapped rows: the 3D distance "
+      "filter of Donati et al. 2022, section 3, in several readings, and an EKF on the range.";
+  spec.parameters = {
+      text_parameter("ins", "ins", "signal of the inertial unit: velocity, attitude, position"),
+      text_parameter("gps", "gps", "signal of the satellite receiver"),
+      number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
+                            "where the antenna sits in B (x, y, z); taken off the fix", 3),
+      text_list_parameter("ranges", {}, "names of the range sensors; empty: all ultrasounds"),
+      boolean_parameter("use_map", true, "false: satellite fixes and inertial unit only"),
+      number_parameter("start_std_m", "m", 0.26, 1e-3, 100.0,
+                       "how well each coordinate of the start is known (paper C: 0.26)"),
+      positive_parameter("range_bound_m", "m", 0.003, "largest error of a range (HC-SR04: 3 mm)"),
+      boolean_parameter("cone", true,
+                        "the sensor's cone is part of the prediction; false: a single ray"),
+      number_parameter("cone_half_angle_deg", "deg", 15.0, 0.1, 60.0, "half angle of that cone"),
+      integer_parameter("fan_rays", 7, 1, 101,
+                        "rays over the cone; an even number is raised by one"),
+  };
+  for (ParameterSpec& parameter : distance_filter_parameters()) {
+    spec.parameters.push_back(std::move(parameter));
+  }
+  spec.default_rate_Hz = 100.0;
+  spec.reads = {"truth", "<ins>", "<gps>", "<ranges>"};
+  spec.writes = {"estimate", "ellipsoid", "estimator_state"};
+  return spec;
+}
+
+std::unique_ptr<Estimator> make_distance_filter(const ParameterSet& parameters,
+                                                const EstimatorContext& context) {
+  return std::make_unique<DistanceFilter>(parameters, context);
+}
+
+}  // namespace vinerow

@@ -28,12 +28,17 @@ std::optional<RangePrediction> predict_range(const RowMeshIndex& map, const Pose
   };
   look(ahead_W);
   const int side_rays = sensor.half_angle_rad > 0.0 ? (sensor.fan_rays - 1) / 2 : 0;
+  if (side_rays == 0) return first;
+  // Cosine and sine of k steps by adding one step at a time.
+  const double step_rad = sensor.half_angle_rad / side_rays;
+  const double c = std::cos(step_rad), s = std::sin(step_rad);
+  double along = 1.0, across = 0.0;
   for (int k = 1; k <= side_rays; ++k) {
-    const double angle_rad = sensor.half_angle_rad * k / side_rays;
-    const Eigen::Vector3d along_W = std::cos(angle_rad) * ahead_W;
-    const Eigen::Vector3d across_W = std::sin(angle_rad) * left_W;
-    look(along_W + across_W);
-    look(along_W - across_W);
+    const double along_before = along;
+    along = c * along - s * across;
+    across = s * along_before + c * across;
+    look(along * ahead_W + across * left_W);
+    look(along * ahead_W - across * left_W);
   }
   return first;
 }

@@ -44,6 +44,41 @@ struct Clip {
   }
 };
 
+/// Looks along a ray: Woop, Benthin, Wald, "Watertight ray/triangle intersection", Journal of
+/// Computer Graphics Techniques 2 (2013). Corners are sheared so that the ray becomes an axis; the
+/// sides on which it passes the edges then follow from the same plane points for all facets, and
+/// no ray slips through between neighbours.
+class Shear {
+ public:
+  explicit Shear(const Eigen::Vector3d& u) {
+    u.cwiseAbs().maxCoeff(&z_);
+    x_ = (z_ + 1) % 3;
+    y_ = (z_ + 2) % 3;
+    if (u[z_] < 0.0) std::swap(x_, y_);
+    shear_x_ = u[x_] / u[z_];
+    shear_y_ = u[y_] / u[z_];
+  }
+  /// @pre the facet faces the ray
+  bool passes_through(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c,
+                      const Eigen::Vector3d& p) const {
+    const Point A = flat(a, p), B = flat(b, p), C = flat(c, p);
+    return C.x * B.y - C.y * B.x >= 0.0 && A.x * C.y - A.y * C.x >= 0.0 &&
+           B.x * A.y - B.y * A.x >= 0.0;
+  }
+
+ private:
+  struct Point {
+    double x, y;
+  };
+  Point flat(const Eigen::Vector3f& corner, const Eigen::Vector3d& p) const {
+    const double z = corner[z_] - p[z_];
+    return {corner[x_] - p[x_] - shear_x_ * z, corner[y_] - p[y_] - shear_y_ * z};
+  }
+
+  Eigen::Index x_, y_, z_;
+  double shear_x_, shear_y_;
+};
+
 }  // namespace
 
 RowMeshIndex::RowMeshIndex(const RowMap& map, double cell_m) {
@@ -176,6 +211,7 @@ std::optional<RowMeshIndex::Hit> RowMeshIndex::cast_ray(const Eigen::Vector3d& p
   double leave_x = runs_x ? leaves(low_.x(), square.i, step_i, p.x(), inverse_x) : kInfinity;
   double leave_y = runs_y ? leaves(low_.y(), square.j, step_j, p.y(), inverse_y) : kInfinity;
 
+  const Shear shear(u);
   double nearest_m = max_distance_m;
   const Facet* hit = nullptr;
   while (true) {
@@ -184,14 +220,10 @@ std::optional<RowMeshIndex::Hit> RowMeshIndex::cast_ray(const Eigen::Vector3d& p
       const Facet& facet = facets_[listed_[k]];
       const double slope = facet.normal.dot(u);
       if (slope >= 0.0) continue;
-      const Eigen::Vector3d a = facet.a.cast<double>() - p;
-      const double distance_m = facet.normal.dot(a) / slope;
-      if (!(distance_m >= 0.0 && distance_m < nearest_m)) continue;
-      // On which side of each edge the ray passes. Neighbours work out the same bits for an edge
-      // they share, of opposite sign, so no ray slips through between them.
-      const Eigen::Vector3d b = facet.b.cast<double>() - p, c = facet.c.cast<double>() - p;
-      if (u.dot(a.cross(b)) > 0.0 || u.dot(b.cross(c)) > 0.0 || u.dot(c.cross(a)) > 0.0) continue;
-      nearest_m = distance_m;
+      const double height_m = -facet.normal.dot(facet.a.cast<double>() - p);
+      if (!(height_m >= 0.0 && height_m < -slope * nearest_m)) continue;
+      if (!shear.passes_through(facet.a, facet.b, facet.c, p)) continue;
+      nearest_m = height_m / -slope;
       hit = &facet;
     }
     const double leave_m = std::min(leave_x, leave_y);

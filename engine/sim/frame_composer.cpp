@@ -20,6 +20,10 @@ const Eigen::Vector3f kTrailColours[] = {
 constexpr double kHover_m = 0.06;
 /// A chasing eye comes no nearer to the ground behind what flies.
 constexpr double kLeastEyeHeight_m = 0.5;
+/// Beams of a laser scan that are drawn, at most; every echo is.
+constexpr std::size_t kMostBeams = 120;
+/// Height of an echo's mark.
+constexpr double kEchoMark_m = 0.05;
 /// Points of a trail closer than this are left out.
 constexpr double kTrailPitch_m = 0.1;
 
@@ -208,6 +212,35 @@ void FrameComposer::add_rays(Time t, render::Frame& frame) const {
   }
 }
 
+void FrameComposer::add_scans(Time t, render::Frame& frame) const {
+  for (const auto& [name, vehicle] : trace_.vehicles) {
+    for (const auto& [sensor, scans] : vehicle.scans) {
+      if (scans.empty() || scans.times.front() > t) continue;
+      const LaserScan& scan = scans.values[scans.index_at(t)];
+      render::Polyline beams, echoes;
+      beams.colour = echoes.colour = kRayColour;
+      beams.pairs = echoes.pairs = true;
+      beams.width_px = 1.0f;
+      beams.alpha = 0.3f;
+      echoes.width_px = 3.0f;
+      echoes.alpha = 0.9f;
+      const std::size_t every = scan.ranges_m.size() / kMostBeams + 1;
+      for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+        const double r = scan.ranges_m[i];
+        if (!std::isfinite(r)) continue;
+        const double angle = scan.first_angle_rad + static_cast<double>(i) * scan.angle_step_rad;
+        const Eigen::Vector3d end =
+            scan.X_WS * Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), 0.0);
+        if (i % every == 0) beams.points_W.insert(beams.points_W.end(), {scan.X_WS.p, end});
+        const Eigen::Vector3d half(0.0, 0.0, 0.5 * kEchoMark_m);
+        echoes.points_W.insert(echoes.points_W.end(), {end - half, end + half});
+      }
+      if (!beams.points_W.empty()) frame.lines.push_back(std::move(beams));
+      if (!echoes.points_W.empty()) frame.lines.push_back(std::move(echoes));
+    }
+  }
+}
+
 render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) const {
   render::Frame frame;
   frame.width = scenario_.pictures.width;
@@ -230,7 +263,10 @@ render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) con
   if (camera.show_tree) add_trees(t, frame);
   if (camera.show_plan) add_plans(t, frame);
   if (camera.show_trail) add_trails(camera, t, frame);
-  if (camera.show_sensor_rays) add_rays(t, frame);
+  if (camera.show_sensor_rays) {
+    add_rays(t, frame);
+    add_scans(t, frame);
+  }
   frame.caption.push_back(scenario_.name);
   const int whole_s = static_cast<int>(t.s());
   std::string line = fmt::format("{:02d}:{:04.1f}", whole_s / 60, t.s() - 60 * (whole_s / 60));

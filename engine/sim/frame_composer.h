@@ -36,6 +36,7 @@ class FrameComposer {
   void add_plans(Time t, render::Frame& frame) const;
   void add_trees(Time t, render::Frame& frame) const;
   void add_rays(Time t, render::Frame& frame) const;
+  void add_scans(Time t, render::Frame& frame) const;
   const Trace<CameraShot>& shots_of(const io::CameraConfig& camera) const;
   double ground_m(double x, double y) const;
   bool flies(const std::string& vehicle) const;

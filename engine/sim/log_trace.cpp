@@ -33,6 +33,12 @@ void read_into(const record::LogReader& log, const std::string& topic, Trace<T>&
   });
 }
 
+/// Whether a topic tells what the sensor beside it would have read without error.
+bool is_truth_beside(const record::LogReader& log, const std::string& topic) {
+  constexpr std::string_view kEnd = "_truth";
+  return topic.ends_with(kEnd) && log.has_topic(topic.substr(0, topic.size() - kEnd.size()));
+}
+
 }  // namespace
 
 template <class T>
@@ -44,6 +50,7 @@ template struct Trace<LinkPoses>;
 template struct Trace<PlannedPath>;
 template struct Trace<LineList>;
 template struct Trace<RangeSample>;
+template struct Trace<LaserScan>;
 template struct Trace<CameraShot>;
 
 Odometry VehicleTrace::truth_at(Time t) const {
@@ -68,7 +75,8 @@ std::vector<Pose> VehicleTrace::links_at(Time t) const {
   return poses;
 }
 
-LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles) {
+LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles,
+                    bool with_scans) {
   LogTrace trace;
   trace.first = log.info().first;
   trace.last = log.info().last;
@@ -88,8 +96,12 @@ LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>
       const auto type = channel.metadata.find("vinerow_type");
       if (type == channel.metadata.end() || !channel.topic.starts_with(prefix)) continue;
       const std::string sensor = channel.topic.substr(prefix.size());
+      if (is_truth_beside(log, channel.topic)) continue;
       if (type->second == RangeSample::kType) {
         read_into(log, channel.topic, vehicle.ranges[sensor]);
+      }
+      if (type->second == LaserScan::kType && with_scans) {
+        read_into(log, channel.topic, vehicle.scans[sensor]);
       }
       if (type->second == CameraShot::kType) read_into(log, channel.topic, vehicle.shots[sensor]);
     }

@@ -30,6 +30,7 @@ struct VehicleTrace {
   Trace<PlannedPath> plan;
   Trace<LineList> plan_tree;
   std::map<std::string, Trace<RangeSample>> ranges;  ///< by sensor
+  std::map<std::string, Trace<LaserScan>> scans;     ///< by sensor, where they were asked for
   std::map<std::string, Trace<CameraShot>> shots;    ///< by sensor
 
   /// Pose and speed at t, between the samples around it (constant twist is not assumed: straight
@@ -46,7 +47,10 @@ struct LogTrace {
   std::map<std::string, VehicleTrace> vehicles;
 };
 
+/// What a sensor would have read without error ("<sensor>_truth") is left out.
 /// @param vehicles  names to look for
-LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles);
+/// @param with_scans  whether laser scans are read: half a megabyte for each second of a scanner
+LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles,
+                    bool with_scans = false);
 
 }  // namespace vinerow

@@ -129,7 +129,10 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   const std::vector<std::unique_ptr<Vehicle>> vehicles = build_vehicles(scenario, registry);
   std::vector<std::string> names;
   for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
-  const LogTrace trace = read_trace(reader, names);
+  const bool shows_rays =
+      std::any_of(cameras.begin(), cameras.end(),
+                  [](const io::CameraConfig& camera) { return camera.show_sensor_rays; });
+  const LogTrace trace = read_trace(reader, names, shows_rays);
   const FrameComposer composer(scenario, *world, vehicles, trace);
   const std::set<Time> schedule = frame_times(scenario.pictures, options, trace);
   std::vector<std::set<Time>> times_by_camera;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/math/angles.h"
 #include "engine/render/cameras.h"
 #include "tests/engine/sim/small_parts.h"
 
@@ -74,6 +75,35 @@ TEST_F(ComposedFrame, ATopCameraLooksAtTheGivenPlace) {
   // 100 pixels are 8 m: 2 m north are 25 pixels up.
   ASSERT_TRUE(render::project(placed, 200, 100, {12, -3, 7}, pixel));
   EXPECT_LT((pixel - Eigen::Vector2d(100, 25)).norm(), 1e-9);
+}
+
+TEST_F(ComposedFrame, AScansEchoesStandWhereTheBeamsEnd) {
+  LaserScan scan;
+  scan.first_angle_rad = -0.5 * kPi;
+  scan.angle_step_rad = 0.5 * kPi;
+  scan.ranges_m = {2.0, std::numeric_limits<double>::infinity(), 3.0};
+  scan.X_WS.p = {10, 0, 8};
+  Trace<LaserScan>& trace = trace_.vehicles["rover"].scans["lidar"];
+  trace.times = {Time{1'000'000'000}};
+  trace.values = {scan};
+  io::CameraConfig camera = top_camera();
+  camera.show_plan = camera.show_trail = false;
+  EXPECT_TRUE(compose(camera).lines.empty());
+  camera.show_sensor_rays = true;
+  EXPECT_TRUE(compose(camera, 0.5).lines.empty()) << "the scan comes later";
+  const render::Frame frame = compose(camera);
+  ASSERT_EQ(frame.lines.size(), 2u);
+  for (const render::Polyline& line : frame.lines) EXPECT_TRUE(line.pairs);
+  // Beams from the sensor to the right and to the left; nothing ahead.
+  ASSERT_EQ(frame.lines[0].points_W.size(), 4u);
+  EXPECT_NEAR((frame.lines[0].points_W[0] - Eigen::Vector3d(10, 0, 8)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((frame.lines[0].points_W[1] - Eigen::Vector3d(10, -2, 8)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((frame.lines[0].points_W[3] - Eigen::Vector3d(10, 3, 8)).norm(), 0.0, 1e-12);
+  // Upright marks at the echoes.
+  ASSERT_EQ(frame.lines[1].points_W.size(), 4u);
+  const Eigen::Vector3d mark = frame.lines[1].points_W[1] - frame.lines[1].points_W[0];
+  EXPECT_NEAR(mark.head<2>().norm(), 0.0, 1e-12);
+  EXPECT_GT(mark.z(), 0.0);
 }
 
 TEST_F(ComposedFrame, AShotIsDrawnFromWhereItWasTakenWithItsAngles) {

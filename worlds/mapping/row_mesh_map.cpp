@@ -1,0 +1,272 @@
+#include "worlds/mapping/row_mesh_map.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/core/log.h"
+#include "engine/math/angles.h"
+#include "worlds/mapping/chain_errors.h"
+#include "worlds/mapping/map_files.h"
+#include "worlds/mapping/map_placement.h"
+#include "worlds/mapping/row_mesh_parameters.h"
+
+namespace vinerow::worlds {
+namespace {
+
+using Missing = RowMeshReport::Missing;
+
+RowCurve curve_of(const PlantRow& row) {
+  std::vector<Eigen::Vector2d> points;
+  for (const Eigen::Vector3d& p : row.line_W) {
+    if (points.empty() || (p.head<2>() - points.back()).norm() > 1e-6) {
+      points.push_back(p.head<2>());
+    }
+  }
+  if (points.size() < 2) {
+    throw ConfigError(fmt::format("map row_mesh: row {} has no length", row.id));
+  }
+  return RowCurve(std::move(points));
+}
+
+/// Height of the ground below the rows, from the terrain or by rays.
+GroundHeight ground_of(const WorldModel& world, const SceneQuery& scene) {
+  if (world.terrain) {
+    return [&world](double x, double y) { return world.terrain->height_m(x, y); };
+  }
+  return [&scene](double x, double y) { return scene.ground_height_m(x, y, 1e4).value_or(0.0); };
+}
+
+/// Half way to the next row, but not farther than leaves reach.
+double side_reach_m(const std::vector<PlantRow>& rows, std::size_t index) {
+  const PlantRow& row = rows[index];
+  double reach_m = std::max(1.0, 1.5 * row.canopy_width_m);
+  const RowCurve own = curve_of(row);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (k == index) continue;
+    const RowCurve other = curve_of(rows[k]);
+    for (const double share : {0.1, 0.5, 0.9}) {
+      double apart_m = 0.0;
+      other.nearest_s_m(own.point_W(share * own.length_m()), &apart_m);
+      reach_m = std::min(reach_m, 0.5 * apart_m);
+    }
+  }
+  return reach_m;
+}
+
+/// What the row itself says, where no canopy was found.
+SectionChain chain_of_row(const PlantRow& row, const RowCurve& curve,
+                          const CanopySurveyOptions& options, RandomStream& random) {
+  SectionChain chain;
+  const std::vector<double> half_m(static_cast<std::size_t>(options.levels),
+                                   0.5 * row.canopy_width_m);
+  for (const double s_m : draw_stations(0.0, curve.length_m(), options, 2, random)) {
+    chain.push_back({s_m, row.canopy_base_m, row.canopy_top_m, half_m, half_m});
+  }
+  keep_open(chain);
+  return chain;
+}
+
+std::int64_t count_true_triangles(const WorldModel& world) {
+  std::int64_t count = 0;
+  for (const MeshInstance& instance : world.meshes) {
+    if (instance.collides && instance.surface == SurfaceClass::kCanopy) {
+      count += static_cast<std::int64_t>(instance.mesh->triangles.size());
+    }
+  }
+  return count;
+}
+
+class Surveyor {
+ public:
+  Surveyor(const ParameterSet& parameters, const MapContext& context)
+      : parameters_(parameters), context_(context), rows_(context.world->rows.rows) {
+    const auto& spacing = parameters.numbers("section_spacing_m");
+    if (spacing[0] > spacing[1]) {
+      throw ConfigError(
+          fmt::format("section_spacing_m = [{}, {}] m, the first must be <= the second", spacing[0],
+                      spacing[1]));
+    }
+    options_ = {spacing[0], spacing[1], static_cast<int>(parameters.integer("levels"))};
+  }
+
+  std::vector<RowMesh> survey(RowMeshReport& report) {
+    std::vector<std::vector<SectionChain>> chains;
+    const GroundHeight ground = ground_of(*context_.world, *context_.scene);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const RowCurve curve = curve_of(rows_[k]);
+      RandomStream random = stream(fmt::format("sections.row_{:02}", k));
+      const RowSurroundings around{side_reach_m(rows_, k), 1.5 * rows_[k].canopy_top_m + 1.0};
+      auto found = survey_canopy(*context_.scene, curve, ground, around, options_, random);
+      if (found.empty()) {
+        report.unseen_rows.push_back(rows_[k].id);
+        found.push_back(chain_of_row(rows_[k], curve, options_, random));
+      }
+      if (parameters_.boolean("fill_gaps")) fill_gaps(found, options_, random);
+      chains.push_back(std::move(found));
+    }
+    remove_missing(chains, report);
+    std::vector<RowMesh> meshes;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      RandomStream random = stream(fmt::format("surface.row_{:02}", k));
+      const RowCurve curve = curve_of(rows_[k]);
+      for (SectionChain& chain : chains[k]) {
+        add_surface_noise(chain, parameters_.number("surface_noise_std_m"),
+                          parameters_.number("surface_noise_length_m"), random);
+        meshes.push_back({rows_[k].id, make_chain_hull(chain, curve, ground)});
+      }
+    }
+    return meshes;
+  }
+
+  /// Fresh numbers of this map, or of the survey that it shares with others.
+  RandomStream stream(const std::string& component) const {
+    const std::string& survey = parameters_.text("survey");
+    if (survey.empty()) return context_.random(component);
+    return RandomStream(context_.seed, "", fmt::format("map.{}.{}", survey, component));
+  }
+
+ private:
+  void remove_missing(std::vector<std::vector<SectionChain>>& chains, RowMeshReport& report) {
+    for (const ParameterSet& gap : parameters_.groups("missing")) {
+      const Missing missing{static_cast<int>(gap.integer("row")), gap.number("from_m"),
+                            gap.number("to_m")};
+      if (std::none_of(rows_.begin(), rows_.end(),
+                       [&](const PlantRow& row) { return row.id == missing.row; })) {
+        throw ConfigError(fmt::format("missing: there is no row {}, the last one is {}",
+                                      missing.row, rows_.back().id));
+      }
+      if (!(missing.from_m < missing.to_m)) {
+        throw ConfigError(fmt::format("missing: from_m = {} m of row {}, must be < to_m = {} m",
+                                      missing.from_m, missing.row, missing.to_m));
+      }
+      report.missing.push_back(missing);
+    }
+    if (parameters_.has("random_missing")) draw_missing(chains, report);
+    for (const Missing& missing : report.missing) {
+      for (std::size_t k = 0; k < rows_.size(); ++k) {
+        if (rows_[k].id == missing.row) remove_stretch(chains[k], missing.from_m, missing.to_m);
+      }
+    }
+  }
+
+  void draw_missing(const std::vector<std::vector<SectionChain>>& chains, RowMeshReport& report) {
+    const ParameterSet& group = parameters_.group("random_missing");
+    const double length_m = group.number("length_m");
+    // Evenly over all places where a gap fits into canopy.
+    struct Room {
+      int row;
+      double from_m, room_m;
+    };
+    std::vector<Room> rooms;
+    double all_m = 0.0;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      for (const SectionChain& chain : chains[k]) {
+        const double room_m = chain.back().s_m - chain.front().s_m - length_m;
+        if (room_m <= 0.0) continue;
+        rooms.push_back({rows_[k].id, chain.front().s_m, room_m});
+        all_m += room_m;
+      }
+    }
+    RandomStream random = stream("missing");
+    for (std::int64_t n = 0; n < group.integer("count"); ++n) {
+      if (rooms.empty()) {
+        throw ConfigError(fmt::format(
+            "random_missing: length_m = {} m, no row has canopy of that length", length_m));
+      }
+      double at_m = random.uniform(0.0, all_m);
+      std::size_t k = 0;
+      while (k + 1 < rooms.size() && at_m > rooms[k].room_m) at_m -= rooms[k++].room_m;
+      report.missing.push_back(
+          {rooms[k].row, rooms[k].from_m + at_m, rooms[k].from_m + at_m + length_m});
+    }
+  }
+
+  const ParameterSet& parameters_;
+  const MapContext& context_;
+  const std::vector<PlantRow>& rows_;
+  CanopySurveyOptions options_;
+};
+
+Eigen::Vector3d vector_of(const std::vector<double>& numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+}  // namespace
+
+std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const MapContext& context,
+                                          RowMeshReport* report) {
+  VINEROW_DEMAND(context.world != nullptr && context.scene != nullptr);
+  if (context.world->rows.rows.empty()) {
+    throw ConfigError(
+        fmt::format("map row_mesh: world '{}' has no plant rows to survey", context.world->name));
+  }
+  RowMeshReport own;
+  RowMeshReport& made = report != nullptr ? *report : own;
+  made = {};
+  auto map = std::make_unique<RowMap>(context.world->rows);
+  Surveyor surveyor(parameters, context);
+  if (parameters.has("folder")) {
+    check_folder_parameters(parameters);
+    map->meshes = load_meshes(parameters.text("folder"));
+  } else {
+    map->meshes = surveyor.survey(made);
+  }
+  if (!made.unseen_rows.empty()) {
+    log_note(fmt::format(
+        "map of {}: no canopy on row{} {}, whose mesh is as wide and high as the row says",
+        context.vehicle, made.unseen_rows.size() == 1 ? "" : "s",
+        fmt::join(made.unseen_rows, ", ")));
+  }
+  made.accuracy = measure_accuracy(*context.scene, context.world->rows.rows, map->meshes);
+  made.true_triangles = count_true_triangles(*context.world);
+  for (const RowMesh& mesh : map->meshes) {
+    made.triangles += static_cast<std::int64_t>(mesh.mesh_W.triangles.size());
+  }
+
+  const double stated_m = parameters.number("stated_surface_std_m");
+  const double stated_length_m = parameters.number("stated_correlation_length_m");
+  MapAccuracy& accuracy = map->accuracy;
+  if (stated_m > 0.0 || made.accuracy.points > 0) {
+    accuracy.surface_std_m = stated_m > 0.0 ? stated_m : made.accuracy.rms_m;
+  }
+  if (stated_length_m > 0.0 || made.accuracy.points > 0) {
+    accuracy.correlation_length_m =
+        stated_length_m > 0.0 ? stated_length_m : made.accuracy.correlation_length_m;
+  }
+  accuracy.offset_std_m = vector_of(parameters.numbers("offset_std_m"));
+
+  MapPlacement placement;
+  placement.middle_W = middle_of(context.world->rows.rows);
+  RandomStream random = surveyor.stream("offset");
+  const Eigen::Vector3d drawn(random.normal(), random.normal(), random.normal());
+  placement.shift_m =
+      vector_of(parameters.numbers("offset_m")) + accuracy.offset_std_m.cwiseProduct(drawn);
+  placement.turn_rad = rad_from_deg(parameters.number("rotation_deg"));
+  placement.scale = parameters.number("scale");
+  made.shift_m = placement.shift_m;
+  if (placement.moves()) {
+    place_meshes(placement, map->meshes);
+    if (parameters.boolean("move_rows")) place_rows(placement, *map);
+  }
+  if (!parameters.text("save_to").empty()) save_meshes(map->meshes, parameters.text("save_to"));
+  return map;
+}
+
+void register_row_mesh_map(Registry& registry) {
+  PartSpec spec;
+  spec.name = "row_mesh";
+  spec.description =
+      "the true rows with meshes of few triangles fitted to their canopy, after papers A, section "
+      "3.2, and C, section 2.2, and with errors of their own";
+  spec.parameters = row_mesh_parameters();
+  registry.add_map(std::move(spec), [](const ParameterSet& parameters, const MapContext& context) {
+    return make_row_mesh_map(parameters, context);
+  });
+}
+
+}  // namespace vinerow::worlds

@@ -1,91 +1,112 @@
 #include "engine/sensors/imu.h"
 
-#include <cmath>
-
 #include "engine/math/angles.h"
-#include "engine/sensors/delay_line.h"
 #include "engine/sensors/mounting.h"
+#include "engine/sensors/readings.h"
+#include "engine/sensors/triad.h"
 
 namespace vinerow {
 namespace {
 
-/// Noise of one triad.
-struct TriadNoise {
-  double white_std = 0.0;  // per sample
-  double walk_std = 0.0;   // bias change per sample
-  double range = 0.0;
-  Eigen::Vector3d bias = Eigen::Vector3d::Zero();
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
 
-  Eigen::Vector3d corrupt(const Eigen::Vector3d& truth, RandomStream& random) {
-    Eigen::Vector3d reading;
-    for (int axis = 0; axis < 3; ++axis) {
-      bias[axis] += walk_std * random.normal();
-      reading[axis] =
-          std::clamp(truth[axis] + bias[axis] + white_std * random.normal(), -range, range);
-    }
-    return reading;
-  }
-};
+constexpr double kStandardGravity_mps2 = 9.80665;  // in which data sheets state g-sensitivity
+
+TriadNames gyro_names() {
+  return {"gyro",
+          "deg/s",
+          "dps",
+          "deg/s2",
+          "dps2",
+          "deg/h",
+          "dph",
+          rad_from_deg(1.0),
+          rad_from_deg(1.0) / 3600.0};
+}
+TriadNames accelerometer_names() {
+  return {"accel", "m/s2", "mps2", "m/s3", "mps3", "m/s2", "mps2", 1.0, 1.0};
+}
+
+/// Rotation vector of a unit quaternion, the shorter way round.
+Vector3d rotation_vector(const Quaterniond& q) {
+  const double sine = q.vec().norm();
+  if (sine < 1e-12) return q.w() < 0.0 ? Vector3d(-2.0 * q.vec()) : Vector3d(2.0 * q.vec());
+  const double angle = 2.0 * std::atan2(q.w() < 0.0 ? -sine : sine, std::abs(q.w()));
+  return q.vec() * (angle / sine);
+}
 
 class Imu final : public Sensor {
  public:
   Imu(const ParameterSet& parameters, const SensorContext& context)
-      : name_(context.name),
-        vehicle_(context.vehicle_truth),
+      : vehicle_(context.vehicle_truth),
         X_BS_(mounting_pose(parameters)),
-        line_(delay_of(parameters), context.period),
-        random_(context.random()),
-        period_s_(context.period.s()) {
-    const double root_period = std::sqrt(period_s_);
-    gyro_.white_std = rad_from_deg(parameters.number("gyro_noise_dps_rtHz")) / root_period;
-    gyro_.walk_std = rad_from_deg(parameters.number("gyro_walk_dps2_rtHz")) * root_period;
-    gyro_.range = rad_from_deg(parameters.number("gyro_range_dps"));
-    accelerometer_.white_std = parameters.number("accel_noise_mps2_rtHz") / root_period;
-    accelerometer_.walk_std = parameters.number("accel_walk_mps3_rtHz") * root_period;
-    accelerometer_.range = parameters.number("accel_range_mps2");
-    for (int axis = 0; axis < 3; ++axis) {
-      gyro_.bias[axis] = rad_from_deg(parameters.number("gyro_bias_std_dps")) * random_.normal();
-      accelerometer_.bias[axis] = parameters.number("accel_bias_std_mps2") * random_.normal();
-    }
+        gravity_W_(0.0, 0.0, context.gravity_mps2),
+        period_s_(context.period.s()),
+        gyro_(gyro_names(), parameters, context),
+        accelerometer_(accelerometer_names(), parameters, context),
+        readings_(parameters, context) {
+    RandomStream device = context.random("g_sensitivity");
+    const double std_radps_per_mps2 =
+        rad_from_deg(parameters.number("gyro_g_sensitivity_std_dps_per_g")) / kStandardGravity_mps2;
+    for (int i = 0; i < 9; ++i) g_sensitivity_(i) = std_radps_per_mps2 * device.normal();
   }
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
-    out_ = ports.write<ImuSample>(name_);
+    readings_.connect(ports);
   }
-  Duration delay() const override { return line_.delay(); }
+  Duration delay() const override { return readings_.delay(); }
   std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
-  void deliver(Time) override { line_.deliver(out_); }
+  void deliver(Time) override { readings_.deliver(); }
 
   void step(Time now) override {
-    const Eigen::Vector3d& w_B = truth_.value().w_WB_B;
-    // Lever arm: the angular acceleration is the mean over the sensor's own period.
-    const Eigen::Vector3d alpha_B =
-        has_last_ ? Eigen::Vector3d((w_B - last_w_B_) / period_s_) : Eigen::Vector3d::Zero();
-    last_w_B_ = w_B;
-    has_last_ = true;
-    const Eigen::Vector3d f_S_B =
-        vehicle_->specific_force_B() + alpha_B.cross(X_BS_.p) + w_B.cross(w_B.cross(X_BS_.p));
-    const Eigen::Quaterniond q_SB = X_BS_.q.conjugate();
+    const ImuSample truth = measure(truth_.value());
     ImuSample sample;
-    sample.w_WS_S = gyro_.corrupt(q_SB * w_B, random_);
-    sample.f_WS_S = accelerometer_.corrupt(q_SB * f_S_B, random_);
-    line_.push(now, sample, out_);
+    sample.w_WS_S = gyro_.read(truth.w_WS_S + g_sensitivity_ * truth.f_WS_S);
+    sample.f_WS_S = accelerometer_.read(truth.f_WS_S);
+    if (readings_.is_in_outage(now)) {
+      readings_.push_silence(now, truth);
+    } else {
+      readings_.push(now, sample, truth);
+    }
   }
 
  private:
-  std::string name_;
+  /// Without errors.
+  ImuSample measure(const Odometry& body) {
+    const Quaterniond q_WS = body.X_WB.q * X_BS_.q;
+    const Vector3d v_WS_W = body.X_WB.q * (body.v_WB_B + body.w_WB_B.cross(X_BS_.p));
+    const Quaterniond q_SB = X_BS_.q.conjugate();
+    ImuSample truth;
+    if (has_last_) {
+      const Vector3d turn_S = rotation_vector(last_q_WS_.conjugate() * q_WS);
+      const Quaterniond q_W_middle = last_q_WS_.slerp(0.5, q_WS);
+      truth.w_WS_S = turn_S / period_s_;
+      truth.f_WS_S = q_W_middle.conjugate() * ((v_WS_W - last_v_WS_W_) / period_s_ + gravity_W_);
+    } else {
+      const Vector3d& w_B = body.w_WB_B;
+      truth.w_WS_S = q_SB * w_B;
+      truth.f_WS_S = q_SB * (vehicle_->specific_force_B() + w_B.cross(w_B.cross(X_BS_.p)));
+    }
+    last_q_WS_ = q_WS;
+    last_v_WS_W_ = v_WS_W;
+    has_last_ = true;
+    return truth;
+  }
+
   const Vehicle* vehicle_;
   Pose X_BS_;
-  DelayLine<ImuSample> line_;
-  RandomStream random_;
+  Vector3d gravity_W_;  ///< what an accelerometer at rest reads
   double period_s_;
-  TriadNoise gyro_;
-  TriadNoise accelerometer_;
-  Eigen::Vector3d last_w_B_ = Eigen::Vector3d::Zero();
+  Triad gyro_;
+  Triad accelerometer_;
+  Eigen::Matrix3d g_sensitivity_;  ///< rad/s per m/s2
+  Readings<ImuSample> readings_;
+  Quaterniond last_q_WS_ = Quaterniond::Identity();
+  Vector3d last_v_WS_W_ = Vector3d::Zero();
   bool has_last_ = false;
   SignalReader<Odometry> truth_;
-  SignalWriter<ImuSample> out_;
 };
 
 }  // namespace
@@ -94,30 +115,23 @@ PartSpec imu_spec() {
   PartSpec spec;
   spec.name = "imu";
   spec.description =
-      "Rate gyro and accelerometer with white noise, bias, bias random walk and saturation";
+      "Rate gyro and accelerometer: white noise, bias instability and random walk by their Allan "
+      "deviation, turn-on bias, scale, misalignment, saturation";
   spec.default_rate_Hz = 100.0;
-  // Defaults: VectorNav VN-100/VN-200 data sheet (gyro 0.0035 deg/s/rtHz, accelerometer 0.14
-  // mg/rtHz).
   spec.parameters = mounting_parameters({0.0, 0.0, 0.0});
-  spec.parameters.push_back(number_parameter("gyro_noise_dps_rtHz", "deg/s/sqrt(Hz)", 0.0035, 0.0,
-                                             10.0, "white noise density of the rate gyro"));
-  spec.parameters.push_back(number_parameter("gyro_bias_std_dps", "deg/s", 0.0, 0.0, 100.0,
-                                             "constant bias, drawn once per run and axis"));
-  spec.parameters.push_back(number_parameter("gyro_walk_dps2_rtHz", "deg/s2/sqrt(Hz)", 0.0, 0.0,
-                                             10.0, "random walk of the gyro bias"));
-  spec.parameters.push_back(
-      positive_parameter("gyro_range_dps", "deg/s", 2000.0, "saturation of the rate gyro"));
-  spec.parameters.push_back(number_parameter("accel_noise_mps2_rtHz", "m/s2/sqrt(Hz)", 0.00137, 0.0,
-                                             10.0, "white noise density of the accelerometer"));
-  spec.parameters.push_back(number_parameter("accel_bias_std_mps2", "m/s2", 0.0, 0.0, 10.0,
-                                             "constant bias, drawn once per run and axis"));
-  spec.parameters.push_back(number_parameter("accel_walk_mps3_rtHz", "m/s3/sqrt(Hz)", 0.0, 0.0,
-                                             10.0, "random walk of the accelerometer bias"));
-  spec.parameters.push_back(positive_parameter("accel_range_mps2", "m/s2", 156.9,
-                                               "saturation of the accelerometer (16 g)"));
-  spec.parameters.push_back(delay_parameter());
+  // Defaults: white noise and ranges of the VectorNav VN-100/VN-200 (gyro 0.0035 deg/s/rtHz,
+  // accelerometer 0.14 mg/rtHz, 2000 deg/s, 16 g); all else is off.
+  const auto add = [&](const std::vector<ParameterSpec>& more) {
+    spec.parameters.insert(spec.parameters.end(), more.begin(), more.end());
+  };
+  add(triad_parameters(gyro_names(), 0.0035, 2000.0));
+  spec.parameters.push_back(number_parameter(
+      "gyro_g_sensitivity_std_dps_per_g", "deg/s/g", 0.0, 0.0, 10.0,
+      "rate read per specific force, drawn once per run for each gyro and each direction"));
+  add(triad_parameters(accelerometer_names(), 0.00137, 156.9));
+  add_reading_parameters(spec.parameters);
   spec.reads = {"truth"};
-  spec.writes = {"<name>: ImuSample"};
+  spec.writes = {"<name>: ImuSample", "<name>_truth: ImuSample"};
   return spec;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vehicles/parts/atmosphere.h"
+#include "engine/math/standard_atmosphere.h"
 
 namespace vinerow::vehicles {
 namespace {

@@ -1,11 +1,11 @@
-#include "vehicles/parts/atmosphere.h"
+#include "engine/math/standard_atmosphere.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
 
-namespace vinerow::vehicles {
+namespace vinerow {
 namespace {
 
 constexpr double kEarthRadius_m = 6'356'766.0;
@@ -21,7 +21,6 @@ constexpr Layer kLayers[] = {{0.0, 288.15, -0.0065},    {11'000.0, 216.65, 0.0},
                              {20'000.0, 216.65, 0.001}, {32'000.0, 228.65, 0.0028},
                              {47'000.0, 270.65, 0.0},   {51'000.0, 270.65, -0.0028},
                              {71'000.0, 214.65, -0.002}};
-constexpr double kSeaLevelPressure_Pa = 101'325.0;
 
 /// Pressure over that at the layer's base.
 double pressure_ratio(const Layer& layer, double above_m) {
@@ -36,7 +35,7 @@ double geopotential_height_m(double altitude_m) {
   return kEarthRadius_m * altitude_m / (kEarthRadius_m + altitude_m);
 }
 
-double calc_standard_density_kgm3(double altitude_m) {
+AirState calc_standard_air(double altitude_m) {
   const double height_m = geopotential_height_m(std::clamp(altitude_m, -5'000.0, 86'000.0));
   double pressure_Pa = kSeaLevelPressure_Pa;
   std::size_t i = 0;
@@ -46,7 +45,12 @@ double calc_standard_density_kgm3(double altitude_m) {
   const Layer& layer = kLayers[i];
   const double above_m = height_m - layer.base_m;
   pressure_Pa *= pressure_ratio(layer, above_m);
-  return pressure_Pa / (kGasConstant_JpkgK * (layer.temperature_K + layer.lapse_Kpm * above_m));
+  const double temperature_K = layer.temperature_K + layer.lapse_Kpm * above_m;
+  return {pressure_Pa, temperature_K, pressure_Pa / (kGasConstant_JpkgK * temperature_K)};
 }
 
-}  // namespace vinerow::vehicles
+double calc_standard_density_kgm3(double altitude_m) {
+  return calc_standard_air(altitude_m).density_kgm3;
+}
+
+}  // namespace vinerow

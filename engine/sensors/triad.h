@@ -1,0 +1,64 @@
+#pragma once
+/// Three sensitive axes of an inertial unit, and what they get wrong.
+///
+/// reading = limit(round((I + E) truth + turn-on bias + wandering bias + white noise)): E holds the
+/// errors of scale on its diagonal and the misalignments beside it, axis i seeing m_ij of axis j.
+/// What belongs to the device (turn-on bias, E) is drawn once per run.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "engine/api/part.h"
+#include "engine/sensors/bias_instability.h"
+
+namespace vinerow {
+
+/// SI and radians; u is rad/s or m/s2.
+struct TriadFigures {
+  AllanFigures allan;
+  double turn_on_bias_std_u = 0.0;
+  double scale_error_std = 0.0;                             ///< share
+  Eigen::Vector3d scale_errors = Eigen::Vector3d::Zero();   ///< added to what is drawn
+  double misalignment_std_rad = 0.0;                        ///< of each of the six angles
+  Eigen::Matrix3d misalignments = Eigen::Matrix3d::Zero();  ///< added to what is drawn, rad
+  double range_u = 0.0;
+  double resolution_u = 0.0;  ///< 0: continuous
+};
+
+/// How the parameters of one triad are called: `<name>_noise_<unit>_rtHz`, ...
+struct TriadNames {
+  std::string name;                               ///< "gyro"
+  std::string unit, unit_key;                     ///< "deg/s", "dps"
+  std::string walk_unit, walk_key;                ///< "deg/s2", "dps2"
+  std::string instability_unit, instability_key;  ///< "deg/h", "dph"
+  double si = 1.0;                                ///< value of `unit` in SI
+  double instability_si = 1.0;                    ///< value of `instability_unit` in SI
+};
+
+/// @param noise  default white noise density in the names' unit; @param range  likewise
+std::vector<ParameterSpec> triad_parameters(const TriadNames& names, double noise, double range);
+TriadFigures triad_figures(const TriadNames& names, const ParameterSet& parameters);
+
+class Triad {
+ public:
+  /// @param part  e.g. "rover.imu", for the random streams "<part>.<names.name>_noise" (white),
+  ///              "_bias" (wandering) and "_device" (drawn once)
+  /// @throws ConfigError if white noise and random walk alone are more than the bias instability
+  ///                     allows
+  Triad(const TriadNames& names, const ParameterSet& parameters, const PartContext& context);
+
+  Eigen::Vector3d read(const Eigen::Vector3d& truth);
+
+ private:
+  TriadFigures figures_;
+  RandomStream noise_random_, bias_random_;
+  double white_std_u_ = 0.0;  ///< per sample
+  double walk_std_u_ = 0.0;   ///< change of the bias per sample
+  bool wanders_ = false;
+  std::array<BiasInstability, 3> instability_;
+  Eigen::Vector3d bias_u_;  ///< turn-on and random walk
+  Eigen::Matrix3d gain_;    ///< I + E
+};
+
+}  // namespace vinerow

@@ -220,8 +220,8 @@ void FrameComposer::add_scans(Time t, render::Frame& frame) const {
       render::Polyline beams, echoes;
       beams.colour = echoes.colour = kRayColour;
       beams.pairs = echoes.pairs = true;
-      beams.width_px = 1.0f;
-      beams.alpha = 0.3f;
+      beams.width_px = 1.5f;
+      beams.alpha = 0.45f;
       echoes.width_px = 3.0f;
       echoes.alpha = 0.9f;
       const std::size_t every = scan.ranges_m.size() / kMostBeams + 1;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "controllers/estimation/ray_shear.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 
@@ -42,41 +43,6 @@ struct Clip {
     from = std::max(from, std::min(t_low, t_high));
     to = std::min(to, std::max(t_low, t_high));
   }
-};
-
-/// Looks along a ray: Woop, Benthin, Wald, "Watertight ray/triangle intersection", Journal of
-/// Computer Graphics Techniques 2 (2013). Corners are sheared so that the ray becomes an axis; the
-/// sides on which it passes the edges then follow from the same plane points for all facets, and
-/// no ray slips through between neighbours.
-class Shear {
- public:
-  explicit Shear(const Eigen::Vector3d& u) {
-    u.cwiseAbs().maxCoeff(&z_);
-    x_ = (z_ + 1) % 3;
-    y_ = (z_ + 2) % 3;
-    if (u[z_] < 0.0) std::swap(x_, y_);
-    shear_x_ = u[x_] / u[z_];
-    shear_y_ = u[y_] / u[z_];
-  }
-  /// @pre the facet faces the ray
-  bool passes_through(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c,
-                      const Eigen::Vector3d& p) const {
-    const Point A = flat(a, p), B = flat(b, p), C = flat(c, p);
-    return C.x * B.y - C.y * B.x >= 0.0 && A.x * C.y - A.y * C.x >= 0.0 &&
-           B.x * A.y - B.y * A.x >= 0.0;
-  }
-
- private:
-  struct Point {
-    double x, y;
-  };
-  Point flat(const Eigen::Vector3f& corner, const Eigen::Vector3d& p) const {
-    const double z = corner[z_] - p[z_];
-    return {corner[x_] - p[x_] - shear_x_ * z, corner[y_] - p[y_] - shear_y_ * z};
-  }
-
-  Eigen::Index x_, y_, z_;
-  double shear_x_, shear_y_;
 };
 
 }  // namespace
@@ -211,7 +177,7 @@ std::optional<RowMeshIndex::Hit> RowMeshIndex::cast_ray(const Eigen::Vector3d& p
   double leave_x = runs_x ? leaves(low_.x(), square.i, step_i, p.x(), inverse_x) : kInfinity;
   double leave_y = runs_y ? leaves(low_.y(), square.j, step_j, p.y(), inverse_y) : kInfinity;
 
-  const Shear shear(u);
+  const RayShear shear(u);
   double nearest_m = max_distance_m;
   const Facet* hit = nullptr;
   while (true) {
@@ -260,34 +226,34 @@ void RowMeshIndex::cut(const Eigen::Vector3d& p, const Eigen::Vector3d& n, doubl
       const std::size_t index = index_of({i, j});
       for (std::uint32_t k = first_[index]; k < first_[index + 1]; ++k) {
         const Facet& facet = facets_[listed_[k]];
-        // A facet is listed in several squares and counts in the one that its centre is in.
-        const Eigen::Vector3d centre =
-            (facet.a.cast<double>() + facet.b.cast<double>() + facet.c.cast<double>()) / 3.0;
-        const Square home = square_at(centre.x(), centre.y());
-        if (home.i != i || home.j != j) continue;
         const Eigen::Vector3d corners[] = {facet.a.cast<double>(), facet.b.cast<double>(),
                                            facet.c.cast<double>()};
-        Segment segment;
-        int ends = 0;
-        for (int e = 0; e < 3; ++e) {
-          const Eigen::Vector3d &v = corners[e], &w = corners[(e + 1) % 3];
-          const double above_v = n.dot(v - p), above_w = n.dot(w - p);
-          if ((above_v >= 0.0) == (above_w >= 0.0)) continue;
-          // From the upper end, so that both facets of the edge get the same bits. Where the
-          // facet's border comes up through the plane the segment ends.
-          const bool rises = above_w >= 0.0;
-          const Eigen::Vector3d &upper = rises ? w : v, &lower = rises ? v : w;
-          const double above = rises ? above_w : above_v, below = rises ? above_v : above_w;
-          (rises ? segment.to_W : segment.from_W) =
-              upper + (above / (above - below)) * (lower - upper);
-          ++ends;
-        }
-        if (ends != 2) continue;
+        const double above[] = {n.dot(corners[0] - p), n.dot(corners[1] - p),
+                                n.dot(corners[2] - p)};
+        const bool one_side = above[0] >= 0.0;
+        if ((above[1] >= 0.0) == one_side && (above[2] >= 0.0) == one_side) continue;
+        // A facet is listed in several squares and counts in the one that its centre is in.
+        const Eigen::Vector3d centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        const Square home = square_at(centre.x(), centre.y());
+        if (home.i != i || home.j != j) continue;
+        // Two edges cross the plane: those of the corner that has a side for itself.
+        const std::size_t lone = (above[1] >= 0.0) == (above[2] >= 0.0)   ? 0
+                                 : (above[0] >= 0.0) == (above[2] >= 0.0) ? 1
+                                                                          : 2;
+        const auto crossing = [&](std::size_t v) -> Eigen::Vector3d {
+          // From the upper end, so that both facets of the edge get the same bits.
+          const std::size_t upper = above[v] >= 0.0 ? v : lone, lower = upper == v ? lone : v;
+          const double share = above[upper] / (above[upper] - above[lower]);
+          return corners[upper] + share * (corners[lower] - corners[upper]);
+        };
+        // Where the facet's border goes down through the plane the segment begins.
+        const std::size_t next = (lone + 1) % 3, before = (lone + 2) % 3;
+        const bool peak = above[lone] >= 0.0;
+        const Segment segment{crossing(peak ? next : before), crossing(peak ? before : next),
+                              facet.normal, facet.row};
         if (distance_2d(p_2d, segment.from_W.head<2>(), segment.to_W.head<2>()) > radius_m) {
           continue;
         }
-        segment.normal_W = facet.normal;
-        segment.row = facet.row;
         segments.push_back(segment);
       }
     }

@@ -50,6 +50,9 @@ inline Registry fake_registry() {
                                   path_parameter("map_file", "efficiency map")},
                                  "of each wheel")}),
       nullptr);
+  registry.add_map(
+      fake_spec("survey", {number_parameter("offset_m", "m", 0.0, -10.0, 10.0, "to the east")}),
+      nullptr);
   registry.add_sensor(
       fake_spec("gps", {number_parameter("noise_m", "m", 0.02, 0.0, 100.0, "1 sigma")}, 5.0),
       nullptr);

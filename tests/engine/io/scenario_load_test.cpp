@@ -37,6 +37,7 @@ vehicles:
       gps: {type: gps, rate_Hz: 10, noise_m: 0.1}
       body_rates: {type: imu}
     estimator: {type: filter}
+    map: {type: survey, offset_m: {value: 0.05, source: "survey of May"}}
     planner: {type: coverage, first_alley: 3}
     guidance: {type: window}
     controller: {type: pure_pursuit, rate_Hz: 50, lookahead_m: 0.5}
@@ -106,9 +107,15 @@ pictures:
   EXPECT_EQ(rover.guidance->type, "window");
   EXPECT_EQ(rover.controller->rate_Hz, 50.0);
   EXPECT_EQ(rover.controller->parameters.number("lookahead_m"), 0.5);
-  EXPECT_EQ(rover.controller->where.line, 29);
+  EXPECT_EQ(rover.controller->where.line, 30);
+  ASSERT_TRUE(rover.map.has_value());
+  EXPECT_EQ(rover.map->type, "survey");
+  EXPECT_EQ(rover.map->parameters.number("offset_m"), 0.05);
+  EXPECT_EQ(rover.map->parameters.source("offset_m"), "survey of May");
+  EXPECT_EQ(rover.map->rate_Hz, 0.0);
   EXPECT_EQ(s.vehicles[1].spawn.point, "gate");
   EXPECT_FALSE(s.vehicles[1].controller.has_value());
+  EXPECT_FALSE(s.vehicles[1].map.has_value());
 
   ASSERT_EQ(s.metrics.size(), 1u);
   EXPECT_EQ(s.metrics[0].part.rate_Hz, 20.0);

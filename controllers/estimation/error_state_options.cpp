@@ -26,6 +26,8 @@ std::vector<ParameterSpec> ErrorStateOptions::parameters() {
       number_parameter("start_yaw_deg", "deg", 0.0, -360.0, 360.0,
                        "heading at the start (levelling without magnetometer)"),
       positive_parameter("start_std_m", "m", 0.5, "1 sigma of each coordinate at the start"),
+      number_parameter("start_height_std_m", "m", 0.0, 0.0, 1e3,
+                       "1 sigma of the height at the start; 0 = as start_std_m"),
       positive_parameter("start_velocity_std_mps", "m/s", 0.05,
                          "1 sigma of each velocity at the start"),
       positive_parameter("start_tilt_std_deg", "deg", 1.0,
@@ -65,10 +67,10 @@ std::vector<ParameterSpec> ErrorStateOptions::parameters() {
                        "how long an error of that stays"),
       number_parameter("declination_deg", "deg", 0.0, -180.0, 180.0,
                        "magnetic north from true north, positive to the east"),
-      positive_parameter("wheel_std_mps", "m/s", 0.05, "1 sigma of the wheels' speed: slip"),
+      positive_parameter("wheel_std_mps", "m/s", 0.1, "1 sigma of the wheels' speed: slip"),
       positive_parameter("lateral_std_mps", "m/s", 0.1, "1 sigma of the speed sideways"),
       positive_parameter("vertical_std_mps", "m/s", 0.1, "1 sigma of the speed along body z"),
-      number_parameter("wheel_correlation_s", "s", 0.5, 0.0, 1e4, "how long slip and sliding stay"),
+      number_parameter("wheel_correlation_s", "s", 2.0, 0.0, 1e4, "how long slip and sliding stay"),
       number_list_parameter("constraint_point_m", "m", {0.0, 0.0, 0.0},
                             "place in B that does not slide sideways (x, y, z)", 3),
       choice_parameter(
@@ -96,6 +98,8 @@ ErrorStateOptions ErrorStateOptions::read(const ParameterSet& parameters, const 
   o.levelling_s = number("levelling_s");
   o.start_yaw_rad = angle("start_yaw_deg");
   o.start_std_m = number("start_std_m");
+  o.start_height_std_m = number("start_height_std_m");
+  if (o.start_height_std_m == 0.0) o.start_height_std_m = o.start_std_m;
   o.start_velocity_std_mps = number("start_velocity_std_mps");
   o.start_tilt_std_rad = angle("start_tilt_std_deg");
   o.start_yaw_std_rad = angle("start_yaw_std_deg");

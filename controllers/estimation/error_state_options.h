@@ -16,6 +16,7 @@ struct ErrorStateOptions {
   double levelling_s = 1.0;
   double start_yaw_rad = 0.0;
   double start_std_m = 0.5;
+  double start_height_std_m = 0.5;
   double start_velocity_std_mps = 0.05;
   double start_tilt_std_rad = 0.0;
   double start_yaw_std_rad = 0.0;
@@ -32,10 +33,10 @@ struct ErrorStateOptions {
   double magnetometer_std_rad = 0.05;
   double magnetometer_correlation_s = 1.0;
   double declination_rad = 0.0;
-  double wheel_std_mps = 0.05;
+  double wheel_std_mps = 0.1;
   double lateral_std_mps = 0.1;
   double vertical_std_mps = 0.1;
-  double wheel_correlation_s = 0.5;
+  double wheel_correlation_s = 2.0;
   Eigen::Vector3d constraint_point_B = Eigen::Vector3d::Zero();
   enum class Standing { kOff, kWheels, kImu } standing = Standing::kOff;
   double standing_s = 0.5;

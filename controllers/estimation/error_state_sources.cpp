@@ -49,6 +49,8 @@ void ErrorStateSources::connect(Ports& ports) {
 
 void ErrorStateSources::start(Time now) {
   for (MeasurementSource& source : sources_) source.forgive(now);
+  // What was measured before is no news, and no fault.
+  if (gnss_.has_value() && gnss_.stamp() < filter_.time()) seen_fix_ = gnss_.sequence();
 }
 
 std::optional<Eigen::Vector3d> ErrorStateSources::field_B() const {

@@ -11,7 +11,8 @@ using I = ErrorIndex;
 
 ErrorCovariance start_covariance(const ErrorStateOptions& options) {
   ErrorVector std;
-  std.segment<3>(I::kPosition).setConstant(options.start_std_m);
+  std.segment<3>(I::kPosition) << options.start_std_m, options.start_std_m,
+      options.start_height_std_m;
   std.segment<3>(I::kVelocity).setConstant(options.start_velocity_std_mps);
   std.segment<3>(I::kAttitude) << options.start_tilt_std_rad, options.start_tilt_std_rad,
       options.start_yaw_std_rad;

@@ -191,15 +191,19 @@ TEST(ErrorStateEstimator, StartsAboutTheTruthByItsStatedSpread) {
   const int seeds = 200;
   double squares = 0.0, yaw_squares = 0.0;
   for (int seed = 0; seed < seeds; ++seed) {
-    Bench bench(at_rest(), {{"start_std_m", 0.4}, {"start_yaw_std_deg", 5.0}}, seed);
+    Bench bench(at_rest(),
+                {{"start_std_m", 0.4}, {"start_height_std_m", 0.1}, {"start_yaw_std_deg", 5.0}},
+                seed);
     bench.gps_on = false;
     bench.tick();
-    squares += bench.estimate.value().X_WB.p.squaredNorm() / 3.0;
+    const Vector3d p = bench.estimate.value().X_WB.p;
+    squares += (p.head<2>().squaredNorm() / 0.16 + p.z() * p.z() / 0.01) / 3.0;
     yaw_squares += std::pow(bench.yaw_error_rad(), 2);
     EXPECT_NEAR(bench.estimate.value().position_variance_m2.x(), 0.16, 0.001);
+    EXPECT_NEAR(bench.estimate.value().position_variance_m2.z(), 0.01, 0.001);
   }
   // Chi-square of 600 and 200 degrees within four sigmas.
-  EXPECT_NEAR(squares / seeds / 0.16, 1.0, 4 * std::sqrt(2.0 / (3 * seeds)));
+  EXPECT_NEAR(squares / seeds, 1.0, 4 * std::sqrt(2.0 / (3 * seeds)));
   EXPECT_NEAR(yaw_squares / seeds / std::pow(rad_from_deg(5), 2), 1.0, 4 * std::sqrt(2.0 / seeds));
 }
 
@@ -216,6 +220,7 @@ TEST(ErrorStateEstimator, LevelsItselfAndReadsTheCompass) {
   EXPECT_LT(bench.estimate.value().X_WB.q.angularDistance(bench.truth_at(0).X_WB.q), 1e-3);
   EXPECT_LT(bench.error_m(), 0.01);
   EXPECT_GT(bench.value("used_magnetometer"), 100);
+  EXPECT_EQ(bench.value("rejected_gnss_position"), 0);
 }
 
 TEST(ErrorStateEstimator, KeepsItsHeadingAtRestByTheCompass) {

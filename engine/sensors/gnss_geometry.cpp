@@ -1,0 +1,26 @@
+#include "engine/sensors/gnss_geometry.h"
+
+#include <Eigen/Cholesky>
+
+namespace vinerow {
+
+void GnssGeometry::add(const Eigen::Vector3d& direction_W, double weight) {
+  Eigen::Vector4d row;
+  row << -direction_W, 1.0;
+  normal_ += weight * row * row.transpose();
+  ++count_;
+}
+
+bool GnssGeometry::read(Dilution& dilution) const {
+  // Four satellites on one cone tell nothing; a dilution of 1e4 is none either.
+  constexpr double kLeastPivot = 1e-8;
+  if (count_ < 4) return false;
+  const Eigen::LDLT<Eigen::Matrix4d> factors(normal_);
+  if (factors.info() != Eigen::Success || factors.vectorD().minCoeff() < kLeastPivot) return false;
+  const Eigen::Matrix4d Q = factors.solve(Eigen::Matrix4d::Identity());
+  dilution.axes = Q.diagonal().head<3>().cwiseSqrt();
+  dilution.clock = std::sqrt(Q(3, 3));
+  return dilution.axes.allFinite();
+}
+
+}  // namespace vinerow

@@ -1,0 +1,181 @@
+#include "engine/sensors/gnss_tracking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+using Eigen::Vector3d;
+
+/// What hides the sky of a parcel is nearer.
+constexpr double kReach_m = 1'000.0;
+constexpr SurfaceMask kSeen =
+    kAllSurfaces & ~mask_of(SurfaceClass::kWire) & ~mask_of(SurfaceClass::kVehicle);
+/// From one surface to the next; far above the rounding of the ray caster.
+constexpr double kStep_m = 2e-3;
+/// After that many surfaces of canopy nothing is left of a signal.
+constexpr int kMostCrossings = 12;
+/// A sheet of leaves without a back: about a vine's shoot and leaves.
+constexpr double kLoneLeaves_m = 0.3;
+constexpr double kNoSignal_dBHz = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+std::vector<ParameterSpec> gnss_signal_parameters() {
+  return {
+      number_parameter("mask_deg", "deg", 10.0, 0.0, 60.0,
+                       "satellites lower than this are not used"),
+      number_parameter("zenith_cn0_dBHz", "dB-Hz", 48.0, 0.0, 60.0,
+                       "carrier-to-noise density of a satellite at the zenith"),
+      number_parameter("horizon_cn0_dBHz", "dB-Hz", 38.0, 0.0, 60.0,
+                       "carrier-to-noise density at the horizon, by the antenna's pattern"),
+      number_parameter("usual_cn0_dBHz", "dB-Hz", 45.0, 0.0, 60.0,
+                       "from here on a satellite has its full weight"),
+      number_parameter("code_noise_share", "", 0.1, 0.0, 1.0,
+                       "share of noise in the variance of a code's range at the usual C/N0"),
+      number_parameter("carrier_noise_share", "", 1.0, 0.0, 1.0, "the same of carrier phase"),
+      number_parameter("code_cn0_dBHz", "dB-Hz", 20.0, 0.0, 60.0, "least for a position by code"),
+      number_parameter("carrier_cn0_dBHz", "dB-Hz", 32.0, 0.0, 60.0,
+                       "least for a position by carrier phase"),
+      number_parameter("leaves_dB_per_m", "dB/m", 6.0, 0.0, 100.0,
+                       "loss in canopy; tree crowns have 2 in the L band"),
+      number_parameter("fading_share", "", 0.4, 0.0, 2.0,
+                       "standard deviation of that loss as leaves and antenna move, as a share"),
+      positive_parameter("fading_time_s", "s", 1.0, "correlation time of that"),
+      number_parameter("reacquisition_s", "s", 2.0, 0.0, 600.0,
+                       "until a satellite that was lost serves again"),
+      number_parameter("bridged_gap_s", "s", 1.0, 0.0, 60.0,
+                       "gaps of a signal up to this need no reacquisition"),
+      number_parameter("carrier_lock_s", "s", 2.0, 0.0, 600.0,
+                       "until the carrier phase of a satellite serves after any gap"),
+  };
+}
+
+GnssSignals read_gnss_signals(const ParameterSet& parameters, const std::string& part) {
+  GnssSignals signals;
+  signals.mask_rad = rad_from_deg(parameters.number("mask_deg"));
+  signals.zenith_cn0_dBHz = parameters.number("zenith_cn0_dBHz");
+  signals.horizon_cn0_dBHz = parameters.number("horizon_cn0_dBHz");
+  signals.usual_cn0_dBHz = parameters.number("usual_cn0_dBHz");
+  signals.code_noise_share = parameters.number("code_noise_share");
+  signals.carrier_noise_share = parameters.number("carrier_noise_share");
+  signals.code_cn0_dBHz = parameters.number("code_cn0_dBHz");
+  signals.carrier_cn0_dBHz = parameters.number("carrier_cn0_dBHz");
+  signals.leaves_dB_per_m = parameters.number("leaves_dB_per_m");
+  signals.fading_share = parameters.number("fading_share");
+  signals.fading_time_s = parameters.number("fading_time_s");
+  signals.reacquisition_s = parameters.number("reacquisition_s");
+  signals.bridged_gap_s = parameters.number("bridged_gap_s");
+  signals.carrier_lock_s = parameters.number("carrier_lock_s");
+  if (signals.carrier_cn0_dBHz < signals.code_cn0_dBHz) {
+    throw ConfigError(
+        fmt::format("{}: carrier_cn0_dBHz = {} dB-Hz, must be >= code_cn0_dBHz = {} dB-Hz", part,
+                    signals.carrier_cn0_dBHz, signals.code_cn0_dBHz));
+  }
+  if (signals.zenith_cn0_dBHz < signals.horizon_cn0_dBHz) {
+    throw ConfigError(
+        fmt::format("{}: zenith_cn0_dBHz = {} dB-Hz, must be >= horizon_cn0_dBHz = {} dB-Hz", part,
+                    signals.zenith_cn0_dBHz, signals.horizon_cn0_dBHz));
+  }
+  return signals;
+}
+
+GnssTracking::GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQuery& scene,
+                           double period_s, bool locked, RandomStream random)
+    : signals_(signals),
+      sky_(std::move(sky)),
+      scene_(&scene),
+      period_s_(period_s),
+      random_(random),
+      satellites_(sky_.size()) {
+  constexpr double kLong_s = 1e9;
+  for (Satellite& satellite : satellites_) {
+    satellite.fading = GaussMarkov(1.0, signals_.fading_time_s, period_s_);
+    satellite.fading.start(random_);
+    if (locked) satellite.heard_s = satellite.carrier_s = kLong_s;
+  }
+}
+
+double GnssTracking::leaves_m(const Vector3d& p_W, const Vector3d& direction_W) {
+  double total_m = 0.0, from_m = 0.0, entered_m = 0.0;
+  bool inside = false;
+  for (int crossing = 0; crossing < kMostCrossings; ++crossing) {
+    ++rays_cast_;
+    const auto hit =
+        scene_->cast_ray(p_W + from_m * direction_W, direction_W, kReach_m - from_m, kSeen);
+    if (!hit) return inside ? total_m + kLoneLeaves_m : total_m;
+    if (hit->surface != SurfaceClass::kCanopy) return -1.0;
+    const double at_m = from_m + hit->distance_m;
+    if (inside) {
+      total_m += at_m - entered_m;
+    } else {
+      entered_m = at_m;
+    }
+    inside = !inside;
+    from_m = at_m + kStep_m;
+  }
+  return -1.0;
+}
+
+void GnssTracking::track(Satellite& satellite, double cn0_dBHz) const {
+  if (cn0_dBHz >= signals_.carrier_cn0_dBHz) {
+    satellite.carrier_s += period_s_;
+  } else {
+    satellite.carrier_s = 0.0;
+  }
+  if (cn0_dBHz >= signals_.code_cn0_dBHz) {
+    satellite.heard_s += period_s_;
+    satellite.gap_s = 0.0;
+  } else {
+    satellite.gap_s += period_s_;
+    if (satellite.gap_s > signals_.bridged_gap_s + 1e-9) satellite.heard_s = 0.0;
+  }
+}
+
+double GnssTracking::weight(double cn0_dBHz, double noise_share) const {
+  const double noise = std::pow(10.0, (signals_.usual_cn0_dBHz - cn0_dBHz) / 10.0);
+  return std::min(1.0, 1.0 / (1.0 - noise_share + noise_share * noise));
+}
+
+GnssView GnssTracking::look(double time_s, const Vector3d& p_W, bool deaf, double jamming_dB) {
+  GnssView view;
+  rays_cast_ = 0;
+  for (std::size_t i = 0; i < satellites_.size(); ++i) {
+    Satellite& satellite = satellites_[i];
+    const double fading = satellite.fading.step(random_);
+    const Vector3d direction_W = sky_.direction_W(i, time_s);
+    const double sin_elevation = direction_W.z();
+    double cn0_dBHz = kNoSignal_dBHz;
+    if (!deaf && sin_elevation >= std::sin(signals_.mask_rad)) {
+      const double leaves = leaves_m(p_W, direction_W);
+      if (leaves >= 0.0) {
+        const double open_dBHz =
+            signals_.horizon_cn0_dBHz +
+            (signals_.zenith_cn0_dBHz - signals_.horizon_cn0_dBHz) * sin_elevation;
+        const double loss_dB =
+            leaves * signals_.leaves_dB_per_m * std::max(0.0, 1.0 + signals_.fading_share * fading);
+        cn0_dBHz = open_dBHz - loss_dB - jamming_dB;
+      }
+    }
+    track(satellite, cn0_dBHz);
+    if (cn0_dBHz < signals_.code_cn0_dBHz) continue;
+    if (satellite.heard_s >= signals_.reacquisition_s - 1e-9) {
+      view.code.add(direction_W, weight(cn0_dBHz, signals_.code_noise_share));
+    }
+    const bool has_phase = cn0_dBHz >= signals_.carrier_cn0_dBHz &&
+                           satellite.carrier_s >= signals_.carrier_lock_s - 1e-9;
+    if (has_phase) {
+      view.carrier.add(direction_W, weight(cn0_dBHz, signals_.carrier_noise_share));
+    }
+  }
+  return view;
+}
+
+}  // namespace vinerow

@@ -1,0 +1,97 @@
+#pragma once
+/// Which satellites a receiver hears, how well, and for how long already.
+///
+/// Every satellite above the mask is looked for by a ray from the antenna through the true world.
+/// Ground, posts, stems and other solid things take it away. Leaves weaken it by so many dB per
+/// metre of canopy, plus a share of that which fades in and out (a first-order Gauss-Markov process
+/// of each satellite). Two neighbouring surfaces of canopy along a ray bound leaves; an odd one, a
+/// sheet without a back, counts as `lone_leaves_m`.
+///
+///   C/N0 = horizon + (zenith - horizon) sin(elevation) - leaves - jamming
+///
+/// A satellite serves a position by code once its C/N0 has been enough for `reacquisition_s`, or at
+/// once after a gap of at most `bridged_gap_s`. It serves one by carrier phase once its C/N0 has
+/// been enough for that during `carrier_lock_s` without any gap: a gap is a cycle slip. Weight in
+/// the geometry, at most 1, with the share k that noise has in a range's variance at the usual
+/// C/N0:
+///
+///   w = 1 / (1 - k + k 10^((usual - C/N0) / 10))
+///
+/// For phases k = 1 (Hartinger, Brunner, "Variances of GPS phase observations: the SIGMA-epsilon
+/// model", GPS Solutions 2(4), 1999); most of a code's error comes from elsewhere.
+
+#include <vector>
+
+#include "engine/api/parameters.h"
+#include "engine/api/scene_query.h"
+#include "engine/core/random.h"
+#include "engine/sensors/gauss_markov.h"
+#include "engine/sensors/gnss_geometry.h"
+#include "engine/sensors/gnss_sky.h"
+
+namespace vinerow {
+
+struct GnssSignals {
+  double mask_rad;
+  double zenith_cn0_dBHz;
+  double horizon_cn0_dBHz;
+  double usual_cn0_dBHz;
+  double code_noise_share;
+  double carrier_noise_share;
+  double code_cn0_dBHz;
+  double carrier_cn0_dBHz;
+  double leaves_dB_per_m;
+  double fading_share;
+  double fading_time_s;
+  double reacquisition_s;
+  double bridged_gap_s;
+  double carrier_lock_s;
+};
+
+std::vector<ParameterSpec> gnss_signal_parameters();
+/// @param part  for errors
+/// @throws ConfigError if carrier phase needs less signal than code, or there is less of it at the
+/// zenith than at the horizon
+GnssSignals read_gnss_signals(const ParameterSet& parameters, const std::string& part);
+
+/// What one look at the sky gave.
+struct GnssView {
+  GnssGeometry code;
+  GnssGeometry carrier;
+};
+
+class GnssTracking {
+ public:
+  /// @param scene  outlives this  @param locked  begins as if it had tracked all sky for long
+  GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQuery& scene, double period_s,
+               bool locked, RandomStream random);
+
+  /// One tick. Draws one number per satellite, seen or not.
+  /// @param deaf  hears nothing at all  @param jamming_dB  loss of C/N0 of every satellite
+  GnssView look(double time_s, const Eigen::Vector3d& p_W, bool deaf, double jamming_dB);
+
+  int rays_cast() const { return rays_cast_; }  ///< at the last look
+
+ private:
+  struct Satellite {
+    double heard_s = 0.0;    ///< C/N0 enough for code, gaps bridged
+    double gap_s = 0.0;      ///< not enough
+    double carrier_s = 0.0;  ///< enough for carrier phase
+    GaussMarkov fading;      ///< unit variance
+  };
+
+  /// @returns metres of leaves on the way to the sky; negative if something solid is in it
+  double leaves_m(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W);
+  void track(Satellite& satellite, double cn0_dBHz) const;
+  double weight(double cn0_dBHz, double noise_share) const;
+
+  GnssSignals signals_;
+  GnssSky sky_;
+  const SceneQuery* scene_;
+  double period_s_;
+  RandomStream random_;
+  std::vector<Satellite> satellites_;
+  int rays_cast_ = 0;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,117 @@
+#pragma once
+/// A satellite receiver before any scene: blocks of canopy and posts, or a world.
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/math/angles.h"
+#include "engine/sensors/gnss.h"
+#include "tests/engine/sensors/fixed_scene.h"
+
+namespace vinerow::test {
+
+/// Closed boxes with their axes along W; a ray meets both faces.
+class BoxScene final : public SceneQuery {
+ public:
+  struct Box {
+    Eigen::Vector3d low, high;
+    SurfaceClass surface = SurfaceClass::kCanopy;
+  };
+  std::vector<Box> boxes;
+
+  std::optional<RayHit> cast_ray(const Eigen::Vector3d& p, const Eigen::Vector3d& dir,
+                                 double max_distance_m, SurfaceMask mask) const override {
+    std::optional<RayHit> nearest;
+    for (const Box& box : boxes) {
+      if (!(mask & mask_of(box.surface))) continue;
+      double in = -std::numeric_limits<double>::infinity(), out = -in;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double a = (box.low[axis] - p[axis]) / dir[axis];
+        const double b = (box.high[axis] - p[axis]) / dir[axis];
+        in = std::max(in, std::min(a, b));
+        out = std::min(out, std::max(a, b));
+      }
+      if (in > out) continue;
+      for (const double distance : {in, out}) {
+        if (distance < 0.0 || distance > max_distance_m) continue;
+        if (nearest && distance >= nearest->distance_m) continue;
+        nearest = RayHit{distance, -dir, box.surface, -1};
+      }
+    }
+    return nearest;
+  }
+  std::optional<double> ground_height_m(double, double, double) const override { return 0.0; }
+  double distance_to_box_m(const Pose&, const Eigen::Vector3d&, double max_distance_m,
+                           SurfaceMask) const override {
+    return max_distance_m;
+  }
+};
+
+/// Rows along y, 2.5 m apart, 0.6 m wide and 0.5 m to 2 m high, with x = 0 in the middle of an
+/// alley.
+inline BoxScene vine_rows() {
+  BoxScene scene;
+  for (int row = -4; row <= 3; ++row) {
+    const double x = 1.25 + 2.5 * row;
+    scene.boxes.push_back({{x - 0.3, -200.0, 0.5}, {x + 0.3, 200.0, 2.0}});
+  }
+  return scene;
+}
+
+inline GeoOrigin barolo() {
+  return {rad_from_deg(44.615), rad_from_deg(7.924), 300.0};
+}
+
+class GnssBench {
+ public:
+  using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
+
+  static ParameterSet parameters(const Values& values) {
+    ParameterSet result(gnss_spec().parameters, "gnss");
+    for (const auto& [name, value] : values) result.set(name, value);
+    return result;
+  }
+
+  GnssBench(const SceneQuery& scene, const ParameterSet& parameters, std::uint64_t seed = 1,
+            double rate_Hz = 5.0) {
+    bench_.world.origin = barolo();
+    SensorContext context = bench_.context(rate_Hz, seed);
+    context.scene = &scene;
+    period_ = context.period;
+    sensor_ = make_gnss(parameters, context);
+    bench_.connect(*sensor_);
+    fix_ = bench_.bus.subscribe<GnssFix>("rover/s", "test");
+    exact_ = bench_.bus.subscribe<GnssFix>("rover/s_truth", "test");
+    place({0, 0, 1});
+  }
+
+  void place(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W = {0, 0, 0}) {
+    truth_.X_WB.p = p_W;
+    truth_.v_WB_B = v_W;
+  }
+  double time_s() const { return next_.s(); }  ///< of the next tick
+  const GnssFix& step() {
+    bench_.truth.write(next_, truth_);
+    sensor_->step(next_);
+    // A receiver with a delay below its period tells before the next tick.
+    if (sensor_->delay().ns > 0) sensor_->deliver(next_ + sensor_->delay());
+    next_ = next_ + period_;
+    return fix_.value();
+  }
+  Eigen::Vector3d error() const { return fix_.value().p_W - exact_.value().p_W; }
+
+ private:
+  SensorBench bench_;
+  Duration period_;
+  std::unique_ptr<Sensor> sensor_;
+  SignalReader<GnssFix> fix_, exact_;
+  Odometry truth_;
+  Time next_{0};
+};
+
+}  // namespace vinerow::test

@@ -264,8 +264,9 @@ bool is_valid_name(const std::string& name) {
 
 const std::vector<std::string>& reserved_sensor_names() {
   static const std::vector<std::string> names = {
-      "truth",     "estimate", "plan",    "reference", "links",
-      "actuators", "follower", "command", "plan_tree", "local_command"};
+      "truth",     "estimate",        "plan",    "reference", "links",
+      "actuators", "follower",        "command", "plan_tree", "local_command",
+      "ellipsoid", "estimator_state", "contacts"};
   return names;
 }
 

@@ -111,6 +111,18 @@ void check_sensor_name(const YamlEntry& entry, const std::string& path) {
   }
 }
 
+/// Every sensor writes "<name>_truth" beside its own name.
+void check_truth_names(const std::vector<NamedPart>& sensors, const std::string& path) {
+  for (const NamedPart& sensor : sensors) {
+    for (const NamedPart& other : sensors) {
+      if (sensor.name != other.name + "_truth") continue;
+      fail_at(sensor.part.where,
+              fmt::format("{}: a sensor cannot have the name of the truth beside the sensor '{}'",
+                          join_path(path, sensor.name), other.name));
+    }
+  }
+}
+
 }  // namespace
 
 ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kind,
@@ -174,6 +186,7 @@ std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::stri
     parts.push_back({entry.key, std::move(part.config)});
     resolved.put(entry.key, std::move(part.resolved));
   }
+  if (kind == PartKind::kSensor) check_truth_names(parts, path);
   return parts;
 }
 

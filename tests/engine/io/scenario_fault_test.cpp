@@ -246,7 +246,10 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
       fault_of(with_line(10, "      truth: {type: gps}")),
       "scenario:10: vehicles.rover.sensors.truth: a sensor cannot have the name of another signal "
       "(truth, estimate, plan, reference, links, actuators, follower, command, plan_tree, "
-      "local_command)");
+      "local_command, ellipsoid, estimator_state, contacts)");
+  EXPECT_EQ(fault_of(with_line(10, "      gps: {type: gps}\n      gps_truth: {type: gps}")),
+            "scenario:11: vehicles.rover.sensors.gps_truth: a sensor cannot have the name of the "
+            "truth beside the sensor 'gps'");
 }
 
 TEST(ScenarioFault, DuplicateKeysNameBothLines) {

@@ -4,6 +4,7 @@
 #include "controllers/estimation/error_state_estimator.h"
 #include "controllers/estimation/distance_filter.h"
 #include "controllers/estimation/gps_pose.h"
+#include "controllers/estimation/map_localisation.h"
 #include "controllers/estimation/odometry_filter.h"
 #include "controllers/fixed_wing_lqr/fixed_wing_lqr.h"
 #include "controllers/fixed_wing_pid/fixed_wing_pid.h"
@@ -30,6 +31,7 @@ namespace vinerow {
 void register_controllers(Registry& registry) {
   registry.add_estimator(error_state_kalman_spec(), make_error_state_kalman);
   registry.add_estimator(distance_filter_spec(), make_distance_filter);
+  registry.add_estimator(map_localisation_spec(), make_map_localisation);
   registry.add_estimator(gps_pose_spec(), make_gps_pose);
   registry.add_estimator(odometry_filter_spec(), make_odometry_filter);
   registry.add_planner(coverage_spec(), make_coverage);

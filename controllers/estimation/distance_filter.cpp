@@ -1,13 +1,11 @@
 #include "controllers/estimation/distance_filter.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
 #include "controllers/estimation/distance_filter_law.h"
 #include "controllers/estimation/distance_filter_params.h"
-#include "engine/core/error.h"
+#include "controllers/estimation/range_sensors.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
@@ -15,45 +13,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The range sensors that an estimator is to use: those named, or all ultrasounds.
-std::vector<RangeSensorModel> find_range_sensors(const ParameterSet& parameters,
+std::vector<RangeSensorModel> read_range_sensors(const ParameterSet& parameters,
                                                  const EstimatorContext& context) {
-  std::vector<RangeSensorModel> found;
-  if (!parameters.boolean("use_map")) return found;
-  const auto add = [&](const SensorMounting& mounting) {
-    RangeSensorModel sensor;
-    sensor.name = mounting.name;
-    sensor.X_BS = mounting.X_BS;
+  if (!parameters.boolean("use_map")) return {};
+  std::vector<RangeSensorModel> sensors =
+      find_range_sensors(parameters.texts("ranges"), context, context.part + " (distance_filter)");
+  for (RangeSensorModel& sensor : sensors) {
     sensor.bound_m = parameters.number("range_bound_m");
     if (parameters.boolean("cone")) {
       sensor.half_angle_rad = rad_from_deg(parameters.number("cone_half_angle_deg"));
       sensor.fan_rays = static_cast<int>(parameters.integer("fan_rays")) | 1;
     }
-    found.push_back(sensor);
-  };
-  const std::vector<std::string>& names = parameters.texts("ranges");
-  if (names.empty()) {
-    for (const SensorMounting& mounting : context.sensors) {
-      if (mounting.type == "ultrasound") add(mounting);
-    }
-    return found;
   }
-  for (const std::string& name : names) {
-    const auto mounting =
-        std::find_if(context.sensors.begin(), context.sensors.end(),
-                     [&](const SensorMounting& sensor) { return sensor.name == name; });
-    if (mounting == context.sensors.end()) {
-      std::string all;
-      for (const SensorMounting& sensor : context.sensors) {
-        all += (all.empty() ? "" : ", ") + sensor.name;
-      }
-      throw ConfigError(fmt::format(
-          "{} (distance_filter): ranges names '{}', but the vehicle's mounted sensors are: {}",
-          context.part, name, all.empty() ? "none" : all));
-    }
-    add(*mounting);
-  }
-  return found;
+  return sensors;
 }
 
 class DistanceFilter final : public Estimator {
@@ -64,7 +36,7 @@ class DistanceFilter final : public Estimator {
         start_std_m_(parameters.number("start_std_m")),
         yaw_std_rad_(rad_from_deg(parameters.number("yaw_std_deg"))),
         inertial_std_m_(parameters.number("inertial_std_m")),
-        sensors_(find_range_sensors(parameters, context)),
+        sensors_(read_range_sensors(parameters, context)),
         index_(make_index(context)),
         law_(read_distance_filter_params(parameters),
              context.map != nullptr ? context.map->accuracy : MapAccuracy{},
@@ -108,12 +80,7 @@ class DistanceFilter final : public Estimator {
  private:
   std::optional<RowMeshIndex> make_index(const EstimatorContext& context) const {
     if (sensors_.empty()) return std::nullopt;
-    if (context.map == nullptr || context.map->meshes.empty()) {
-      throw ConfigError(fmt::format(
-          "{} (distance_filter): the map has no row meshes to compare {} range sensors with; give "
-          "the vehicle a map that has them, or say use_map: false",
-          context.part, sensors_.size()));
-    }
+    demand_row_meshes(context, context.part + " (distance_filter)", "say use_map: false");
     return std::optional<RowMeshIndex>(std::in_place, *context.map);
   }
 

@@ -9,6 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/mission.h"
+#include "tests/controllers/support/row_mesh_map.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::test {
@@ -225,12 +226,17 @@ TEST_P(EveryEstimator, AllocatesNothing) {
   auto truth = world.write<Odometry>("truth");
   auto gps = world.write<GnssFix>("gps");
   auto imu = world.write<ImuSample>("imu");
+  auto ins = world.write<Odometry>("ins");
+  auto range = world.write<RangeSample>("sonar");
+  const RowMap map = make_row_mesh_map({.rows = 4, .length_m = 40.0}, RandomStream(1, "", "map"));
   auto command = world.write<VelocityCommand>("command");
   const auto estimate = world.read<Odometry>("estimate");
   EstimatorContext context;
   context.part = "rover.estimator";
   context.period = Duration{25'000'000};
   context.vehicle_description = &description;
+  context.map = &map;
+  context.sensors = {{"sonar", "ultrasound", {quaternion_from_rpy({0, 0, 0.8}), {0, 0, 0}}}};
   const PartSpec& spec = parts().spec(PartKind::kEstimator, GetParam());
   const auto estimator = parts().make_estimator(GetParam(), make_parameters(spec, {}), context);
   Ports ports(bus, "rover", "rover.estimator");
@@ -246,6 +252,11 @@ TEST_P(EveryEstimator, AllocatesNothing) {
       GnssFix fix;
       fix.valid = true;
       gps.write(now, fix);
+      ins.write(now, Odometry{});
+      RangeSample echo;
+      echo.range_m = 1.0;
+      echo.max_range_m = 4.0;
+      range.write(now, echo);
       estimator->step(now);
     }
   };

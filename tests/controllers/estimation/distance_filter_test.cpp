@@ -377,8 +377,8 @@ void expect_refused(const Values& values, const RowMap* map, const Text& sentenc
 TEST(DistanceFilter, RefusesAnEmptyMapAndSensorsThatAreNotThere) {
   const RowMap empty;
   expect_refused({}, &empty,
-                 "drone.estimator (distance_filter): the map has no row meshes to compare 4 range "
-                 "sensors with");
+                 "drone.estimator (distance_filter): the map has no row meshes to compare ranges "
+                 "with; give the vehicle a map that has them, or say use_map: false");
   expect_refused({}, nullptr, "the map has no row meshes");
   expect_refused({{"ranges", std::vector<Text>{"range0", "sonar"}}}, &vines().map(),
                  "ranges names 'sonar', but the vehicle's mounted sensors are: range0, range1, "

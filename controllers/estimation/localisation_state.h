@@ -1,0 +1,67 @@
+#pragma once
+/// One hypothesis about where a vehicle is on a map of rows: an extended Kalman filter on position,
+/// slow errors of the velocity, heading, satellite fixes, and the map's own shift.
+///
+/// The inertial unit's velocity is the process model: p' = v - b, where b is its slow error
+/// (first-order Gauss-Markov), as are the unit's heading error and the fixes' common error; the
+/// map's shift is constant. All errors in W (m, m/s, rad). Source of the measurement of a range:
+/// docs/localisation.md.
+
+#include <Eigen/Core>
+
+namespace vinerow {
+
+/// Slow errors: standard deviation and correlation time. A standard deviation of zero leaves the
+/// error out.
+struct SlowError {
+  double std = 0.0;
+  double time_s = 60.0;
+};
+
+struct LocalisationNoise {
+  double velocity_density_m_rts = 0.003;  ///< white error of the velocity, m/sqrt(s)
+  SlowError velocity_mps{0.05, 5.0};      ///< each axis
+  SlowError heading_rad{0.0035, 60.0};    ///< part of the heading's error that stays
+  SlowError fix_horizontal_m{0.5, 60.0};  ///< part of the fixes' error that stays
+  SlowError fix_vertical_m{0.75, 60.0};
+};
+
+class LocalisationState {
+ public:
+  enum Index { kPosition = 0, kVelocity = 3, kHeading = 6, kFix = 7, kMap = 10, kSize = 13 };
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+
+  /// @param covariance_m2  of the position  @param map_std_m  of the map's shift
+  void start(const LocalisationNoise& noise, const Eigen::Vector3d& p_W,
+             const Eigen::Matrix3d& covariance_m2, const Eigen::Vector3d& map_std_m);
+
+  /// @param v_W  velocity as the inertial unit tells it, m/s  @param dt_s  > 0
+  void predict(const Eigen::Vector3d& v_W, double dt_s);
+
+  /// Innovation's variance of a scalar measurement with gradient h and noise variance r.
+  double innovation_variance(const Vector& h, double r) const { return h.dot(P_ * h) + r; }
+  /// What is not finite, or would make a variance negative, is refused.
+  /// @returns whether it was taken
+  bool correct(const Vector& h, double innovation, double r);
+
+  const Vector& x() const { return x_; }
+  const Matrix& covariance() const { return P_; }
+  Eigen::Vector3d p_W() const { return x_.segment<3>(kPosition); }
+  Eigen::Vector3d velocity_error_W() const { return x_.segment<3>(kVelocity); }
+  double heading_error_rad() const { return x_[kHeading]; }
+  Eigen::Vector3d fix_error_W() const { return x_.segment<3>(kFix); }
+  Eigen::Vector3d map_shift_W() const { return x_.segment<3>(kMap); }
+  bool is_sound() const;
+  /// Moves the position, for hypotheses beside this one.
+  void shift(const Eigen::Vector3d& by_W) { x_.segment<3>(kPosition) += by_W; }
+  /// Adds to the position's covariance.
+  void widen(const Eigen::Matrix3d& by_m2) { P_.topLeftCorner<3, 3>() += by_m2; }
+
+ private:
+  LocalisationNoise noise_;
+  Vector x_ = Vector::Zero();
+  Matrix P_ = Matrix::Identity();
+};
+
+}  // namespace vinerow

@@ -1,0 +1,143 @@
+#pragma once
+/// Where a vehicle is between mapped rows: a bank of extended Kalman filters, one per alley it may
+/// stand in, fed with the inertial unit's velocity and attitude, satellite fixes, and echoes of
+/// range sensors. Knows no signals.
+///
+/// What is beyond paper C's filter (controllers/estimation/distance_filter.h): the echo itself is
+/// the measurement, its variance holds the map's roughness for as long as it stays the same along
+/// the row; the cone is part of the prediction; echoes that no wall explains are gated, doubtful
+/// ones weigh less (Huber); slow errors of velocity, heading, fixes and map are states; late data
+/// are compared with where the vehicle was; and one filter per alley finds the right one from a
+/// poor start. Figures: docs/localisation.md.
+
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+#include "controllers/estimation/localisation_state.h"
+#include "controllers/estimation/range_prediction.h"
+#include "engine/api/map.h"
+#include "engine/core/time.h"
+
+namespace vinerow {
+
+struct MapLocalisationParams {
+  LocalisationNoise noise;
+  double heading_white_std_rad = 0.0035;  ///< part of the heading's error that changes every tick
+  double gate_sigma = 3.5;                ///< of echoes; beyond it they count as false
+  double fix_gate_sigma = 5.0;
+  double huber_sigma = 1.5;  ///< of echoes; from here on they weigh less
+  double most_along = 0.7;   ///< |normal . row|: facets that face more along the row tell nothing
+  double max_range_m = 4.0;  ///< farther predictions are not used
+  double least_speed_mps = 0.3;  ///< slower than this the map's error counts as changing no slower
+  double false_share = 0.1;      ///< of echoes that no wall explains, for the bank's weights
+  double map_shift_std_m =
+      0.0;                  ///< 1 sigma of a shift of the whole map beside what its maker states
+  double bank_std_m = 0.5;  ///< start with one filter per alley if it is known less well than this
+  double start_lateral_std_m = 0.35;  ///< of each of those filters, across its alley
+  int bank = 5;                       ///< filters at most
+  double lost_share = 0.8;            ///< of echoes gated over lost_time_s: the bank begins anew
+  double lost_time_s = 2.0;
+  double lost_fix_sigma = 5.0;  ///< the same where the fixes' slow error is estimated beyond this
+};
+
+class MapLocalisationLaw {
+ public:
+  /// Counted since the start.
+  struct Counters {
+    int echoes = 0, echoes_gated = 0, echoes_unexplained = 0;
+    int fixes = 0, fixes_gated = 0;
+    int refused = 0;  ///< not finite, or older than what is remembered
+    int lost = 0;     ///< times the bank began anew
+  };
+
+  /// @param sensors  ranges are told by their index  @param map  lives as long as the law
+  MapLocalisationLaw(const MapLocalisationParams& params, const RowMap& map,
+                     const RowMeshIndex& index, std::vector<RangeSensorModel> sensors);
+
+  /// For sensors that tell their cone with every reading.
+  void set_half_angle(int sensor, double half_angle_rad) {
+    sensors_[sensor].half_angle_rad = half_angle_rad;
+  }
+  void start(Time now, const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance_m2);
+  bool has_started() const { return count_ > 0; }
+
+  /// From the last tick to this one. @param v_W, q_WB  as the inertial unit tells them now
+  void predict(Time now, const Eigen::Vector3d& v_W, const Eigen::Quaterniond& q_WB);
+  /// @param measured  when; no older than kMemory ticks  @param p_W  of the antenna
+  /// @param p_BA  the antenna in B
+  void correct_fix(Time measured, const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m,
+                   const Eigen::Vector3d& p_BA);
+  /// A height of the body's origin in W, as from a barometer or a rangefinder that looks down.
+  void correct_height(Time measured, double z_m, double std_m);
+  /// @param range_m  finite; no echo tells nothing  @param period_s  between this sensor's readings
+  void correct_range(Time measured, int sensor, double range_m, double period_s);
+
+  /// Of the likeliest filter.
+  const LocalisationState& state() const { return filters_[best_].state; }
+  /// About the likeliest filter's position, the others counted by their weights.
+  Eigen::Matrix3d position_covariance() const;
+  int filter_count() const { return count_; }
+  double best_weight() const { return filters_[best_].weight; }
+  const Counters& counters() const { return counters_; }
+  /// Means of innovation^2 / variance of what was used since the start; 0 before.
+  double echo_nis() const;
+  double fix_nis() const;
+
+ private:
+  static constexpr int kMostFilters = 8;
+  static constexpr int kMemory = 256;
+  struct Filter {
+    LocalisationState state;
+    double weight = 1.0;
+    double log_gain = 0.0;  // of the measurement at hand
+  };
+  struct Past {
+    Time time;
+    Eigen::Vector3d way_W;  // dead reckoned since the start
+    Eigen::Quaterniond q_WB;
+  };
+  struct Fix {
+    Eigen::Vector3d p_W, way_W, std_m;  // of the body's origin; dead reckoned until then
+  };
+  struct Sum {
+    double nis = 0.0;
+    int count = 0;
+  };
+
+  bool recall(Time measured, Past& past) const;
+  const PlantRow* find_row(int id) const;
+  void begin_bank(const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance_m2);
+  void add_filter(const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance_m2, double weight);
+  /// @returns log of the likelihood, tempered
+  double take_echo(Filter& filter, const Past& past, const Eigen::Vector3d& way_since_W,
+                   const RangeSensorModel& sensor, double range_m, double period_s, bool is_best);
+  double take_fix(Filter& filter, const Past& past, const Eigen::Vector3d& way_since_W,
+                  const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m,
+                  const Eigen::Vector3d& p_BA, bool is_best);
+  /// About the last fix, where there was one.
+  void begin_anew();
+  void weigh();
+  void watch_gates(bool gated, double period_s);
+
+  MapLocalisationParams params_;
+  const RowMap& map_;
+  const RowMeshIndex& index_;
+  std::vector<RangeSensorModel> sensors_;
+  std::array<Filter, kMostFilters> filters_;
+  int count_ = 0;
+  int best_ = 0;
+  Eigen::Vector3d way_W_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_W_ = Eigen::Vector3d::Zero();
+  Time now_;
+  std::array<Past, kMemory> past_;
+  int past_count_ = 0;
+  int past_next_ = 0;
+  Fix last_fix_;
+  bool has_fix_ = false;
+  double gated_share_ = 0.0;
+  Counters counters_;
+  Sum echo_sum_, fix_sum_;
+};
+
+}  // namespace vinerow

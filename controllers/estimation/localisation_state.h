@@ -22,8 +22,8 @@ struct LocalisationNoise {
   double velocity_density_m_rts = 0.003;  ///< white error of the velocity, m/sqrt(s)
   SlowError velocity_mps{0.05, 5.0};      ///< each axis
   SlowError heading_rad{0.0035, 60.0};    ///< part of the heading's error that stays
-  SlowError fix_horizontal_m{0.5, 60.0};  ///< part of the fixes' error that stays
-  SlowError fix_vertical_m{0.75, 60.0};
+  SlowError fix_horizontal_m{0.7, 60.0};  ///< part of the fixes' error that stays
+  SlowError fix_vertical_m{1.05, 60.0};
 };
 
 class LocalisationState {

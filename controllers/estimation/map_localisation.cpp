@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "controllers/estimation/map_localisation_law.h"
 #include "controllers/estimation/range_sensors.h"
+#include "controllers/estimation/row_ground.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
@@ -37,6 +39,8 @@ std::vector<RangeSensorModel> read_range_sensors(const ParameterSet& parameters,
                                                  const EstimatorContext& context) {
   std::vector<RangeSensorModel> sensors =
       find_range_sensors(parameters.texts("ranges"), context, context.part + " (map_localisation)");
+  const std::string& down = parameters.text("down");
+  std::erase_if(sensors, [&](const RangeSensorModel& sensor) { return sensor.name == down; });
   for (RangeSensorModel& sensor : sensors) {
     sensor.fan_rays = static_cast<int>(parameters.integer("cone_rays"));
     sensor.bound_m = parameters.number("range_bound_m");
@@ -56,11 +60,17 @@ class MapLocalisation final : public Estimator {
         gps_name_(parameters.text("gps")),
         start_std_m_(parameters.number("start_std_m")),
         sensors_(read_range_sensors(parameters, context)),
-        index_(map_of(context)),
-        law_(read_params(parameters), *context.map, index_, sensors_),
+        map_(map_of(context)),
+        index_(map_),
+        law_(read_params(parameters), map_, index_, sensors_),
         random_(context.random("start")) {
     const auto& antenna = parameters.numbers("antenna_m");
     p_BA_ = {antenna[0], antenna[1], antenna[2]};
+    ground_std_m_ = parameters.number("ground_std_m");
+    const std::string& down = parameters.text("down");
+    if (!down.empty()) {
+      down_ = find_range_sensors({down}, context, context.part + " (map_localisation)").front();
+    }
   }
 
   void connect(Ports& ports) override {
@@ -70,22 +80,13 @@ class MapLocalisation final : public Estimator {
     for (const RangeSensorModel& sensor : sensors_) {
       ranges_.push_back({ports.read<RangeSample>(sensor.name), 0, Time{}});
     }
+    if (down_) down_reader_ = ports.read<RangeSample>(down_->name);
     estimate_ = ports.write<Odometry>("estimate");
     state_writer_ = ports.write<NamedValues>("estimator_state");
-    state_.names = {"filters",
-                    "best_weight",
-                    "nis_echo",
-                    "nis_fix",
-                    "echoes",
-                    "echoes_gated",
-                    "echoes_unexplained",
-                    "fixes",
-                    "fixes_gated",
-                    "refused",
-                    "lost",
-                    "map_shift_east_m",
-                    "map_shift_north_m",
-                    "heading_error_rad"};
+    state_.names = {"filters",     "best_weight",      "nis_echo",           "nis_fix",
+                    "echoes",      "echoes_gated",     "echoes_unexplained", "fixes",
+                    "fixes_gated", "heights",          "heights_gated",      "refused",
+                    "lost",        "map_shift_east_m", "map_shift_north_m",  "heading_error_rad"};
     state_.values.assign(state_.names.size(), 0.0);
   }
 
@@ -103,6 +104,7 @@ class MapLocalisation final : public Estimator {
       const GnssFix& fix = gps_.value();
       if (fix.valid) law_.correct_fix(gps_.stamp(), fix.p_W, fix.std_m, p_BA_);
     }
+    if (down_ && down_reader_.is_newer_than(seen_down_)) take_height(ins.X_WB.q);
     for (std::size_t i = 0; i < ranges_.size(); ++i) take_range(static_cast<int>(i));
     write(now, ins);
   }
@@ -113,6 +115,20 @@ class MapLocalisation final : public Estimator {
     std::uint64_t seen;
     Time last;
   };
+
+  /// The echo of what looks down, from the ground between the rows.
+  void take_height(const Eigen::Quaterniond& q_WB) {
+    const RangeSample& sample = down_reader_.value();
+    if (!std::isfinite(sample.range_m)) return;
+    const auto ground = find_ground(map_, law_.state().p_W());
+    if (!ground) return;
+    const Eigen::Vector3d dir_W = q_WB * down_->X_BS.q * Eigen::Vector3d::UnitX();
+    const auto distance_m = plane_distance_m(*ground, dir_W, sample.half_angle_rad, sample.range_m);
+    if (!distance_m) return;
+    const double lever_m = ground->normal_W.dot(q_WB * down_->X_BS.p);
+    law_.correct_plane(down_reader_.stamp(), ground->normal_W,
+                       ground->offset_m + *distance_m - lever_m, ground_std_m_);
+  }
 
   void take_range(int i) {
     Range& range = ranges_[i];
@@ -152,6 +168,8 @@ class MapLocalisation final : public Estimator {
                              static_cast<double>(counters.echoes_unexplained),
                              static_cast<double>(counters.fixes),
                              static_cast<double>(counters.fixes_gated),
+                             static_cast<double>(counters.heights),
+                             static_cast<double>(counters.heights_gated),
                              static_cast<double>(counters.refused),
                              static_cast<double>(counters.lost),
                              shift_W.x(),
@@ -165,12 +183,17 @@ class MapLocalisation final : public Estimator {
   std::string gps_name_;
   double start_std_m_;
   std::vector<RangeSensorModel> sensors_;
+  const RowMap& map_;
   RowMeshIndex index_;
   MapLocalisationLaw law_;
   RandomStream random_;
   Eigen::Vector3d p_BA_;
   SignalReader<Odometry> truth_, ins_;
   SignalReader<GnssFix> gps_;
+  std::optional<RangeSensorModel> down_;
+  double ground_std_m_;
+  SignalReader<RangeSample> down_reader_;
+  std::uint64_t seen_down_ = 0;
   std::vector<Range> ranges_;
   std::uint64_t seen_fix_ = 0;
   SignalWriter<Odometry> estimate_;
@@ -192,6 +215,9 @@ PartSpec map_localisation_spec() {
       number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
                             "where the antenna sits in B (x, y, z); taken off the fix", 3),
       text_list_parameter("ranges", {}, "names of the range sensors; empty: all ultrasounds"),
+      text_parameter("down", "", "name of a range sensor that looks at the ground; '' = none"),
+      positive_parameter("ground_std_m", "m", 0.05,
+                         "1 sigma of a height above the ground between the rows"),
       integer_parameter("cone_rays", 7, 1, 31,
                         "rays over a sensor's cone whose first return is predicted"),
       positive_parameter("range_bound_m", "m", 0.003, "largest error of an echo's distance"),
@@ -208,7 +234,7 @@ PartSpec map_localisation_spec() {
       positive_parameter("heading_time_s", "s", 60.0, "its correlation time"),
       number_parameter("heading_white_std_deg", "deg", 0.2, 0.0, 90.0,
                        "1 sigma of the heading's error that changes with every reading"),
-      number_parameter("fix_walk_std_m", "m", 0.5, 0.0, 100.0,
+      number_parameter("fix_walk_std_m", "m", 0.7, 0.0, 100.0,
                        "1 sigma of the fixes' slow error, east and north; up 1.5 times as much"),
       positive_parameter("fix_walk_time_s", "s", 60.0, "its correlation time"),
       number_parameter("map_shift_std_m", "m", 0.0, 0.0, 100.0,

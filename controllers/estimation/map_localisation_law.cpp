@@ -258,18 +258,24 @@ void MapLocalisationLaw::correct_fix(Time measured, const Eigen::Vector3d& p_W,
   if (std_slow_m > 0.0 && slow_m.norm() > params_.lost_fix_sigma * std_slow_m) begin_anew();
 }
 
-void MapLocalisationLaw::correct_height(Time measured, double z_m, double std_m) {
+void MapLocalisationLaw::correct_plane(Time measured, const Eigen::Vector3d& normal_W,
+                                       double offset_m, double std_m) {
   Past past;
-  if (!has_started() || !std::isfinite(z_m) || !(std_m > 0.0) || !recall(measured, past)) {
+  if (!has_started() || !std::isfinite(offset_m) || !(std_m > 0.0) || !recall(measured, past)) {
     ++counters_.refused;
     return;
   }
   State::Vector h = State::Vector::Zero();
-  h[State::kPosition + 2] = 1.0;
-  const double since_m = way_W_.z() - past.way_W.z();
+  h.segment<3>(State::kPosition) = normal_W;
+  const Eigen::Vector3d way_since_W = way_W_ - past.way_W;
+  const double r = std_m * std_m;
   for (int i = 0; i < count_; ++i) {
     State& state = filters_[i].state;
-    state.correct(h, z_m - (state.p_W().z() - since_m), std_m * std_m);
+    const double innovation = offset_m - normal_W.dot(state.p_W() - way_since_W);
+    const double squares = innovation * innovation / state.innovation_variance(h, r);
+    const bool gated = squares > params_.fix_gate_sigma * params_.fix_gate_sigma;
+    if (i == best_) ++(gated ? counters_.heights_gated : counters_.heights);
+    if (!gated) state.correct(h, innovation, r);
   }
 }
 

@@ -47,6 +47,7 @@ class MapLocalisationLaw {
   struct Counters {
     int echoes = 0, echoes_gated = 0, echoes_unexplained = 0;
     int fixes = 0, fixes_gated = 0;
+    int heights = 0, heights_gated = 0;
     int refused = 0;  ///< not finite, or older than what is remembered
     int lost = 0;     ///< times the bank began anew
   };
@@ -69,7 +70,11 @@ class MapLocalisationLaw {
   void correct_fix(Time measured, const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m,
                    const Eigen::Vector3d& p_BA);
   /// A height of the body's origin in W, as from a barometer or a rangefinder that looks down.
-  void correct_height(Time measured, double z_m, double std_m);
+  void correct_height(Time measured, double z_m, double std_m) {
+    correct_plane(measured, Eigen::Vector3d::UnitZ(), z_m, std_m);
+  }
+  /// n.p of the body's origin, n unit. What is farther off than fix_gate_sigma is refused.
+  void correct_plane(Time measured, const Eigen::Vector3d& normal_W, double offset_m, double std_m);
   /// @param range_m  finite; no echo tells nothing  @param period_s  between this sensor's readings
   void correct_range(Time measured, int sensor, double range_m, double period_s);
 

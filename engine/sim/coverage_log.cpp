@@ -79,10 +79,10 @@ Json json_of(const Eigen::Vector3d& p) {
 std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
                                           const Registry& registry, const CoverageChoice& choice) {
   const record::LogReader reader(log);
-  const auto is_shots = [](const record::ChannelInfo& channel) {
+  const auto is_shots = [&](const record::ChannelInfo& channel) {
     const auto type = channel.metadata.find("vinerow_type");
     return type != channel.metadata.end() && type->second == CameraShot::kType &&
-           channel.messages > 0;
+           channel.messages > 0 && !is_truth_beside(reader, channel.topic);
   };
   bool has_shots = false;
   for (const record::ChannelInfo& channel : reader.info().channels) {

@@ -33,13 +33,12 @@ void read_into(const record::LogReader& log, const std::string& topic, Trace<T>&
   });
 }
 
-/// Whether a topic tells what the sensor beside it would have read without error.
+}  // namespace
+
 bool is_truth_beside(const record::LogReader& log, const std::string& topic) {
   constexpr std::string_view kEnd = "_truth";
   return topic.ends_with(kEnd) && log.has_topic(topic.substr(0, topic.size() - kEnd.size()));
 }
-
-}  // namespace
 
 template <class T>
 std::size_t Trace<T>::index_at(Time t) const {

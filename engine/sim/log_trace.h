@@ -47,7 +47,10 @@ struct LogTrace {
   std::map<std::string, VehicleTrace> vehicles;
 };
 
-/// What a sensor would have read without error ("<sensor>_truth") is left out.
+/// Whether a topic tells what the sensor beside it would have read without error: "<sensor>_truth".
+bool is_truth_beside(const record::LogReader& log, const std::string& topic);
+
+/// What is_truth_beside() is left out.
 /// @param vehicles  names to look for
 /// @param with_scans  whether laser scans are read: half a megabyte for each second of a scanner
 LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles,

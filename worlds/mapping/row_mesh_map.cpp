@@ -41,6 +41,28 @@ GroundHeight ground_of(const WorldModel& world, const SceneQuery& scene) {
   return [&scene](double x, double y) { return scene.ground_height_m(x, y, 1e4).value_or(0.0); };
 }
 
+/// Lines that follow the ground: a survey walks along the row.
+void lift_rows(const GroundHeight& ground, double step_m, std::vector<PlantRow>& rows) {
+  for (PlantRow& row : rows) {
+    const RowCurve curve = curve_of(row);
+    std::vector<double> stations_m{0.0, curve.length_m()};
+    for (double s_m = step_m; s_m < curve.length_m(); s_m += step_m) stations_m.push_back(s_m);
+    // Corners of the given line stay.
+    for (const Eigen::Vector3d& corner_W : row.line_W) {
+      stations_m.push_back(curve.nearest_s_m(corner_W.head<2>()));
+    }
+    std::sort(stations_m.begin(), stations_m.end());
+    row.line_W.clear();
+    double last_m = -1.0;
+    for (const double s_m : stations_m) {
+      if (s_m - last_m < 1e-3) continue;
+      const Eigen::Vector2d p_W = curve.point_W(s_m);
+      row.line_W.emplace_back(p_W.x(), p_W.y(), ground(p_W.x(), p_W.y()));
+      last_m = s_m;
+    }
+  }
+}
+
 /// Half way to the next row, but not farther than leaves reach.
 double side_reach_m(const std::vector<PlantRow>& rows, std::size_t index) {
   const PlantRow& row = rows[index];
@@ -209,6 +231,8 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
   RowMeshReport& made = report != nullptr ? *report : own;
   made = {};
   auto map = std::make_unique<RowMap>(context.world->rows);
+  lift_rows(ground_of(*context.world, *context.scene), parameters.numbers("section_spacing_m")[1],
+            map->rows);
   Surveyor surveyor(parameters, context);
   if (parameters.has("folder")) {
     check_folder_parameters(parameters);

@@ -5,6 +5,7 @@
 #include "engine/render/cameras.h"
 #include "engine/render/scene.h"
 #include "tests/benchmarks/bench_worlds.h"
+#include "tests/support/paths.h"
 
 namespace vinerow {
 namespace {

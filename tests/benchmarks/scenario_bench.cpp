@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/sim/run.h"
+#include "tests/support/paths.h"
 #include "tools/parts/register_all.h"
 
 namespace vinerow {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.h"
 #include "vinerow/testing.h"
 
 namespace vinerow::test {

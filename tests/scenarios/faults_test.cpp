@@ -10,6 +10,7 @@
 
 #include "engine/record/log_reader.h"
 #include "tests/scenarios/command.h"
+#include "tests/support/paths.h"
 
 namespace vinerow {
 namespace {

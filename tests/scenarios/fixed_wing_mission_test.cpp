@@ -11,6 +11,7 @@
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
 #include "tests/support/data.h"
+#include "tests/support/paths.h"
 #include "vinerow/testing.h"
 
 namespace vinerow {

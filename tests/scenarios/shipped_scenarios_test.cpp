@@ -5,6 +5,7 @@
 
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
+#include "tests/support/paths.h"
 #include "tools/parts/register_all.h"
 #include "vinerow/testing.h"
 

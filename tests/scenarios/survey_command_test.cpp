@@ -10,6 +10,7 @@
 #include "engine/render/png.h"
 #include "tests/scenarios/command.h"
 #include "tests/support/data.h"
+#include "tests/support/paths.h"
 
 namespace vinerow {
 namespace {

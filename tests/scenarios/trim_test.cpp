@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/scenarios/command.h"
+#include "tests/support/paths.h"
 
 namespace vinerow {
 namespace {

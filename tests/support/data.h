@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include "tests/support/paths.h"
 
 namespace vinerow::test {
 
@@ -17,7 +18,8 @@ inline std::filesystem::path outside_data_folder() {
 
 }  // namespace vinerow::test
 
-/// Skips the running test, by name, where the outside file or folder is absent; else sets `variable`.
+/// Skips the running test, by name, where the outside file or folder is absent; else sets
+/// `variable`.
 #define VINEROW_OUTSIDE_DATA(variable, relative)                                              \
   const std::filesystem::path variable = ::vinerow::test::outside_data_folder() / (relative); \
   if (!std::filesystem::exists(variable)) GTEST_SKIP() << "outside data absent: " << (relative)

@@ -12,6 +12,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/support/no_alloc.h"
+#include "tests/support/paths.h"
 #include "tests/vehicles/small_worlds.h"
 #include "vehicles/register.h"
 

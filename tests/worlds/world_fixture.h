@@ -11,6 +11,7 @@
 
 #include "engine/api/registry.h"
 #include "engine/core/error.h"
+#include "tests/support/paths.h"
 #include "worlds/register.h"
 
 namespace vinerow::test {

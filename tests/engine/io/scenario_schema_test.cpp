@@ -7,6 +7,7 @@
 
 #include "engine/io/yaml.h"
 #include "tests/engine/io/scenario_fakes.h"
+#include "tests/support/paths.h"
 
 namespace vinerow::io::test {
 namespace {

@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
+#include "tests/support/paths.h"
 
 namespace vinerow::io {
 namespace {

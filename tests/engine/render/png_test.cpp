@@ -10,6 +10,7 @@
 
 #include "engine/core/random.h"
 #include "engine/render/scene.h"
+#include "tests/support/paths.h"
 
 namespace vinerow::render {
 namespace {

@@ -7,6 +7,7 @@
 #include "engine/render/cameras.h"
 #include "engine/render/scene.h"
 #include "tests/engine/render/test_scenes.h"
+#include "tests/support/paths.h"
 
 namespace vinerow::render {
 namespace {

@@ -6,6 +6,7 @@
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/sensor_rig.h"
 #include "tests/support/no_alloc.h"
+#include "tests/support/paths.h"
 
 namespace vinerow {
 namespace {

@@ -13,6 +13,7 @@
 #include "engine/sensors/register.h"
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sim/small_parts.h"
+#include "tests/support/paths.h"
 
 namespace vinerow::test {
 

@@ -6,6 +6,7 @@
 #include "engine/io/scenario.h"
 #include "engine/sensors/register.h"
 #include "tests/engine/sensors/fixed_scene.h"
+#include "tests/support/paths.h"
 
 namespace vinerow::test {
 

@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "engine/core/error.h"
+#include "tests/support/paths.h"
 #include "tests/vehicles/fixed_wing/rig.h"
 
 namespace vinerow::vehicles {

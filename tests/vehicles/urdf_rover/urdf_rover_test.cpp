@@ -10,6 +10,7 @@
 #include "engine/io/mesh_file.h"
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
+#include "tests/support/paths.h"
 #include "tests/vehicles/small_worlds.h"
 
 namespace vinerow::vehicles {

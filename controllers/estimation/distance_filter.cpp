@@ -1,10 +1,16 @@
 #include "controllers/estimation/distance_filter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "controllers/estimation/distance_filter_law.h"
 #include "controllers/estimation/distance_filter_params.h"
+#include "controllers/estimation/estimator_news.h"
+#include "controllers/estimation/ground_reference.h"
+#include "controllers/estimation/map_watch.h"
 #include "controllers/estimation/range_sensors.h"
 #include "engine/math/angles.h"
 
@@ -13,11 +19,21 @@ namespace {
 
 using Eigen::Vector3d;
 
+std::string name_of(const EstimatorContext& context) {
+  return context.part + " (distance_filter)";
+}
+
+const RowMap* map_of(const ParameterSet& parameters, const EstimatorContext& context) {
+  return parameters.boolean("use_map") ? context.map : nullptr;
+}
+
 std::vector<RangeSensorModel> read_range_sensors(const ParameterSet& parameters,
-                                                 const EstimatorContext& context) {
+                                                 const EstimatorContext& context,
+                                                 const GroundReference& ground) {
   if (!parameters.boolean("use_map")) return {};
   std::vector<RangeSensorModel> sensors =
-      find_range_sensors(parameters.texts("ranges"), context, context.part + " (distance_filter)");
+      find_range_sensors(parameters.texts("ranges"), context, name_of(context));
+  std::erase_if(sensors, [&](const RangeSensorModel& s) { return ground.looks_down(s.name); });
   for (RangeSensorModel& sensor : sensors) {
     sensor.bound_m = parameters.number("range_bound_m");
     if (parameters.boolean("cone")) {
@@ -36,7 +52,8 @@ class DistanceFilter final : public Estimator {
         start_std_m_(parameters.number("start_std_m")),
         yaw_std_rad_(rad_from_deg(parameters.number("yaw_std_deg"))),
         inertial_std_m_(parameters.number("inertial_std_m")),
-        sensors_(read_range_sensors(parameters, context)),
+        ground_(parameters, context, map_of(parameters, context), name_of(context)),
+        sensors_(read_range_sensors(parameters, context, ground_)),
         index_(make_index(context)),
         law_(read_distance_filter_params(parameters),
              context.map != nullptr ? context.map->accuracy : MapAccuracy{},
@@ -47,9 +64,10 @@ class DistanceFilter final : public Estimator {
     p_BA_ = {antenna[0], antenna[1], antenna[2]};
     readings_.reserve(sensors_.size());
     taken_.resize(sensors_.size());
-    state_.names = {"echoes",      "echoes_gated", "echoes_unmatched", "fixes",
-                    "fixes_gated", "bad_numbers",  "backwards",        "not_positive",
-                    "lost",        "set_restarts", "echo_nis",         "fix_nis"};
+    state_.names = {"echoes",      "echoes_gated",  "echoes_unmatched", "fixes",
+                    "fixes_gated", "bad_numbers",   "backwards",        "not_positive",
+                    "lost",        "set_restarts",  "heights",          "heights_gated",
+                    "unmapped",    "ground_echoes", "nis_range",        "nis_gnss_position"};
     state_.values.resize(state_.names.size());
   }
 
@@ -60,9 +78,11 @@ class DistanceFilter final : public Estimator {
     for (const RangeSensorModel& sensor : sensors_) {
       ranges_.push_back(ports.read<RangeSample>(sensor.name));
     }
+    ground_.connect(ports);
     estimate_ = ports.write<Odometry>("estimate");
     ellipsoid_ = ports.write<PositionEllipsoid>("ellipsoid");
     state_out_ = ports.write<NamedValues>("estimator_state");
+    news_.connect(ports);
   }
 
   void step(Time now) override {
@@ -73,14 +93,18 @@ class DistanceFilter final : public Estimator {
       const GnssFix& fix = gps_.value();
       law_.take_fix(gps_.stamp(), fix.p_W, fix.std_m.cwiseMax(kLeastStd_m), p_BA_);
     }
+    while (const auto plane = ground_.read(now, law_.q_WB(), law_.kalman().p_W())) {
+      law_.take_plane(plane->measured, plane->normal_W, plane->offset_m, plane->std_m);
+    }
     take_ranges();
+    tell(now);
     write(now);
   }
 
  private:
   std::optional<RowMeshIndex> make_index(const EstimatorContext& context) const {
     if (sensors_.empty()) return std::nullopt;
-    demand_row_meshes(context, context.part + " (distance_filter)", "say use_map: false");
+    demand_row_meshes(context, name_of(context), "say use_map: false");
     return std::optional<RowMeshIndex>(std::in_place, *context.map);
   }
 
@@ -120,17 +144,44 @@ class DistanceFilter final : public Estimator {
         if (taken_[k] || ranges_[k].stamp() != measured) continue;
         taken_[k] = true;
         const RangeSample& sample = ranges_[k].value();
+        if (std::isfinite(sample.range_m) &&
+            ground_.may_be_ground({law_.q_WB(), law_.kalman().p_W()}, sensors_[k],
+                                  sample.half_angle_rad, sample.range_m)) {
+          ++ground_echoes_;
+          continue;
+        }
         readings_.push_back({static_cast<int>(k), sample.range_m, sample.max_range_m});
+        if (std::isfinite(sample.max_range_m)) reach_m_ = std::max(reach_m_, sample.max_range_m);
       }
       law_.take_ranges(measured, readings_);
     }
+  }
+
+  void tell(Time now) {
+    const Pose X_WB{law_.q_WB(), law_.kalman().p_W()};
+    const DistanceFilterLaw::Counters& counters = law_.counters();
+    if (lost_news_.is_due(now, counters.lost)) {
+      news_.tell(Event::Level::kWarning,
+                 fmt::format("lost near ({:.1f}, {:.1f}): echoes or fixes contradict the estimate, "
+                             "which takes itself for less sure now ({} so far)",
+                             X_WB.p.x(), X_WB.p.y(), counters.lost));
+    }
+    if (set_news_.is_due(now, counters.set_restarts)) {
+      news_.tell(Event::Level::kWarning,
+                 fmt::format("the ellipsoid was empty near ({:.1f}, {:.1f}): its bounds contradict "
+                             "each other; it starts anew about the estimate ({} so far)",
+                             X_WB.p.x(), X_WB.p.y(), counters.set_restarts));
+    }
+    if (index_) watch_.look(now, *index_, sensors_, X_WB, reach_m_, news_);
+    news_.write(now);
   }
 
   void write(Time now) {
     Odometry estimate;
     estimate.X_WB = {law_.q_WB(), law_.kalman().p_W()};
     estimate.v_WB_B = law_.q_WB().conjugate() * law_.v_W();
-    if (ins_.has_value()) estimate.w_WB_B = ins_.value().w_WB_B;
+    if (ins_.has_value() && ins_.value().w_WB_B.allFinite()) w_WB_B_ = ins_.value().w_WB_B;
+    estimate.w_WB_B = w_WB_B_;
     estimate.set_position_covariance(law_.kalman().position_covariance());
     estimate.yaw_std_rad = law_.yaw_std_rad();
     estimate_.write(now, estimate);
@@ -145,27 +196,36 @@ class DistanceFilter final : public Estimator {
     const DistanceFilterLaw::Counters& c = law_.counters();
     std::size_t i = 0;
     for (const int count : {c.echoes, c.echoes_gated, c.echoes_unmatched, c.fixes, c.fixes_gated,
-                            c.bad_numbers, c.backwards, c.not_positive, c.lost, c.set_restarts}) {
+                            c.bad_numbers, c.backwards, c.not_positive, c.lost, c.set_restarts,
+                            c.heights, c.heights_gated, watch_.times_without(), ground_echoes_}) {
       state_.values[i++] = count;
     }
-    state_.values[i++] = law_.echo_nis();
+    state_.values[i++] = law_.range_nis();
     state_.values[i++] = law_.fix_nis();
     state_out_.write(now, state_);
   }
 
   static constexpr double kLeastStd_m = 1e-3;            // an ideal receiver states zero
   static constexpr double kStatedYawStd_rad = 3.491e-3;  // 0.2 deg, VN-200
+  static constexpr double kReach_m = 4.0;  // of range sensors at least (HC-SR04); they tell more
 
   std::string ins_name_, gps_name_;
   double start_std_m_, yaw_std_rad_, inertial_std_m_;
+  GroundReference ground_;
   std::vector<RangeSensorModel> sensors_;
   std::optional<RowMeshIndex> index_;
   DistanceFilterLaw law_;
   RandomStream random_;
   Vector3d p_BA_ = Vector3d::Zero();
+  int ground_echoes_ = 0;
   std::vector<std::uint64_t> seen_ranges_;
   std::vector<char> taken_;
   std::vector<RangeReading> readings_;
+  double reach_m_ = kReach_m;
+  Vector3d w_WB_B_ = Vector3d::Zero();
+  MapWatch watch_;
+  CountedNews lost_news_, set_news_;
+  EstimatorNews news_;
   NamedValues state_;
   std::uint64_t seen_ins_ = 0, seen_fix_ = 0;
   SignalReader<Odometry> truth_, ins_;
@@ -200,12 +260,12 @@ PartSpec distance_filter_spec() {
       integer_parameter("fan_rays", 7, 1, 101,
                         "rays over the cone; an even number is raised by one"),
   };
-  for (ParameterSpec& parameter : distance_filter_parameters()) {
-    spec.parameters.push_back(std::move(parameter));
+  for (auto&& more : {ground_parameters(), distance_filter_parameters()}) {
+    spec.parameters.insert(spec.parameters.end(), more.begin(), more.end());
   }
   spec.default_rate_Hz = 100.0;
-  spec.reads = {"truth", "<ins>", "<gps>", "<ranges>"};
-  spec.writes = {"estimate", "ellipsoid", "estimator_state"};
+  spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>"};
+  spec.writes = {"estimate", "ellipsoid", "estimator_state", "estimator_event"};
   return spec;
 }
 

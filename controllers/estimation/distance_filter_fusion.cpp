@@ -24,13 +24,13 @@ std::optional<RangePrediction> DistanceFilterLaw::find_closest_segment(
   const RangeSensorModel& sensor = sensors_[reading.sensor];
   const Vector3d origin_W = X_WB * sensor.X_BS.p;
   const Vector3d dir_W = X_WB.q * (sensor.X_BS.q * Vector3d::UnitX());
-  map_->cut(X_WB.p, X_WB.q * Vector3d::UnitZ(), reading.max_range_m, slice_);
+  const std::span<const RowMeshIndex::Segment> slice = slice_at(X_WB, reading.max_range_m);
   // "In the proximity": the beam may miss the segment by what the position is uncertain by.
   const double near_m =
       params_.bound_sigma * std::sqrt(kalman_.position_covariance().topLeftCorner<2, 2>().trace());
   std::optional<RangePrediction> best;
   double least_m = 0.0;
-  for (const RowMeshIndex::Segment& segment : slice_) {
+  for (const RowMeshIndex::Segment& segment : slice) {
     const double slope = segment.normal_W.dot(dir_W);
     if (!(slope < -1e-3)) continue;  // seen from behind, or along
     const double range_m = segment.normal_W.dot(segment.from_W - origin_W) / slope;
@@ -53,6 +53,16 @@ std::optional<RangePrediction> DistanceFilterLaw::find_closest_segment(
   return best;
 }
 
+std::span<const RowMeshIndex::Segment> DistanceFilterLaw::slice_at(const Pose& X_WB,
+                                                                   double radius_m) {
+  const SlicePlane plane{X_WB.p, X_WB.q * Vector3d::UnitZ(), radius_m};
+  if (!(plane == slice_plane_)) {
+    map_->cut(plane.p_W, plane.normal_W, plane.radius_m, slice_);
+    slice_plane_ = plane;
+  }
+  return slice_;
+}
+
 DatumStatus DistanceFilterLaw::fuse(const RangePrediction& echo, const RangeReading& reading,
                                     const Moment& moment, const Vector3d& p_m) {
   if (params_.fusion == DistanceFusion::kRangeEkf) return fuse_range(echo, reading, moment, p_m);
@@ -73,9 +83,10 @@ DatumStatus DistanceFilterLaw::fuse_range(const RangePrediction& echo, const Ran
                                   sensors_[reading.sensor].bound_m, yaw_std_rad_);
   datum.gate_sigma = params_.gate_sigma;
   datum.huber_sigma = params_.huber_sigma;
-  const DatumStatus status = kalman_.correct(datum);
-  echo_nis_ = kalman_.last_nis();
-  return status;
+  // One reading by itself has the map's error once: r is for what many share.
+  const double alone = range_variance(echo, p_m, accuracy_.surface_std_m, 1.0,
+                                      sensors_[reading.sensor].bound_m, yaw_std_rad_);
+  return correct_by_echo(datum, alone);
 }
 
 DatumStatus DistanceFilterLaw::fuse_scalar(const EchoSlab& slab, const Moment& moment,
@@ -85,8 +96,16 @@ DatumStatus DistanceFilterLaw::fuse_scalar(const EchoSlab& slab, const Moment& m
   datum.innovation = 0.5 * (slab.lower_m + slab.upper_m) - slab.normal_W.dot(p_m);
   datum.variance = slab.half_width_m() * slab.half_width_m() / 3.0;
   datum.gate_sigma = params_.gate_sigma;
+  return correct_by_echo(datum, datum.variance);
+}
+
+DatumStatus DistanceFilterLaw::correct_by_echo(const PositionKalman::Scalar& datum,
+                                               double variance_alone) {
+  const double known = datum.gradient.dot(kalman_.covariance() * datum.gradient);
   const DatumStatus status = kalman_.correct(datum);
-  echo_nis_ = kalman_.last_nis();
+  if (status == DatumStatus::kTaken) {
+    range_nis_ = datum.innovation * datum.innovation / (known + variance_alone);
+  }
   return status;
 }
 

@@ -131,7 +131,6 @@ void DistanceFilterLaw::take_fix(Time measured, const Vector3d& p_W, const Vecto
   const Vector3d variance = params_.fix_inflation * std_m.cwiseAbs2();
   DatumStatus status =
       kalman_.correct_position(innovation, variance, moment.age_s, params_.fix_gate_sigma);
-  fix_nis_ = kalman_.last_nis();
   if (status != DatumStatus::kGated) fixes_gated_in_a_row_ = 0;
   if (status == DatumStatus::kGated && ++fixes_gated_in_a_row_ >= kFixesToBelieve) {
     fixes_gated_in_a_row_ = 0;
@@ -142,18 +141,20 @@ void DistanceFilterLaw::take_fix(Time measured, const Vector3d& p_W, const Vecto
   }
   count(status, counters_.fixes, counters_.fixes_gated);
   if (status != DatumStatus::kTaken) return;
+  fix_nis_ = 3.0 * kalman_.last_nis();  // it tells the mean over the coordinates
   cut_set_by_fix(p_B + moment.way_since_W, std_m);
 }
 
-void DistanceFilterLaw::take_height(Time measured, double height_m, double std_m) {
+void DistanceFilterLaw::take_plane(Time measured, const Vector3d& normal_W, double offset_m,
+                                   double std_m) {
   Moment moment;
   if (!recall(measured, moment)) return;
   PositionKalman::Scalar datum;
-  datum.gradient = PositionKalman::gradient_of(Vector3d::UnitZ(), moment.age_s);
-  datum.innovation = height_m - position_at(moment).z();
+  datum.gradient = PositionKalman::gradient_of(normal_W, moment.age_s);
+  datum.innovation = offset_m - normal_W.dot(position_at(moment));
   datum.variance = std_m * std_m;
-  int taken = 0, gated = 0;
-  count(kalman_.correct(datum), taken, gated);
+  datum.gate_sigma = params_.fix_gate_sigma;
+  count(kalman_.correct(datum), counters_.heights, counters_.heights_gated);
 }
 
 bool DistanceFilterLaw::take_stamp(Time measured, SensorState& sensor) {

@@ -11,6 +11,7 @@
 /// stays finite.
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -63,7 +64,7 @@ struct DistanceFilterParams {
   double inflation = 0.0;            ///< r of range_variance(); 0: correlation_inflation()
   double gate_sigma = 3.5;           ///< of echoes; 0: none
   double huber_sigma = 0.0;          ///< of echoes; 0: none
-  double fix_gate_sigma = 5.0;       ///< of fixes; 0: none
+  double fix_gate_sigma = 5.0;       ///< of fixes and heights; 0: none
   double fix_inflation = 1.0;        ///< factor on the variance of fixes
   double lost_share = 0.8;           ///< share of echoes refused ...
   double lost_time_s = 2.0;          ///< ... over this time: the filter is lost; 0: no such watch
@@ -85,6 +86,8 @@ class DistanceFilterLaw {
     int echoes_unmatched = 0;  ///< the map has nothing there
     int fixes = 0;
     int fixes_gated = 0;
+    int heights = 0;  ///< and planes
+    int heights_gated = 0;
     int bad_numbers = 0;   ///< readings that are not finite or out of range
     int backwards = 0;     ///< older than what is remembered, or than the reading before
     int not_positive = 0;  ///< updates that would have spoilt the covariance
@@ -108,9 +111,13 @@ class DistanceFilterLaw {
   /// @param p_W  of the antenna  @param p_BA  the antenna in B
   void take_fix(Time measured, const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m,
                 const Eigen::Vector3d& p_BA);
-  /// Height of B's origin, z of W, by whatever tells it (a range sensor that looks down, a
-  /// barometer).
-  void take_height(Time measured, double height_m, double std_m);
+  /// Height of B's origin, z of W, as from a barometer.
+  void take_height(Time measured, double height_m, double std_m) {
+    take_plane(measured, Eigen::Vector3d::UnitZ(), height_m, std_m);
+  }
+  /// n.p of B's origin, n unit, as from a range sensor that looks at the ground. What is farther
+  /// off than fix_gate_sigma is refused.
+  void take_plane(Time measured, const Eigen::Vector3d& normal_W, double offset_m, double std_m);
   /// Echoes of one moment.
   void take_ranges(Time measured, std::span<const RangeReading> readings);
 
@@ -120,8 +127,11 @@ class DistanceFilterLaw {
   const Eigen::Quaterniond& q_WB() const { return q_WB_; }
   Eigen::Vector3d v_W() const { return v_W_ + kalman_.velocity_correction_W(); }
   double yaw_std_rad() const { return yaw_std_rad_; }
-  double echo_nis() const { return echo_nis_; }  ///< of the last echo looked at
-  double fix_nis() const { return fix_nis_; }    ///< of the last fix, per coordinate
+  /// Normalised innovation squared of the last echo taken; 0 before, and in the fusions by
+  /// ellipses, which have none. Its variance is that of one reading (r = 1). Expectation 1.
+  double range_nis() const { return range_nis_; }
+  /// The same of the last fix taken, its three coordinates together. Expectation 3.
+  double fix_nis() const { return fix_nis_; }
 
  private:
   struct Past {
@@ -143,6 +153,13 @@ class DistanceFilterLaw {
     Time last;
     double period_s = 0.05;
   };
+  /// Where a slice of the map was cut.
+  struct SlicePlane {
+    Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+    Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
+    double radius_m = std::numeric_limits<double>::quiet_NaN();  ///< equals none: nothing is cut
+    bool operator==(const SlicePlane&) const = default;
+  };
 
   bool recall(Time measured, Moment& moment);
   Eigen::Vector3d position_at(const Moment& moment) const;
@@ -150,6 +167,9 @@ class DistanceFilterLaw {
   std::optional<RangePrediction> associate(const Pose& X_WB, const RangeReading& reading);
   std::optional<RangePrediction> find_closest_segment(const Pose& X_WB,
                                                       const RangeReading& reading);
+  /// Cut anew only where the pose or the radius is another: in kJoint the echoes of one moment are
+  /// seen from one pose.
+  std::span<const RowMeshIndex::Segment> slice_at(const Pose& X_WB, double radius_m);
   double inflation_of(const SensorState& sensor) const;
   EchoBounds bounds_of(const RangeReading& reading) const;
   EchoSlab2 horizontal(const EchoSlab& slab, const Moment& moment) const;
@@ -159,6 +179,8 @@ class DistanceFilterLaw {
   DatumStatus fuse_range(const RangePrediction& echo, const RangeReading& reading,
                          const Moment& moment, const Eigen::Vector3d& p_m);
   DatumStatus fuse_scalar(const EchoSlab& slab, const Moment& moment, const Eigen::Vector3d& p_m);
+  /// @param variance_alone  of this reading, whatever it shares with others
+  DatumStatus correct_by_echo(const PositionKalman::Scalar& datum, double variance_alone);
   DatumStatus fuse_truncated(const EchoSlab2& slab);
   DatumStatus fuse_cut(const EchoSlab2& slab);
   DatumStatus fuse_increment_matrix(const Eigen::Vector2d& centre, const Eigen::Matrix2d& shape);
@@ -176,6 +198,7 @@ class DistanceFilterLaw {
   std::vector<RangeSensorModel> sensors_;
   std::vector<SensorState> sensor_states_;
   std::vector<RowMeshIndex::Segment> slice_;
+  SlicePlane slice_plane_;
   PositionKalman kalman_;
   IntegritySet set_;
   Trace<Past> trace_;
@@ -189,7 +212,7 @@ class DistanceFilterLaw {
   bool joint_cut_ = false;
   double refused_share_ = 0.0;
   int fixes_gated_in_a_row_ = 0;
-  double echo_nis_ = 0.0, fix_nis_ = 0.0;
+  double range_nis_ = 0.0, fix_nis_ = 0.0;
   Counters counters_;
 };
 

@@ -56,7 +56,7 @@ std::vector<ParameterSpec> distance_filter_parameters() {
       number_parameter("huber_sigma", "", 0.0, 0.0, 100.0,
                        "echoes further off weigh less; 0: never (range_ekf)"),
       number_parameter("fix_gate_sigma", "", 5.0, 0.0, 100.0,
-                       "fixes further off are refused; 0: none"),
+                       "fixes and heights further off are refused; 0: none"),
       positive_parameter("fix_inflation", "", 1.0,
                          "factor on the variance of fixes; 2 tau f for errors that stay for tau"),
       number_parameter("lost_share", "", 0.8, 0.0, 1.0,

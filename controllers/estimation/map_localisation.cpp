@@ -1,12 +1,16 @@
 #include "controllers/estimation/map_localisation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "controllers/estimation/estimator_news.h"
+#include "controllers/estimation/ground_reference.h"
 #include "controllers/estimation/map_localisation_law.h"
+#include "controllers/estimation/map_watch.h"
 #include "controllers/estimation/range_sensors.h"
-#include "controllers/estimation/row_ground.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
@@ -35,12 +39,16 @@ MapLocalisationParams read_params(const ParameterSet& parameters) {
   return params;
 }
 
+std::string name_of(const EstimatorContext& context) {
+  return context.part + " (map_localisation)";
+}
+
 std::vector<RangeSensorModel> read_range_sensors(const ParameterSet& parameters,
-                                                 const EstimatorContext& context) {
+                                                 const EstimatorContext& context,
+                                                 const GroundReference& ground) {
   std::vector<RangeSensorModel> sensors =
-      find_range_sensors(parameters.texts("ranges"), context, context.part + " (map_localisation)");
-  const std::string& down = parameters.text("down");
-  std::erase_if(sensors, [&](const RangeSensorModel& sensor) { return sensor.name == down; });
+      find_range_sensors(parameters.texts("ranges"), context, name_of(context));
+  std::erase_if(sensors, [&](const RangeSensorModel& s) { return ground.looks_down(s.name); });
   for (RangeSensorModel& sensor : sensors) {
     sensor.fan_rays = static_cast<int>(parameters.integer("cone_rays"));
     sensor.bound_m = parameters.number("range_bound_m");
@@ -49,7 +57,7 @@ std::vector<RangeSensorModel> read_range_sensors(const ParameterSet& parameters,
 }
 
 const RowMap& map_of(const EstimatorContext& context) {
-  demand_row_meshes(context, context.part + " (map_localisation)", "");
+  demand_row_meshes(context, name_of(context), "");
   return *context.map;
 }
 
@@ -59,18 +67,16 @@ class MapLocalisation final : public Estimator {
       : ins_name_(parameters.text("ins")),
         gps_name_(parameters.text("gps")),
         start_std_m_(parameters.number("start_std_m")),
-        sensors_(read_range_sensors(parameters, context)),
+        on_map_(parameters.text("place") == "on_map"),
+        max_range_m_(parameters.number("max_range_m")),
         map_(map_of(context)),
+        ground_(parameters, context, &map_, name_of(context)),
+        sensors_(read_range_sensors(parameters, context, ground_)),
         index_(map_),
         law_(read_params(parameters), map_, index_, sensors_),
         random_(context.random("start")) {
     const auto& antenna = parameters.numbers("antenna_m");
     p_BA_ = {antenna[0], antenna[1], antenna[2]};
-    ground_std_m_ = parameters.number("ground_std_m");
-    const std::string& down = parameters.text("down");
-    if (!down.empty()) {
-      down_ = find_range_sensors({down}, context, context.part + " (map_localisation)").front();
-    }
   }
 
   void connect(Ports& ports) override {
@@ -80,55 +86,52 @@ class MapLocalisation final : public Estimator {
     for (const RangeSensorModel& sensor : sensors_) {
       ranges_.push_back({ports.read<RangeSample>(sensor.name), 0, Time{}});
     }
-    if (down_) down_reader_ = ports.read<RangeSample>(down_->name);
+    ground_.connect(ports);
     estimate_ = ports.write<Odometry>("estimate");
     state_writer_ = ports.write<NamedValues>("estimator_state");
-    state_.names = {"filters",     "best_weight",      "nis_echo",           "nis_fix",
+    news_.connect(ports);
+    state_.names = {"filters",     "best_weight",      "nis_range",          "nis_gnss_position",
                     "echoes",      "echoes_gated",     "echoes_unexplained", "fixes",
                     "fixes_gated", "heights",          "heights_gated",      "refused",
-                    "lost",        "map_shift_east_m", "map_shift_north_m",  "heading_error_rad"};
+                    "lost",        "map_shift_east_m", "map_shift_north_m",  "heading_error_rad",
+                    "unmapped",    "ground_echoes"};
     state_.values.assign(state_.names.size(), 0.0);
   }
 
   void step(Time now) override {
     if (!ins_.has_value() || !truth_.has_value()) return;
-    const Odometry& ins = ins_.value();
+    if (is_finite(ins_.value())) known_ins_ = ins_.value();
     if (!law_.has_started()) {
       // The inertial unit's attitude is known from the first reading; the place is drawn.
       const Eigen::Vector3d draw(random_.normal(), random_.normal(), random_.normal());
       law_.start(now, truth_.value().X_WB.p + start_std_m_ * draw,
                  start_std_m_ * start_std_m_ * Eigen::Matrix3d::Identity());
     }
-    law_.predict(now, ins.X_WB.q * ins.v_WB_B, ins.X_WB.q);
+    const Odometry& told = ins_.value();
+    law_.predict(now, told.X_WB.q * told.v_WB_B, told.X_WB.q);
     if (!gps_name_.empty() && gps_.is_newer_than(seen_fix_)) {
       const GnssFix& fix = gps_.value();
       if (fix.valid) law_.correct_fix(gps_.stamp(), fix.p_W, fix.std_m, p_BA_);
     }
-    if (down_ && down_reader_.is_newer_than(seen_down_)) take_height(ins.X_WB.q);
+    while (const auto plane = ground_.read(now, known_ins_.X_WB.q, law_.state().p_W())) {
+      law_.correct_plane(plane->measured, plane->normal_W, plane->offset_m, plane->std_m);
+    }
     for (std::size_t i = 0; i < ranges_.size(); ++i) take_range(static_cast<int>(i));
-    write(now, ins);
+    tell(now);
+    write(now, known_ins_);
   }
 
  private:
+  static bool is_finite(const Odometry& ins) {
+    return ins.X_WB.q.coeffs().allFinite() && ins.v_WB_B.allFinite() && ins.w_WB_B.allFinite() &&
+           std::isfinite(ins.yaw_std_rad);
+  }
+
   struct Range {
     SignalReader<RangeSample> reader;
     std::uint64_t seen;
     Time last;
   };
-
-  /// The echo of what looks down, from the ground between the rows.
-  void take_height(const Eigen::Quaterniond& q_WB) {
-    const RangeSample& sample = down_reader_.value();
-    if (!std::isfinite(sample.range_m)) return;
-    const auto ground = find_ground(map_, law_.state().p_W());
-    if (!ground) return;
-    const Eigen::Vector3d dir_W = q_WB * down_->X_BS.q * Eigen::Vector3d::UnitX();
-    const auto distance_m = plane_distance_m(*ground, dir_W, sample.half_angle_rad, sample.range_m);
-    if (!distance_m) return;
-    const double lever_m = ground->normal_W.dot(q_WB * down_->X_BS.p);
-    law_.correct_plane(down_reader_.stamp(), ground->normal_W,
-                       ground->offset_m + *distance_m - lever_m, ground_std_m_);
-  }
 
   void take_range(int i) {
     Range& range = ranges_[i];
@@ -136,11 +139,30 @@ class MapLocalisation final : public Estimator {
     const RangeSample& sample = range.reader.value();
     const Time stamp = range.reader.stamp();
     const double period_s = range.last.ns > 0 ? (stamp - range.last).s() : 0.05;
-    range.last = stamp;
+    range.last = std::max(range.last, stamp);
     // No echo tells nothing: leaves swallow some.
     if (std::isinf(sample.range_m)) return;
+    const Pose X_WB{known_ins_.X_WB.q, law_.state().p_W()};
+    if (ground_.may_be_ground(X_WB, sensors_[i], sample.half_angle_rad, sample.range_m)) {
+      ++ground_echoes_;
+      return;
+    }
     law_.set_half_angle(i, sample.half_angle_rad);
     law_.correct_range(stamp, i, sample.range_m, std::max(period_s, 1e-3));
+  }
+
+  void tell(Time now) {
+    const LocalisationState& state = law_.state();
+    const int lost = law_.counters().lost;
+    if (lost_news_.is_due(now, lost)) {
+      news_.tell(Event::Level::kWarning,
+                 fmt::format("lost: echoes or fixes contradict the estimate; begins anew near "
+                             "({:.1f}, {:.1f}), alleys in question: {} ({} so far)",
+                             state.p_W().x(), state.p_W().y(), law_.filter_count(), lost));
+    }
+    const Pose X_MB{known_ins_.X_WB.q, state.p_W() - state.map_shift_W()};
+    watch_.look(now, index_, sensors_, X_MB, max_range_m_, news_);
+    news_.write(now);
   }
 
   void write(Time now, const Odometry& ins) {
@@ -148,11 +170,12 @@ class MapLocalisation final : public Estimator {
     Odometry estimate;
     estimate.X_WB.q =
         Eigen::AngleAxisd(-state.heading_error_rad(), Eigen::Vector3d::UnitZ()) * ins.X_WB.q;
-    estimate.X_WB.p = state.p_W();
+    estimate.X_WB.p = on_map_ ? law_.position_on_map() : state.p_W();
     estimate.v_WB_B =
         estimate.X_WB.q.conjugate() * (ins.X_WB.q * ins.v_WB_B - state.velocity_error_W());
     estimate.w_WB_B = ins.w_WB_B;
-    estimate.set_position_covariance(law_.position_covariance());
+    estimate.set_position_covariance(on_map_ ? law_.position_on_map_covariance()
+                                             : law_.position_covariance());
     const int heading = LocalisationState::kHeading;
     estimate.yaw_std_rad =
         std::hypot(std::sqrt(state.covariance()(heading, heading)), ins.yaw_std_rad);
@@ -161,7 +184,7 @@ class MapLocalisation final : public Estimator {
     const Eigen::Vector3d shift_W = state.map_shift_W();
     const double values[] = {static_cast<double>(law_.filter_count()),
                              law_.best_weight(),
-                             law_.echo_nis(),
+                             law_.range_nis(),
                              law_.fix_nis(),
                              static_cast<double>(counters.echoes),
                              static_cast<double>(counters.echoes_gated),
@@ -174,7 +197,9 @@ class MapLocalisation final : public Estimator {
                              static_cast<double>(counters.lost),
                              shift_W.x(),
                              shift_W.y(),
-                             state.heading_error_rad()};
+                             state.heading_error_rad(),
+                             static_cast<double>(watch_.times_without()),
+                             static_cast<double>(ground_echoes_)};
     std::copy(std::begin(values), std::end(values), state_.values.begin());
     state_writer_.write(now, state_);
   }
@@ -182,19 +207,23 @@ class MapLocalisation final : public Estimator {
   std::string ins_name_;
   std::string gps_name_;
   double start_std_m_;
-  std::vector<RangeSensorModel> sensors_;
+  bool on_map_;
+  double max_range_m_;
   const RowMap& map_;
+  GroundReference ground_;
+  std::vector<RangeSensorModel> sensors_;
   RowMeshIndex index_;
   MapLocalisationLaw law_;
   RandomStream random_;
   Eigen::Vector3d p_BA_;
   SignalReader<Odometry> truth_, ins_;
   SignalReader<GnssFix> gps_;
-  std::optional<RangeSensorModel> down_;
-  double ground_std_m_;
-  SignalReader<RangeSample> down_reader_;
-  std::uint64_t seen_down_ = 0;
   std::vector<Range> ranges_;
+  Odometry known_ins_;  // the last that was finite
+  MapWatch watch_;
+  int ground_echoes_ = 0;
+  CountedNews lost_news_;
+  EstimatorNews news_;
   std::uint64_t seen_fix_ = 0;
   SignalWriter<Odometry> estimate_;
   SignalWriter<NamedValues> state_writer_;
@@ -215,9 +244,6 @@ PartSpec map_localisation_spec() {
       number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
                             "where the antenna sits in B (x, y, z); taken off the fix", 3),
       text_list_parameter("ranges", {}, "names of the range sensors; empty: all ultrasounds"),
-      text_parameter("down", "", "name of a range sensor that looks at the ground; '' = none"),
-      positive_parameter("ground_std_m", "m", 0.05,
-                         "1 sigma of a height above the ground between the rows"),
       integer_parameter("cone_rays", 7, 1, 31,
                         "rays over a sensor's cone whose first return is predicted"),
       positive_parameter("range_bound_m", "m", 0.003, "largest error of an echo's distance"),
@@ -239,6 +265,10 @@ PartSpec map_localisation_spec() {
       positive_parameter("fix_walk_time_s", "s", 60.0, "its correlation time"),
       number_parameter("map_shift_std_m", "m", 0.0, 0.0, 100.0,
                        "1 sigma of a shift of the whole map, beside what its maker states"),
+      choice_parameter("place", "on_map", {"on_map", "in_world"},
+                       "where a map's shift is a state, the estimate is the place beside the map's "
+                       "walls, where planners on the same map want it, or that in the world; the "
+                       "covariance is against the world either way"),
       positive_parameter("gate_sigma", "", 3.5, "echoes farther from their prediction are false"),
       positive_parameter("fix_gate_sigma", "", 5.0, "so are fixes"),
       positive_parameter("huber_sigma", "", 1.5, "echoes farther off than this weigh less"),
@@ -248,9 +278,12 @@ PartSpec map_localisation_spec() {
       positive_parameter("bank_std_m", "m", 0.5,
                          "a place known less well than this begins with one filter per alley"),
   };
+  for (ParameterSpec& parameter : ground_parameters()) {
+    spec.parameters.push_back(std::move(parameter));
+  }
   spec.default_rate_Hz = 100.0;
-  spec.reads = {"truth", "<ins>", "<gps>", "<ranges>"};
-  spec.writes = {"estimate", "estimator_state"};
+  spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>"};
+  spec.writes = {"estimate", "estimator_state", "estimator_event"};
   return spec;
 }
 

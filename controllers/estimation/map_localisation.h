@@ -2,9 +2,9 @@
 /// Estimator `map_localisation`: map_localisation_law.h behind signals.
 ///
 /// Reads `ins` (Odometry of an aided inertial unit: its velocity and attitude, never its position),
-/// `gps` (GnssFix) and range sensors; writes "estimate" with its full covariance and
-/// "estimator_state". Starts at the first tick, about the truth with a draw of `start_std_m`: as a
-/// vehicle does that was put down at a place known as well as that.
+/// `gps` (GnssFix) and range sensors; writes "estimate" with its full covariance, "estimator_state"
+/// and "estimator_event". Starts at the first tick, about the truth with a draw of `start_std_m`:
+/// as a vehicle does that was put down at a place known as well as that.
 
 #include <memory>
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "controllers/estimation/row_line.h"
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 
@@ -12,37 +13,16 @@ namespace {
 
 using State = LocalisationState;
 
-constexpr double kLeastWeight = 1e-6;  // a filter that is less likely is dropped
-constexpr double kLeastPrior = 0.02;   // an alley beside is never ruled out by the start alone
-constexpr double kSame_m = 0.3;        // filters as near as this are one
-
-/// Nearest point of an alley's line, seen from above, and the direction there.
-struct NearestPoint {
-  Eigen::Vector3d p_W;
-  Eigen::Vector2d along;
-  double distance_m;
-};
-
-NearestPoint nearest_on(const std::vector<Eigen::Vector3d>& line_W, const Eigen::Vector3d& p_W) {
-  NearestPoint nearest{p_W, {1, 0}, std::numeric_limits<double>::infinity()};
-  for (std::size_t i = 0; i + 1 < line_W.size(); ++i) {
-    const Eigen::Vector3d edge = line_W[i + 1] - line_W[i];
-    const Eigen::Vector2d flat = edge.head<2>();
-    const double t =
-        std::clamp((p_W - line_W[i]).head<2>().dot(flat) / flat.squaredNorm(), 0.0, 1.0);
-    const Eigen::Vector3d q_W = line_W[i] + t * edge;
-    const double distance_m = (p_W - q_W).head<2>().norm();
-    if (distance_m < nearest.distance_m) nearest = {q_W, flat.normalized(), distance_m};
-  }
-  return nearest;
-}
-
 }  // namespace
 
 MapLocalisationLaw::MapLocalisationLaw(const MapLocalisationParams& params, const RowMap& map,
                                        const RowMeshIndex& index,
                                        std::vector<RangeSensorModel> sensors)
-    : params_(params), map_(map), index_(index), sensors_(std::move(sensors)) {
+    : params_(params),
+      map_(map),
+      index_(index),
+      sensors_(std::move(sensors)),
+      last_range_(sensors_.size()) {
   params_.bank = std::clamp(params_.bank, 1, kMostFilters);
 }
 
@@ -53,59 +33,8 @@ void MapLocalisationLaw::start(Time now, const Eigen::Vector3d& p_W,
   past_count_ = past_next_ = 0;
   has_fix_ = false;
   gated_share_ = 0.0;
+  std::fill(last_range_.begin(), last_range_.end(), std::nullopt);
   begin_bank(p_W, covariance_m2);
-}
-
-void MapLocalisationLaw::add_filter(const Eigen::Vector3d& p_W,
-                                    const Eigen::Matrix3d& covariance_m2, double weight) {
-  if (count_ == params_.bank) return;
-  Filter& filter = filters_[count_++];
-  const double own_m2 = params_.map_shift_std_m * params_.map_shift_std_m;
-  const Eigen::Vector3d shift_std_m = (map_.accuracy.offset_std_m.array().square() + own_m2).sqrt();
-  filter.state.start(params_.noise, p_W, covariance_m2, shift_std_m);
-  filter.weight = weight;
-}
-
-void MapLocalisationLaw::begin_bank(const Eigen::Vector3d& p_W,
-                                    const Eigen::Matrix3d& covariance_m2) {
-  count_ = 0;
-  best_ = 0;
-  const double std_m = std::sqrt(covariance_m2.topLeftCorner<2, 2>().trace() / 2.0);
-  if (params_.bank > 1 && std_m > params_.bank_std_m) {
-    // A vehicle stands in an alley, not in a row: one filter in the middle of each within reach.
-    struct Candidate {
-      NearestPoint at;
-      double weight;
-    };
-    std::array<Candidate, kMostFilters> candidates;
-    int found = 0;
-    for (const Alley& alley : map_.alleys) {
-      const NearestPoint at = nearest_on(alley.line_W, p_W);
-      if (!(at.distance_m < 3.0 * std_m + alley.width_m)) continue;
-      const double spread_m = std::hypot(std_m, params_.start_lateral_std_m);
-      const Candidate candidate{
-          at, std::exp(-0.5 * std::pow(at.distance_m / spread_m, 2)) + kLeastPrior};
-      // The likeliest first; of equals the first in the map.
-      int place = found < params_.bank ? found++ : found;
-      while (place > 0 && candidates[place - 1].weight < candidate.weight) {
-        if (place < params_.bank) candidates[place] = candidates[place - 1];
-        --place;
-      }
-      if (place < params_.bank) candidates[place] = candidate;
-    }
-    for (int i = 0; i < found; ++i) {
-      const Eigen::Vector2d along = candidates[i].at.along, across(-along.y(), along.x());
-      Eigen::Matrix3d covariance = covariance_m2;
-      const double across_m2 = std::pow(params_.start_lateral_std_m, 2);
-      covariance.topLeftCorner<2, 2>() =
-          std_m * std_m * along * along.transpose() + across_m2 * across * across.transpose();
-      const Eigen::Vector3d middle_W(candidates[i].at.p_W.x(), candidates[i].at.p_W.y(), p_W.z());
-      add_filter(middle_W, covariance, candidates[i].weight);
-    }
-  }
-  if (count_ == 0) add_filter(p_W, covariance_m2, 1.0);
-  for (int i = 0; i < count_; ++i) filters_[i].log_gain = 0.0;
-  weigh();
 }
 
 void MapLocalisationLaw::predict(Time now, const Eigen::Vector3d& v_W,
@@ -169,22 +98,38 @@ double MapLocalisationLaw::take_echo(Filter& filter, const Past& past,
     if (is_best) ++counters_.echoes_unexplained;
     return log_false / inflation;
   }
-  // What closes a run of plants is where map and truth differ most: it tells nothing.
+  Eigen::Vector3d gradient = prediction->gradient_p();
+  double expected_m = prediction->range_m;
+  double rough_m2 = 0.0;  // of the wall over the places along the row that are in question
   if (const PlantRow* row = find_row(prediction->hit.row)) {
-    const Eigen::Vector2d along = nearest_on(row->line_W, X_MB.p).along;
-    if (std::abs(prediction->hit.normal_W.head<2>().dot(along)) > params_.most_along) {
+    const Eigen::Vector3d edge_W = nearest_on(row->line_W, X_MB.p).edge_W;
+    // What closes a run of plants is where map and truth differ most: it tells nothing.
+    if (std::abs(prediction->hit.normal_W.head<2>().dot(edge_W.head<2>().normalized())) >
+        params_.most_along) {
       if (is_best) ++counters_.echoes_unexplained;
       return log_false / inflation;
     }
+    const Eigen::Vector3d along_W = edge_W.normalized();
+    State::Vector on_map = State::Vector::Zero();
+    on_map.segment<3>(State::kPosition) = along_W;
+    on_map.segment<3>(State::kMap) = -along_W;
+    const double std_m = std::sqrt(std::max(0.0, state.innovation_variance(on_map, 0.0)));
+    const bool stands = v_W_.head<2>().norm() < params_.least_speed_mps;
+    const SpreadPrediction spread =
+        predict_spread(index_, X_MB, sensor, params_.max_range_m, *prediction, along_W, std_m,
+                       params_.most_along, stands);
+    expected_m = spread.range_m;
+    gradient += (spread.slope - gradient.dot(along_W)) * along_W;
+    rough_m2 = spread.variance_m2;
   }
-  const Eigen::Vector3d gradient = prediction->gradient_p();
   State::Vector h = State::Vector::Zero();
   h.segment<3>(State::kPosition) = gradient;
   h.segment<3>(State::kMap) = -gradient;
   h[State::kHeading] = -prediction->gradient_yaw(X_MB.p);
   double r = range_variance(*prediction, X_MB.p, map_.accuracy.surface_std_m, inflation,
-                            sensor.bound_m, params_.heading_white_std_rad);
-  const double innovation = range_m - prediction->range_m;
+                            sensor.bound_m, params_.heading_white_std_rad) +
+             inflation * rough_m2;
+  const double innovation = range_m - expected_m;
   const double s = state.innovation_variance(h, r);
   const double sigmas = std::abs(innovation) / std::sqrt(s);
   const double log_true =
@@ -195,8 +140,10 @@ double MapLocalisationLaw::take_echo(Filter& filter, const Past& past,
   }
   if (is_best) {
     ++counters_.echoes;
-    echo_sum_.nis += sigmas * sigmas;
-    ++echo_sum_.count;
+    const double alone = range_variance(*prediction, X_MB.p, map_.accuracy.surface_std_m, 1.0,
+                                        sensor.bound_m, params_.heading_white_std_rad) +
+                         rough_m2;
+    range_nis_ = innovation * innovation / state.innovation_variance(h, alone);
   }
   if (sigmas > params_.huber_sigma) r *= sigmas / params_.huber_sigma;
   state.correct(h, innovation, r);
@@ -213,6 +160,7 @@ double MapLocalisationLaw::take_fix(Filter& filter, const Past& past,
                            state.fix_error_W());
   };
   double log_likelihood = 0.0;
+  double nis = 0.0;  // of all axes: each is judged given those before
   bool gated = false;
   for (int axis = 0; axis < 3; ++axis) {
     State::Vector h = State::Vector::Zero();
@@ -228,13 +176,11 @@ double MapLocalisationLaw::take_fix(Filter& filter, const Past& past,
       gated = true;
       continue;
     }
-    if (is_best) {
-      fix_sum_.nis += squares;
-      ++fix_sum_.count;
-    }
+    nis += squares;
     state.correct(h, innovation, r);
   }
   if (is_best) ++(gated ? counters_.fixes_gated : counters_.fixes);
+  if (is_best && !gated) fix_nis_ = nis;
   return log_likelihood;
 }
 
@@ -282,10 +228,12 @@ void MapLocalisationLaw::correct_plane(Time measured, const Eigen::Vector3d& nor
 void MapLocalisationLaw::correct_range(Time measured, int sensor, double range_m, double period_s) {
   VINEROW_DEMAND(sensor >= 0 && sensor < static_cast<int>(sensors_.size()));
   Past past;
-  if (!has_started() || !std::isfinite(range_m) || range_m < 0.0 || !recall(measured, past)) {
+  if (!has_started() || !std::isfinite(range_m) || range_m < 0.0 || !recall(measured, past) ||
+      (last_range_[sensor] && measured <= *last_range_[sensor])) {
     ++counters_.refused;
     return;
   }
+  last_range_[sensor] = measured;
   if (range_m > params_.max_range_m) return;
   const Eigen::Vector3d way_since_W = way_W_ - past.way_W;
   const int taken_before = counters_.echoes;
@@ -293,93 +241,11 @@ void MapLocalisationLaw::correct_range(Time measured, int sensor, double range_m
     filters_[i].log_gain =
         take_echo(filters_[i], past, way_since_W, sensors_[sensor], range_m, period_s, i == best_);
   }
-  const bool gated = counters_.echoes == taken_before;
+  const bool taken = counters_.echoes != taken_before;
   weigh();
-  watch_gates(gated, period_s);
-}
-
-void MapLocalisationLaw::weigh() {
-  double largest = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < count_; ++i) largest = std::max(largest, filters_[i].log_gain);
-  double sum = 0.0;
-  for (int i = 0; i < count_; ++i) {
-    filters_[i].weight *= std::exp(filters_[i].log_gain - largest);
-    if (!filters_[i].state.is_sound()) filters_[i].weight = 0.0;
-    sum += filters_[i].weight;
-  }
-  if (!(sum > 0.0)) {
-    // Every filter has lost its footing: what is left is the first one's position, widely.
-    ++counters_.lost;
-    const Eigen::Vector3d p_W = filters_[0].state.p_W();
-    count_ = 0;
-    add_filter(p_W.allFinite() ? p_W : Eigen::Vector3d(Eigen::Vector3d::Zero()),
-               Eigen::Matrix3d::Identity(), 1.0);
-    best_ = 0;
-    return;
-  }
-  for (int i = 0; i < count_; ++i) filters_[i].weight /= sum;
-  // Those that are unlikely, or follow another one, go.
-  int kept = 0;
-  for (int i = 0; i < count_; ++i) {
-    bool goes = filters_[i].weight < kLeastWeight;
-    for (int k = 0; k < count_ && !goes; ++k) {
-      const bool is_stronger = filters_[k].weight > filters_[i].weight ||
-                               (filters_[k].weight == filters_[i].weight && k < i);
-      goes = k != i && is_stronger &&
-             (filters_[k].state.p_W() - filters_[i].state.p_W()).norm() < kSame_m;
-    }
-    if (goes) continue;
-    if (kept != i) filters_[kept] = filters_[i];
-    ++kept;
-  }
-  count_ = kept;
-  sum = 0.0;
-  best_ = 0;
-  for (int i = 0; i < count_; ++i) {
-    sum += filters_[i].weight;
-    if (filters_[i].weight > filters_[best_].weight) best_ = i;
-  }
-  for (int i = 0; i < count_; ++i) filters_[i].weight /= sum;
-}
-
-void MapLocalisationLaw::watch_gates(bool gated, double period_s) {
-  const double share =
-      std::min(1.0, period_s / params_.lost_time_s / static_cast<double>(sensors_.size()));
-  gated_share_ += share * ((gated ? 1.0 : 0.0) - gated_share_);
-  if (gated_share_ < params_.lost_share) return;
-  begin_anew();
-}
-
-void MapLocalisationLaw::begin_anew() {
-  ++counters_.lost;
-  gated_share_ = 0.0;
-  if (!has_fix_) {
-    begin_bank(state().p_W(), Eigen::Matrix3d::Identity());
-    return;
-  }
-  const LocalisationNoise& noise = params_.noise;
-  const Eigen::Vector3d slow_m(noise.fix_horizontal_m.std, noise.fix_horizontal_m.std,
-                               noise.fix_vertical_m.std);
-  const Eigen::Vector3d variance_m2 = last_fix_.std_m.cwiseAbs2() + slow_m.cwiseAbs2();
-  begin_bank(last_fix_.p_W + way_W_ - last_fix_.way_W, variance_m2.asDiagonal());
-}
-
-Eigen::Matrix3d MapLocalisationLaw::position_covariance() const {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (int i = 0; i < count_; ++i) {
-    const State& other = filters_[i].state;
-    const Eigen::Vector3d beside_m = other.p_W() - state().p_W();
-    covariance += filters_[i].weight * (Eigen::Matrix3d(other.covariance().topLeftCorner<3, 3>()) +
-                                        beside_m * beside_m.transpose());
-  }
-  return covariance;
-}
-
-double MapLocalisationLaw::echo_nis() const {
-  return echo_sum_.count > 0 ? echo_sum_.nis / echo_sum_.count : 0.0;
-}
-double MapLocalisationLaw::fix_nis() const {
-  return fix_sum_.count > 0 ? fix_sum_.nis / fix_sum_.count : 0.0;
+  // An echo without a wall counts as one refused: where a vehicle enters the rows on a poor fix,
+  // that is what tells the wrong alley.
+  watch_gates(!taken, period_s);
 }
 
 }  // namespace vinerow

@@ -5,13 +5,15 @@
 ///
 /// What is beyond paper C's filter (controllers/estimation/distance_filter.h): the echo itself is
 /// the measurement, its variance holds the map's roughness for as long as it stays the same along
-/// the row; the cone is part of the prediction; echoes that no wall explains are gated, doubtful
-/// ones weigh less (Huber); slow errors of velocity, heading, fixes and map are states; late data
-/// are compared with where the vehicle was; and one filter per alley finds the right one from a
-/// poor start. Figures: docs/localisation.md.
+/// the row; the cone is part of the prediction, and so is a wall's roughness over the stretch of
+/// row that the vehicle may be at; echoes that no wall explains are gated, doubtful ones weigh less
+/// (Huber); slow errors of velocity, heading, fixes and map are states; late data are compared with
+/// where the vehicle was; and one filter per alley finds the right one from a poor start. Figures:
+/// docs/localisation.md.
 
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "controllers/estimation/localisation_state.h"
@@ -36,7 +38,8 @@ struct MapLocalisationParams {
   double bank_std_m = 0.5;  ///< start with one filter per alley if it is known less well than this
   double start_lateral_std_m = 0.35;  ///< of each of those filters, across its alley
   int bank = 5;                       ///< filters at most
-  double lost_share = 0.8;            ///< of echoes gated over lost_time_s: the bank begins anew
+  double lost_share = 0.8;  ///< of echoes gated, or without a wall, over lost_time_s: the bank
+                            ///< begins anew
   double lost_time_s = 2.0;
   double lost_fix_sigma = 5.0;  ///< the same where the fixes' slow error is estimated beyond this
 };
@@ -48,7 +51,7 @@ class MapLocalisationLaw {
     int echoes = 0, echoes_gated = 0, echoes_unexplained = 0;
     int fixes = 0, fixes_gated = 0;
     int heights = 0, heights_gated = 0;
-    int refused = 0;  ///< not finite, or older than what is remembered
+    int refused = 0;  ///< not finite, older than what is remembered, or than the sensor's last
     int lost = 0;     ///< times the bank began anew
   };
 
@@ -82,12 +85,19 @@ class MapLocalisationLaw {
   const LocalisationState& state() const { return filters_[best_].state; }
   /// About the likeliest filter's position, the others counted by their weights.
   Eigen::Matrix3d position_covariance() const;
+  /// Where the likeliest filter is beside the map's walls, told as if the map lay where it says:
+  /// the place in W less what is thought of the map's shift.
+  Eigen::Vector3d position_on_map() const;
+  /// Of that against the place in W, so with all that the shift may be, whatever was learnt of it.
+  Eigen::Matrix3d position_on_map_covariance() const;
   int filter_count() const { return count_; }
   double best_weight() const { return filters_[best_].weight; }
   const Counters& counters() const { return counters_; }
-  /// Means of innovation^2 / variance of what was used since the start; 0 before.
-  double echo_nis() const;
-  double fix_nis() const;
+  /// Normalised innovation squared of the last echo that the likeliest filter took; 0 before. Its
+  /// variance is that of one reading, not enlarged for what many share. Expectation 1.
+  double range_nis() const { return range_nis_; }
+  /// The same of the last fix, its three coordinates together. Expectation 3.
+  double fix_nis() const { return fix_nis_; }
 
  private:
   static constexpr int kMostFilters = 8;
@@ -105,13 +115,10 @@ class MapLocalisationLaw {
   struct Fix {
     Eigen::Vector3d p_W, way_W, std_m;  // of the body's origin; dead reckoned until then
   };
-  struct Sum {
-    double nis = 0.0;
-    int count = 0;
-  };
 
   bool recall(Time measured, Past& past) const;
   const PlantRow* find_row(int id) const;
+  Eigen::Array3d map_shift_variance_m2() const;
   void begin_bank(const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance_m2);
   void add_filter(const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance_m2, double weight);
   /// @returns log of the likelihood, tempered
@@ -120,8 +127,11 @@ class MapLocalisationLaw {
   double take_fix(Filter& filter, const Past& past, const Eigen::Vector3d& way_since_W,
                   const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m,
                   const Eigen::Vector3d& p_BA, bool is_best);
-  /// About the last fix, where there was one.
+  /// About the last fix, where there was one. The likeliest filter stays as one of the bank, so
+  /// that weights decide between it and what is new.
   void begin_anew();
+  void keep(const Filter& filter);
+  void weigh_anew();  // without a measurement
   void weigh();
   void watch_gates(bool gated, double period_s);
 
@@ -141,8 +151,9 @@ class MapLocalisationLaw {
   Fix last_fix_;
   bool has_fix_ = false;
   double gated_share_ = 0.0;
+  std::vector<std::optional<Time>> last_range_;  // of each sensor
   Counters counters_;
-  Sum echo_sum_, fix_sum_;
+  double range_nis_ = 0.0, fix_nis_ = 0.0;
 };
 
 }  // namespace vinerow

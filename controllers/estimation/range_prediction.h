@@ -40,6 +40,28 @@ struct RangePrediction {
 std::optional<RangePrediction> predict_range(const RowMeshIndex& map, const Pose& X_WB,
                                              const RangeSensorModel& sensor, double max_range_m);
 
+/// A range over places spread along a line, as the straight line that fits it best: a row's wall is
+/// too rough for its tangent at one place to hold over the spread (statistical linear regression:
+/// Lefebvre, Bruyninckx, De Schutter, IEEE Trans. Autom. Control 47(8) 1406, 2002).
+struct SpreadPrediction {
+  double range_m = 0.0;      ///< of the fitted line at the middle of the spread
+  double slope = 0.0;        ///< d range / d way along the line
+  double variance_m2 = 0.0;  ///< of the ranges about the fitted line
+};
+
+/// Fitted over five places up to 2 sigma away, of a small spread along the middle's own ray. Where
+/// only some of them tell - others see another row, none, or what closes a run of plants - or where
+/// all readings come from one place, the slope is the smaller one of the fit's and the tangent's, 0
+/// where they disagree about its sign.
+/// @param middle  what is predicted at X_WB  @param along_W  unit  @param std_m
+/// of the spread
+/// @param most_along  |normal . along| of facets that close a run of plants
+/// @param stands  the vehicle stands: its readings tell of the same places
+SpreadPrediction predict_spread(const RowMeshIndex& map, const Pose& X_WB,
+                                const RangeSensorModel& sensor, double max_range_m,
+                                const RangePrediction& middle, const Eigen::Vector3d& along_W,
+                                double std_m, double most_along, bool stands);
+
 constexpr double kMaxCorrelationInflation = 1e6;
 
 /// By how much the variance of a map error must be enlarged where readings follow each other faster

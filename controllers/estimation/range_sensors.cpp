@@ -11,7 +11,7 @@ namespace vinerow {
 
 std::vector<RangeSensorModel> find_range_sensors(const std::vector<std::string>& names,
                                                  const EstimatorContext& context,
-                                                 const std::string& who) {
+                                                 const std::string& who, const std::string& key) {
   std::vector<RangeSensorModel> found;
   const auto add = [&](const SensorMounting& mounting) {
     RangeSensorModel sensor;
@@ -32,9 +32,8 @@ std::vector<RangeSensorModel> find_range_sensors(const std::vector<std::string>&
     if (mounting == context.sensors.end()) {
       std::vector<std::string> known;
       for (const SensorMounting& sensor : context.sensors) known.push_back(sensor.name);
-      throw ConfigError(
-          fmt::format("{}: ranges names '{}', but the vehicle's mounted sensors are: {}", who, name,
-                      known.empty() ? "none" : join(known)));
+      throw ConfigError(fmt::format("{}: {} names '{}', but the vehicle's mounted sensors are: {}",
+                                    who, key, name, known.empty() ? "none" : join(known)));
     }
     add(*mounting);
   }

@@ -10,11 +10,13 @@
 namespace vinerow {
 
 /// Those named, or all ultrasounds where no name is given: name and mounting.
-/// @param who  for errors: "rover.estimator (distance_filter)"
+/// @param who  for errors: "rover.estimator (distance_filter)"  @param key  the parameter that
+/// names
 /// @throws ConfigError naming the sensors there are
 std::vector<RangeSensorModel> find_range_sensors(const std::vector<std::string>& names,
                                                  const EstimatorContext& context,
-                                                 const std::string& who);
+                                                 const std::string& who,
+                                                 const std::string& key = "ranges");
 
 /// @param advice  what else the user may do, "say use_map: false", or ""
 /// @throws ConfigError where the vehicle's map has no row meshes

@@ -19,6 +19,8 @@ constexpr double kMaxSquares = 4e6;
 // By this much a facet counts as wider when it is listed, so that rounding loses none at the edge
 // of a square.
 constexpr double kMargin_m = 1e-6;
+// Marks a listed facet in the one square that its centre is in, its home.
+constexpr std::uint32_t kHome = 1u << 31;
 
 Eigen::Vector2d from_above(const Eigen::Vector3f& p) {
   return {p.x(), p.y()};
@@ -57,6 +59,7 @@ RowMeshIndex::RowMeshIndex(const RowMap& map, double cell_m) {
 void RowMeshIndex::read_facets(const RowMap& map) {
   std::size_t count = 0;
   for (const RowMesh& mesh : map.meshes) count += mesh.mesh_W.triangles.size();
+  VINEROW_DEMAND(count < kHome);
   if (count == 0) {
     throw ConfigError(
         "the map has no row meshes to measure distances to: give the vehicle a map that has them, "
@@ -151,8 +154,14 @@ void RowMeshIndex::list_facets() {
   listed_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::uint32_t k = 0; k < facets_.size(); ++k) {
-    for_each_square_below(facets_[k],
-                          [&](Square square) { listed_[next[index_of(square)]++] = k; });
+    const Facet& facet = facets_[k];
+    const Eigen::Vector3d centre =
+        (facet.a.cast<double>() + facet.b.cast<double>() + facet.c.cast<double>()) / 3.0;
+    const std::size_t home = index_of(square_at(centre.x(), centre.y()));
+    for_each_square_below(facet, [&](Square square) {
+      const std::size_t index = index_of(square);
+      listed_[next[index]++] = index == home ? k | kHome : k;
+    });
   }
 }
 
@@ -183,7 +192,7 @@ std::optional<RowMeshIndex::Hit> RowMeshIndex::cast_ray(const Eigen::Vector3d& p
   while (true) {
     const std::size_t index = index_of(square);
     for (std::uint32_t k = first_[index]; k < first_[index + 1]; ++k) {
-      const Facet& facet = facets_[listed_[k]];
+      const Facet& facet = facets_[listed_[k] & ~kHome];
       const double slope = facet.normal.dot(u);
       if (slope >= 0.0) continue;
       const double height_m = -facet.normal.dot(facet.a.cast<double>() - p);
@@ -222,40 +231,33 @@ void RowMeshIndex::cut(const Eigen::Vector3d& p, const Eigen::Vector3d& n, doubl
   const Square from = square_at(p.x() - reach_m, p.y() - reach_m);
   const Square to = square_at(p.x() + reach_m, p.y() + reach_m);
   for (int j = from.j; j <= to.j; ++j) {
-    for (int i = from.i; i <= to.i; ++i) {
-      const std::size_t index = index_of({i, j});
-      for (std::uint32_t k = first_[index]; k < first_[index + 1]; ++k) {
-        const Facet& facet = facets_[listed_[k]];
-        const Eigen::Vector3d corners[] = {facet.a.cast<double>(), facet.b.cast<double>(),
-                                           facet.c.cast<double>()};
-        const double above[] = {n.dot(corners[0] - p), n.dot(corners[1] - p),
-                                n.dot(corners[2] - p)};
-        const bool one_side = above[0] >= 0.0;
-        if ((above[1] >= 0.0) == one_side && (above[2] >= 0.0) == one_side) continue;
-        // A facet is listed in several squares and counts in the one that its centre is in.
-        const Eigen::Vector3d centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        const Square home = square_at(centre.x(), centre.y());
-        if (home.i != i || home.j != j) continue;
-        // Two edges cross the plane: those of the corner that has a side for itself.
-        const std::size_t lone = (above[1] >= 0.0) == (above[2] >= 0.0)   ? 0
-                                 : (above[0] >= 0.0) == (above[2] >= 0.0) ? 1
-                                                                          : 2;
-        const auto crossing = [&](std::size_t v) -> Eigen::Vector3d {
-          // From the upper end, so that both facets of the edge get the same bits.
-          const std::size_t upper = above[v] >= 0.0 ? v : lone, lower = upper == v ? lone : v;
-          const double share = above[upper] / (above[upper] - above[lower]);
-          return corners[upper] + share * (corners[lower] - corners[upper]);
-        };
-        // Where the facet's border goes down through the plane the segment begins.
-        const std::size_t next = (lone + 1) % 3, before = (lone + 2) % 3;
-        const bool peak = above[lone] >= 0.0;
-        const Segment segment{crossing(peak ? next : before), crossing(peak ? before : next),
-                              facet.normal, facet.row};
-        if (distance_2d(p_2d, segment.from_W.head<2>(), segment.to_W.head<2>()) > radius_m) {
-          continue;
-        }
-        segments.push_back(segment);
-      }
+    const std::uint32_t end = first_[index_of({to.i, j}) + 1];
+    for (std::uint32_t k = first_[index_of({from.i, j})]; k < end; ++k) {
+      // A facet is listed in several squares and counts in its home.
+      if ((listed_[k] & kHome) == 0) continue;
+      const Facet& facet = facets_[listed_[k] & ~kHome];
+      const Eigen::Vector3d corners[] = {facet.a.cast<double>(), facet.b.cast<double>(),
+                                         facet.c.cast<double>()};
+      const double above[] = {n.dot(corners[0] - p), n.dot(corners[1] - p), n.dot(corners[2] - p)};
+      const bool one_side = above[0] >= 0.0;
+      if ((above[1] >= 0.0) == one_side && (above[2] >= 0.0) == one_side) continue;
+      // Two edges cross the plane: those of the corner that has a side for itself.
+      const std::size_t lone = (above[1] >= 0.0) == (above[2] >= 0.0)   ? 0
+                               : (above[0] >= 0.0) == (above[2] >= 0.0) ? 1
+                                                                        : 2;
+      const auto crossing = [&](std::size_t v) -> Eigen::Vector3d {
+        // From the upper end, so that both facets of the edge get the same bits.
+        const std::size_t upper = above[v] >= 0.0 ? v : lone, lower = upper == v ? lone : v;
+        const double share = above[upper] / (above[upper] - above[lower]);
+        return corners[upper] + share * (corners[lower] - corners[upper]);
+      };
+      // Where the facet's border goes down through the plane the segment begins.
+      const std::size_t next = (lone + 1) % 3, before = (lone + 2) % 3;
+      const bool peak = above[lone] >= 0.0;
+      const Segment segment{crossing(peak ? next : before), crossing(peak ? before : next),
+                            facet.normal, facet.row};
+      if (distance_2d(p_2d, segment.from_W.head<2>(), segment.to_W.head<2>()) > radius_m) continue;
+      segments.push_back(segment);
     }
   }
 }

@@ -87,8 +87,9 @@ class RowMeshIndex {
   double cell_m_ = 0.5;
   Eigen::Vector2d low_ = {0, 0}, high_ = {0, 0};  // corners of the grid
   double facet_reach_m_ = 0.0;  // largest distance of a corner from the facet's centre, from above
-  std::vector<std::uint32_t> first_;   // of each square's list, and the end
-  std::vector<std::uint32_t> listed_;  // facets
+  std::vector<std::uint32_t> first_;  // of each square's list, and the end
+  // Facets; the highest bit is set in the square that the facet's centre is in.
+  std::vector<std::uint32_t> listed_;
 };
 
 }  // namespace vinerow

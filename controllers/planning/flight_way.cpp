@@ -30,6 +30,21 @@ double first_length_m(const RouteLeg& leg) {
   return (leg.line_W[1] - leg.line_W[0]).norm();
 }
 
+/// The place on the leg's line beside a vehicle that stands in that alley: what flies goes sideways
+/// and need not come back to the entrance.
+std::optional<Eigen::Vector2d> find_place_on_leg(const RouteLeg& leg, const RowMap& map,
+                                                 const Eigen::Vector2d& start) {
+  const Eigen::Vector2d place = place_along(leg, start);
+  const auto alley = std::find_if(map.alleys.begin(), map.alleys.end(),
+                                  [&](const Alley& one) { return one.id == leg.alley; });
+  const double reach_m = alley == map.alleys.end() ? 0.0 : 0.5 * alley->width_m;
+  if (std::abs(place.y()) > std::max(reach_m, kOnTheLine_m) || place.x() < -kOnTheLine_m ||
+      place.x() > first_length_m(leg) - kOnTheLine_m) {
+    return std::nullopt;
+  }
+  return leg.entry().p + std::max(place.x(), 0.0) * direction(leg.entry().yaw_rad);
+}
+
 class GridWay final : public FlightWay {
  public:
   GridWay(const RoutePlannerParams& params, std::unique_ptr<PoseSearch> search,
@@ -44,6 +59,11 @@ class GridWay final : public FlightWay {
   Result<PlannedPath> plan(const Eigen::Vector3d& start_W) override {
     const auto legs = make_row_route(map_, params_.route, start_W.head<2>());
     if (!legs) return Failure{legs.reason()};
+    if (const auto on_leg = find_place_on_leg(legs->front(), map_, start_W.head<2>())) {
+      const double along_rad = legs->front().entry().yaw_rad;
+      return planner_->plan({quaternion_from_rpy({0.0, 0.0, along_rad}),
+                             Eigen::Vector3d(on_leg->x(), on_leg->y(), start_W.z())});
+    }
     const double yaw_rad =
         choose_heading(start_W.head<2>(), legs->front(), params_.turning_radius_m,
                        [this](const Pieces& pieces) { return room_.is_free(pieces); });
@@ -106,12 +126,10 @@ class ClosedFormWay final : public FlightWay {
     return !find_path_into_row(make_planned_path(pieces, kCheckPitch_m), map_, reach_m_);
   }
 
-  /// A Dubins path; none where the vehicle stands on the leg, which begins there then.
+  /// A Dubins path; none where the vehicle stands in the alley, whose leg begins beside it then.
   void append_approach(const Eigen::Vector2d& start, RouteLeg& leg, Pieces& pieces) const {
-    const Eigen::Vector2d place = place_along(leg, start);
-    if (std::abs(place.y()) < kOnTheLine_m && place.x() > -kOnTheLine_m &&
-        place.x() < first_length_m(leg) - kOnTheLine_m) {
-      leg.line_W.front() = start;
+    if (const auto on_leg = find_place_on_leg(leg, map_, start)) {
+      leg.line_W.front() = *on_leg;
       return;
     }
     const double yaw_rad =

@@ -58,12 +58,17 @@ class RowFlight final : public Planner {
   }
 
  private:
-  /// The ground planners begin at the leg where the vehicle stands next to it. This one begins
-  /// where the vehicle stands and joins the leg within a metre.
-  static PlannedPath begin_at(const Eigen::Vector3d& start, PlannedPath path) {
-    constexpr double kAside_m = 1e-3, kJoin_m = 1.0;
+  /// The ground planners begin at the leg where the vehicle stands next to it. This one climbs to
+  /// the leg where that is steep still: an estimate on the ground may be wrong by as much, and
+  /// between the rows the middle is the safest place. Else it begins where the vehicle stands and
+  /// joins the leg within a metre.
+  PlannedPath begin_at(const Eigen::Vector3d& start, PlannedPath path) const {
+    constexpr double kAside_m = 1e-3, kJoin_m = 1.0, kClimbAside = 0.3;
     auto& points = path.points;
-    if (points.size() < 2 || (points[0].p_W - start).head<2>().norm() < kAside_m) return path;
+    if (points.size() < 2) return path;
+    const double aside_m = (points[0].p_W - start).head<2>().norm();
+    const double climb_m = params_.height_m - params_.standing_m;
+    if (aside_m < kAside_m || aside_m < kClimbAside * climb_m) return path;
     std::size_t joint = 1;
     while (joint + 1 < points.size() && (points[joint].p_W - start).head<2>().norm() < kJoin_m &&
            points[joint].alley == points[0].alley && points[joint].curvature_per_m == 0.0) {

@@ -175,8 +175,14 @@ class Ports {
  public:
   /// @param scope  vehicle name, or "run"
   /// @param part   who connects, for errors, e.g. "rover.controller"
-  Ports(SignalBus& bus, std::string scope, std::string part)
-      : bus_(bus), scope_(std::move(scope)), part_(std::move(part)) {}
+  /// @param written_as  local names that are written under another one, for a part that runs beside
+  ///   the one whose signals those are
+  Ports(SignalBus& bus, std::string scope, std::string part,
+        std::map<std::string, std::string> written_as = {})
+      : bus_(bus),
+        scope_(std::move(scope)),
+        part_(std::move(part)),
+        written_as_(std::move(written_as)) {}
 
   /// @param name  local name; a name with '/' is taken as it is
   template <class T>
@@ -190,7 +196,8 @@ class Ports {
   }
   template <class T>
   SignalWriter<T> write(const std::string& name) {
-    return bus_.advertise<T>(full_name(name), part_);
+    const auto other = written_as_.find(name);
+    return bus_.advertise<T>(full_name(other == written_as_.end() ? name : other->second), part_);
   }
   const std::string& scope() const { return scope_; }
   const std::string& part() const { return part_; }
@@ -202,6 +209,7 @@ class Ports {
   SignalBus& bus_;
   std::string scope_;
   std::string part_;
+  std::map<std::string, std::string> written_as_;
 };
 
 }  // namespace vinerow

@@ -55,7 +55,8 @@ struct SensorContext : PartContext {
   const Vehicle* vehicle_truth = nullptr;  ///< for inertial sensors
 };
 
-/// Reads sensors, writes "estimate" (Odometry).
+/// Reads sensors, writes "estimate" (Odometry). A vehicle acts on one; others may run beside it as
+/// observers (observer.h).
 class Estimator : public SteppedPart {};
 
 struct EstimatorContext : PartContext {
@@ -129,6 +130,8 @@ struct MetricContext : PartContext {
   const SceneQuery* scene = nullptr;
   const WorldModel* world = nullptr;
   const Vehicle* vehicle_truth = nullptr;  ///< for what no signal tells: crash()
+  /// Names of the vehicle's observers; observer_signals() tells what each one writes.
+  std::vector<std::string> observers;
 };
 
 /// Builds the true world. Everything is decided here; a WorldModel does not change afterwards.

@@ -12,19 +12,11 @@
 
 #include "engine/core/error.h"
 #include "engine/io/geo.h"
+#include "engine/io/quiet_gdal.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::io {
 namespace {
-
-/// GDAL prints its errors on stderr; ours say them in one sentence.
-class QuietGdal {
- public:
-  QuietGdal() { CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
 
 struct DatasetCloser {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }

@@ -57,6 +57,7 @@ struct VehicleConfig {
   std::optional<PartConfig> map;        ///< absent: the vehicle knows the true rows
   std::vector<NamedPart> sensors;       ///< in file order
   std::optional<PartConfig> estimator;  ///< absent: estimate = truth
+  std::vector<NamedPart> observers;     ///< estimators beside it, in file order
   std::optional<PartConfig> planner;
   std::optional<PartConfig> guidance;
   std::optional<PartConfig> controller;
@@ -84,6 +85,8 @@ struct CameraConfig {
   bool show_plan = true;
   bool show_grid = false;         ///< the occupancy grid, of the log or the world
   bool show_tree = false;         ///< what planners searched
+  bool show_estimate = false;     ///< the estimates of vehicles and observers
+  bool show_map = false;          ///< the row meshes of vehicles' own maps
   std::string sensor = "camera";  ///< shots: whose pictures are drawn
   int every = 1;                  ///< shots: those whose index is a multiple of it
   SourceMark where;

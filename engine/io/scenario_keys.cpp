@@ -110,6 +110,9 @@ const std::vector<StructuralKey>& vehicle_keys() {
       part("sensors", KeyShape::kNamedParts, PartKind::kSensor, true, "the sensors by name"),
       part("estimator", KeyShape::kPart, PartKind::kEstimator, true,
            "makes the estimate from sensors; absent: the estimate is the truth"),
+      part("observers", KeyShape::kNamedParts, PartKind::kEstimator, true,
+           "estimators by name that run beside it, on the same sensors, and are judged by "
+           "the metric estimation; nothing acts on them"),
       part("planner", KeyShape::kPart, PartKind::kPlanner, true, "makes the path from the map"),
       part("guidance", KeyShape::kPart, PartKind::kGuidance, true, "local planning"),
       part("controller", KeyShape::kPart, PartKind::kController, true, "drives the actuators")};
@@ -226,6 +229,9 @@ std::vector<ParameterSpec> camera_fields(const std::string& kind) {
   fields.push_back(boolean_parameter("show_plan", !is_plain, "draw the planned paths"));
   fields.push_back(boolean_parameter("show_grid", false, "draw the occupancy grid"));
   fields.push_back(boolean_parameter("show_tree", false, "draw what the planners searched"));
+  fields.push_back(boolean_parameter("show_estimate", false,
+                                     "draw where estimator and observers think the vehicles are"));
+  fields.push_back(boolean_parameter("show_map", false, "draw the vehicles' own maps"));
   return fields;
 }
 
@@ -262,11 +268,11 @@ bool is_valid_name(const std::string& name) {
                      [&](char c) { return is_inner(static_cast<unsigned char>(c)); });
 }
 
-const std::vector<std::string>& reserved_sensor_names() {
+const std::vector<std::string>& reserved_signal_names() {
   static const std::vector<std::string> names = {
-      "truth",     "estimate",        "plan",    "reference", "links",
-      "actuators", "follower",        "command", "plan_tree", "local_command",
-      "ellipsoid", "estimator_state", "contacts"};
+      "truth",     "estimate",        "plan",     "reference", "links",
+      "actuators", "follower",        "command",  "plan_tree", "local_command",
+      "ellipsoid", "estimator_state", "contacts", "map_edges"};
   return names;
 }
 

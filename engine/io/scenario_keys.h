@@ -69,7 +69,7 @@ ParameterSpec rate_field(PartKind kind, const PartSpec& part);
 /// the loader share.
 constexpr const char* kNamePattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
 bool is_valid_name(const std::string& name);
-/// Signals of the kernel, which no sensor may be called.
-const std::vector<std::string>& reserved_sensor_names();
+/// Signals of the kernel and of a vehicle's parts, after which no sensor or observer may be called.
+const std::vector<std::string>& reserved_signal_names();
 
 }  // namespace vinerow::io

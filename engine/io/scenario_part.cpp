@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
+#include "engine/api/observer.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/io/scenario_keys.h"
@@ -15,6 +17,10 @@ namespace {
 
 bool is_known(const std::string& name, const std::vector<std::string>& known) {
   return std::find(known.begin(), known.end(), name) != known.end();
+}
+
+std::string with_article(PartKind kind) {
+  return fmt::format("{} {}", kind == PartKind::kEstimator ? "an" : "a", to_string(kind));
 }
 
 /// The spec of the type that a part names.
@@ -34,8 +40,8 @@ const PartSpec& read_type(const YamlEntry& entry, const std::string& path, PartK
   for (const PartKind other : kAllPartKinds) {
     if (!is_known(type->text, context.registry.names(other))) continue;
     fail_at(type->mark,
-            fmt::format("{}.type = '{}' is a {}, must be a {} (known: {})", path, type->text,
-                        to_string(other), to_string(kind), known.empty() ? "none" : join(known)));
+            fmt::format("{}.type = '{}' is {}, must be {} (known: {})", path, type->text,
+                        with_article(other), with_article(kind), known.empty() ? "none" : join(known)));
   }
   fail_at(type->mark,
           fmt::format("{}.type = {}: unknown {}{} (known: {})", path, shown(*type), to_string(kind),
@@ -104,10 +110,12 @@ std::optional<PartConfig>& slot_of(VehicleConfig& vehicle, PartKind kind) {
   }
 }
 
-void check_sensor_name(const YamlEntry& entry, const std::string& path) {
-  if (is_known(entry.key, reserved_sensor_names())) {
-    fail_at(entry.mark, fmt::format("{}: a sensor cannot have the name of another signal ({})",
-                                    join_path(path, entry.key), join(reserved_sensor_names())));
+/// A sensor or an observer gives its signal its name.
+void check_signal_name(const YamlEntry& entry, const std::string& path, const char* what) {
+  if (is_known(entry.key, reserved_signal_names())) {
+    fail_at(entry.mark,
+            fmt::format("{}: {} cannot have the name of another signal ({})",
+                        join_path(path, entry.key), what, join(reserved_signal_names())));
   }
 }
 
@@ -119,6 +127,24 @@ void check_truth_names(const std::vector<NamedPart>& sensors, const std::string&
       fail_at(sensor.part.where,
               fmt::format("{}: a sensor cannot have the name of the truth beside the sensor '{}'",
                           join_path(path, sensor.name), other.name));
+    }
+  }
+}
+
+/// Whatever an observer writes must be its own.
+void check_observer_names(const VehicleConfig& vehicle, const std::string& path) {
+  std::map<std::string, std::string> taken;
+  for (const NamedPart& sensor : vehicle.sensors) {
+    taken.emplace(sensor.name, "the sensor '" + sensor.name + "'");
+    taken.emplace(sensor.name + "_truth", "the truth beside the sensor '" + sensor.name + "'");
+  }
+  for (const NamedPart& observer : vehicle.observers) {
+    for (const auto& [local, signal] : observer_signals(observer.name)) {
+      const auto [other, is_free] = taken.emplace(signal, "the observer '" + observer.name + "'");
+      if (is_free) continue;
+      fail_at(observer.part.where,
+              fmt::format("{}.observers.{}: its signal '{}' has the name of {}", path,
+                          observer.name, signal, other->second));
     }
   }
 }
@@ -180,7 +206,8 @@ std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::stri
   resolved = yaml_mapping();
   for (const YamlEntry& entry : mapping.entries) {
     check_name(entry, path, to_string(kind));
-    if (kind == PartKind::kSensor) check_sensor_name(entry, path);
+    if (kind == PartKind::kSensor) check_signal_name(entry, path, "a sensor");
+    if (kind == PartKind::kEstimator) check_signal_name(entry, path, "an observer");
     if (entry.value.is_null()) continue;
     ReadPart part = read_part(entry, join_path(path, entry.key), kind, context);
     parts.push_back({entry.key, std::move(part.config)});
@@ -223,7 +250,8 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
     if (key.shape == KeyShape::kSpawn) {
       vehicle.spawn = read_spawn(*given, key_path, written);
     } else if (key.shape == KeyShape::kNamedParts) {
-      vehicle.sensors = read_named_parts(given->value, key_path, key.part_kind, context, written);
+      auto& named = key.part_kind == PartKind::kSensor ? vehicle.sensors : vehicle.observers;
+      named = read_named_parts(given->value, key_path, key.part_kind, context, written);
     } else {
       ReadPart own = read_part(*given, key_path, key.part_kind, context);
       slot_of(vehicle, key.part_kind) = std::move(own.config);
@@ -231,6 +259,7 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
     }
     resolved.put(key.spec.name, std::move(written));
   }
+  check_observer_names(vehicle, path);
   return vehicle;
 }
 

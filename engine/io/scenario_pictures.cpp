@@ -63,6 +63,8 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
   camera.show_plan = values.boolean("show_plan");
   camera.show_grid = values.boolean("show_grid");
   camera.show_tree = values.boolean("show_tree");
+  camera.show_estimate = values.boolean("show_estimate");
+  camera.show_map = values.boolean("show_map");
   if (kind == "fixed") {
     camera.kind = CameraKind::kFixed;
     camera.p_W = vector_of(values, "position_m");

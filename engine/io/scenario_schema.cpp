@@ -243,8 +243,8 @@ class SchemaBuilder {
         break;
       case KeyShape::kNamedParts: {
         Json names = name;
-        if (key.part_kind == PartKind::kSensor) {
-          names["not"] = {{"enum", reserved_sensor_names()}};
+        if (key.part_kind != PartKind::kMetric) {
+          names["not"] = {{"enum", reserved_signal_names()}};
         }
         schema = named(to_string(key.part_kind), std::move(names), partial);
         break;

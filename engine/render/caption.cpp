@@ -66,6 +66,14 @@ void blend(Image& image, int x, int y, const Rgb& colour, double alpha) {
   }
 }
 
+Rgb to_bytes(const Eigen::Vector3f& colour) {
+  Rgb rgb;
+  for (int c = 0; c < 3; ++c) {
+    rgb[c] = static_cast<int>(std::lround(std::clamp(colour[c], 0.0f, 1.0f) * 255.0f));
+  }
+  return rgb;
+}
+
 /// Draws (or, without an image, measures) one line. @returns its width in pixels
 double draw_line(FT_Face face, int size_px, const std::string& text, double x, int baseline,
                  Image* image, const Rgb& ink = {248, 246, 238}) {
@@ -110,10 +118,51 @@ void draw_panel(Image& image, int x0, int y0, int x1, int y1, double radius) {
   }
 }
 
+/// Legend entries side by side, with where each begins in its row, pixels.
+struct LegendPlace {
+  int row = 0;
+  double x = 0.0;
+};
+struct LegendLayout {
+  std::vector<LegendPlace> places;
+  int rows = 0;
+  double width = 0.0;
+};
+
+LegendLayout lay_out(const std::vector<LegendEntry>& legend, FT_Face face, int size_px,
+                     double most_width) {
+  LegendLayout layout;
+  double x = 0.0;
+  for (const LegendEntry& entry : legend) {
+    const double width = size_px + draw_line(face, size_px, entry.text, 0.0, 0, nullptr);
+    if (layout.rows == 0 || x + width > most_width) {
+      ++layout.rows;
+      x = 0.0;
+    }
+    layout.places.push_back({layout.rows - 1, x});
+    layout.width = std::max(layout.width, x + width);
+    x += width + 1.2 * size_px;
+  }
+  return layout;
+}
+
+/// A square as high as small letters, and the text behind it.
+void draw_entry(const LegendEntry& entry, FT_Face face, int size_px, double x, int baseline,
+                Image& image) {
+  const int side = static_cast<int>(std::lround(0.62 * size_px));
+  const int left = static_cast<int>(std::lround(x));
+  const Rgb colour = to_bytes(entry.colour);
+  for (int dy = 0; dy < side; ++dy) {
+    for (int dx = 0; dx < side; ++dx) blend(image, left + dx, baseline - 1 - dy, colour, 1.0);
+  }
+  draw_line(face, size_px, entry.text, x + size_px, baseline, &image);
+}
+
 }  // namespace
 
-bool draw_caption(const std::vector<std::string>& lines, Image& image) {
-  if (lines.empty()) return false;
+bool draw_caption(const std::vector<std::string>& lines, Image& image,
+                  const std::vector<LegendEntry>& legend) {
+  if (lines.empty() && legend.empty()) return false;
   const Fonts fonts;
   if (fonts.plain() == nullptr) return false;
   const int small = std::max(10, static_cast<int>(std::lround(image.height * 0.0235)));
@@ -128,7 +177,10 @@ bool draw_caption(const std::vector<std::string>& lines, Image& image) {
     width = std::max(width, draw_line(first ? fonts.bold() : fonts.plain(), first ? large : small,
                                       lines[i], 0.0, 0, nullptr));
   }
-  const int count = static_cast<int>(lines.size());
+  const LegendLayout layout =
+      lay_out(legend, fonts.plain(), small, image.width - 2.0 * (margin + padding));
+  width = std::max(width, layout.width);
+  const int count = static_cast<int>(lines.size()) + layout.rows;
   const int height = 2 * padding + large + (count - 1) * (small + gap) - small / 5;
   const int x0 = margin;
   const int y1 = image.height - margin;
@@ -140,6 +192,11 @@ bool draw_caption(const std::vector<std::string>& lines, Image& image) {
     draw_line(first ? fonts.bold() : fonts.plain(), first ? large : small, lines[i], x0 + padding,
               baseline, &image);
     baseline += small + gap;
+  }
+  for (std::size_t i = 0; i < legend.size(); ++i) {
+    const LegendPlace& place = layout.places[i];
+    draw_entry(legend[i], fonts.plain(), small, x0 + padding + place.x,
+               baseline + place.row * (small + gap), image);
   }
   return true;
 }

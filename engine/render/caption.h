@@ -11,8 +11,11 @@ namespace vinerow::render {
 
 /// The first line is bold and larger; sizes follow the picture's height. UTF-8. Where the fonts
 /// (DejaVu Sans, Debian package fonts-dejavu-core) are absent the picture stays as it is.
+/// @param legend  below the lines, each text behind a square of its colour, in as many rows as the
+///   picture's width asks for
 /// @returns whether the text was drawn
-bool draw_caption(const std::vector<std::string>& lines, Image& image);
+bool draw_caption(const std::vector<std::string>& lines, Image& image,
+                  const std::vector<LegendEntry>& legend = {});
 
 /// One line of text, without a panel. @param x,baseline  pixels, where it begins
 /// @param rgb  0 to 255 @returns its width in pixels; 0 where the fonts are absent, or drawn

@@ -14,6 +14,7 @@
 #include "engine/render/land_use.h"
 #include "engine/render/light.h"
 #include "engine/render/offscreen_context.h"
+#include "engine/render/ribbons.h"
 #include "engine/render/shaders.h"
 #include "engine/render/shadow_maps.h"
 #include "engine/render/terrain_mesh.h"
@@ -62,6 +63,7 @@ class GlRenderer final : public Renderer {
   /// Readies texture and programs of the frame's grid; they are made when the first frame has one.
   void prepare_grid(const Frame& frame);
   void draw_grid_map();
+  void draw_ribbon(const std::vector<RibbonVertex>& vertices);
   void draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
   void draw_drawable(const Program& program, const Drawable& drawable);
   void draw_mesh(const GpuMesh& mesh);

@@ -291,6 +291,15 @@ void GlRenderer::draw_grid_map() {
   gl_.Enable(GL_DEPTH_TEST);
 }
 
+void GlRenderer::draw_ribbon(const std::vector<RibbonVertex>& vertices) {
+  gl_.BindBuffer(GL_ARRAY_BUFFER, ribbon_buffer_);
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(RibbonVertex)),
+                 vertices.data(), GL_STREAM_DRAW);
+  gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+  ++statistics_.draw_calls;
+  statistics_.triangles += static_cast<std::int64_t>(vertices.size() / 3);
+}
+
 void GlRenderer::draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from_world) {
   gl_.UseProgram(ribbon_.id);
   gl_.Disable(GL_CULL_FACE);
@@ -303,18 +312,19 @@ void GlRenderer::draw_lines(const Frame& frame, const Eigen::Matrix4d& clip_from
   gl_.BindVertexArray(ribbon_array_);
   GLint number = 0;
   for (const Polyline& line : frame.lines) {
-    const std::vector<RibbonVertex> vertices =
+    std::vector<RibbonVertex> vertices =
         make_ribbon(line, terrain_ ? &*terrain_ : nullptr, clip_from_world, frame.camera,
                     frame.width, frame.height);
     if (vertices.empty()) continue;
     number = number % 255 + 1;
     gl_.StencilFunc(GL_NOTEQUAL, number, 0xff);
-    gl_.BindBuffer(GL_ARRAY_BUFFER, ribbon_buffer_);
-    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(RibbonVertex)),
-                   vertices.data(), GL_STREAM_DRAW);
-    gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
-    ++statistics_.draw_calls;
-    statistics_.triangles += static_cast<std::int64_t>(vertices.size() / 3);
+    draw_ribbon(vertices);
+    if (line.hidden_alpha <= 0.0f) continue;
+    // What is seen of the line wins where it crosses a hidden part of itself: same number.
+    set_alpha(vertices, line.hidden_alpha);
+    gl_.DepthFunc(GL_GREATER);
+    draw_ribbon(vertices);
+    gl_.DepthFunc(GL_LEQUAL);
   }
   gl_.Disable(GL_STENCIL_TEST);
   gl_.Disable(GL_BLEND);
@@ -367,7 +377,7 @@ Image GlRenderer::draw(const Frame& frame) {
   draw_lines(frame, clip_from_world);
   Image image = target_.read();
   check_gl(gl_, "drawing a frame");
-  draw_caption(frame.caption, image);
+  draw_caption(frame.caption, image, frame.legend);
   return image;
 }
 

@@ -14,6 +14,10 @@ constexpr double kLift_m = 0.04;
 constexpr double kBias_m = 0.12;
 constexpr double kNearW = 0.06;  // least clip w, m in front of the eye
 
+std::uint8_t to_byte(float v) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
+}
+
 /// Points along a part of the line, close enough for it to follow the ground, none below it.
 void drape(std::span<const Eigen::Vector3d> line, const HeightField* field,
            std::vector<Eigen::Vector3d>& points) {
@@ -66,9 +70,6 @@ class Builder {
   std::vector<RibbonVertex> vertices;
 
  private:
-  static std::uint8_t to_byte(float v) {
-    return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
-  }
   Eigen::Vector2d pixel(const Eigen::Vector4d& clip) const {
     return (clip.head<2>() / clip.w()).cwiseProduct(half_size_);
   }
@@ -164,6 +165,10 @@ std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* f
     draw_piece(points, clip_of, builder);
   }
   return std::move(builder.vertices);
+}
+
+void set_alpha(std::vector<RibbonVertex>& ribbon, float alpha) {
+  for (RibbonVertex& vertex : ribbon) vertex.colour[3] = to_byte(alpha);
 }
 
 }  // namespace vinerow::render

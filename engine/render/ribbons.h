@@ -25,4 +25,7 @@ std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* f
                                       const Eigen::Matrix4d& clip_from_world, const Camera& camera,
                                       int width_px, int height_px);
 
+/// Makes a ribbon as transparent as that. @param alpha  0 to 1
+void set_alpha(std::vector<RibbonVertex>& ribbon, float alpha);
+
 }  // namespace vinerow::render

@@ -45,6 +45,7 @@ struct Polyline {
   Eigen::Vector3f colour = {1, 1, 0};  ///< as seen on the screen (sRGB), not lit
   float width_px = 3.0f;
   float alpha = 1.0f;
+  float hidden_alpha = 0.0f;  ///< of what lies behind something else; 0: is not seen
   bool dashed = false;
   bool pairs = false;  ///< two points each are a piece of their own (LineList)
 };
@@ -56,6 +57,12 @@ struct Camera {
   double ortho_height_m = 50.0;  ///< of the picture, for orthographic cameras
 };
 
+/// What a colour stands for.
+struct LegendEntry {
+  std::string text;
+  Eigen::Vector3f colour = {1, 1, 1};  ///< sRGB, as of the lines
+};
+
 struct Frame {
   Camera camera;
   std::vector<VehicleDrawing> vehicles;
@@ -64,6 +71,7 @@ struct Frame {
   /// until another is shown, so that its texture is made once.
   std::shared_ptr<const OccupancyGrid> grid;
   std::vector<std::string> caption;  ///< lower left, first line larger
+  std::vector<LegendEntry> legend;   ///< below the caption's lines
   int width = 1280;
   int height = 720;
   int samples = 4;  ///< pixels drawn for each of the picture: 1, 4 (smooth edges) or 9

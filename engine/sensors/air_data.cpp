@@ -2,16 +2,16 @@
 
 #include <cmath>
 
-#include "engine/sensors/readings.h"
+#include "engine/sensors/reading_sensor.h"
 
 namespace vinerow {
 namespace {
 
-class AirDataProbe final : public Sensor {
+class AirDataProbe final : public ReadingSensor<AirData> {
  public:
   AirDataProbe(const ParameterSet& parameters, const SensorContext& context)
-      : vehicle_(context.vehicle_truth),
-        readings_(parameters, context),
+      : ReadingSensor(parameters, context),
+        vehicle_(context.vehicle_truth),
         random_(context.random()),
         noise_std_mps_(parameters.number("noise_std_mps")),
         scale_(1.0 + parameters.number("scale_error")),
@@ -19,10 +19,6 @@ class AirDataProbe final : public Sensor {
     const double lag_s = parameters.number("lag_s");
     kept_share_ = lag_s > 0.0 ? std::exp(-context.period.s() / lag_s) : 0.0;
   }
-
-  void connect(Ports& ports) override { readings_.connect(ports); }
-  Duration delay() const override { return readings_.delay(); }
-  void deliver(Time) override { readings_.deliver(); }
 
   void step(Time now) override {
     const Eigen::Vector3d truth_B = vehicle_->air_velocity_B();
@@ -41,7 +37,6 @@ class AirDataProbe final : public Sensor {
 
  private:
   const Vehicle* vehicle_;
-  Readings<AirData> readings_;
   RandomStream random_;
   double noise_std_mps_;
   double scale_;
@@ -54,22 +49,18 @@ class AirDataProbe final : public Sensor {
 }  // namespace
 
 PartSpec air_data_spec() {
-  PartSpec spec;
-  spec.name = "air_data";
-  spec.description =
-      "Pitot tube and vanes: velocity through the air with white noise, lag, delay and scale error";
-  spec.default_rate_Hz = 20.0;
   // Defaults are assumptions, of no data sheet: noise of one degree of the vanes at 12 m/s, a lag
   // of one tick, no scale error, and a speed below which vanes do not turn.
-  spec.parameters = {
-      number_parameter("noise_std_mps", "m/s", 0.2, 0.0, 50.0, "white noise of each axis"),
-      number_parameter("lag_s", "s", 0.05, 0.0, 60.0, "time constant of the tube and the vanes"),
-      number_parameter("scale_error", "", 0.0, -0.5, 0.5, "share by which it reads too much"),
-      number_parameter("min_airspeed_mps", "m/s", 2.0, 0.0, 100.0,
-                       "below this airspeed it reads zero")};
-  add_reading_parameters(spec.parameters);
+  PartSpec spec = reading_sensor_spec<AirData>(
+      "air_data",
+      "Pitot tube and vanes: velocity through the air with white noise, lag, delay and scale error",
+      20.0,
+      {number_parameter("noise_std_mps", "m/s", 0.2, 0.0, 50.0, "white noise of each axis"),
+       number_parameter("lag_s", "s", 0.05, 0.0, 60.0, "time constant of the tube and the vanes"),
+       number_parameter("scale_error", "", 0.0, -0.5, 0.5, "share by which it reads too much"),
+       number_parameter("min_airspeed_mps", "m/s", 2.0, 0.0, 100.0,
+                        "below this airspeed it reads zero")});
   spec.reads = {"the vehicle's true velocity through the air"};
-  spec.writes = {"<name>: AirData", "<name>_truth: AirData"};
   return spec;
 }
 

@@ -11,8 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/camera_gimbal.h"
-#include "engine/sensors/mounting.h"
-#include "engine/sensors/readings.h"
+#include "engine/sensors/mounted_sensor.h"
 
 namespace vinerow {
 namespace {
@@ -21,12 +20,11 @@ namespace {
 constexpr double kFarthest_m = 10'000.0;
 constexpr SurfaceMask kGround = mask_of(SurfaceClass::kTerrain);
 
-class CameraTrigger final : public Sensor {
+class CameraTrigger final : public MountedSensor<CameraShot> {
  public:
   CameraTrigger(const ParameterSet& parameters, const SensorContext& context)
-      : scene_(context.scene),
-        X_BS_(mounting_pose(parameters)),
-        readings_(parameters, context),
+      : MountedSensor(parameters, context),
+        scene_(context.scene),
         camera_(read_survey_camera(parameters)),
         on_lanes_(parameters.text("on") == "lanes"),
         has_gimbal_(parameters.text("mount") == "gimbal"),
@@ -60,20 +58,16 @@ class CameraTrigger final : public Sensor {
   }
 
   void connect(Ports& ports) override {
-    truth_ = ports.read<Odometry>("truth");
     if (on_lanes_) {
       // For the check that somebody plans: without lanes there would never be a picture.
       static_cast<void>(ports.read<PlannedPath>("plan"));
       plan_.connect(ports);
     }
-    readings_.connect(ports);
+    MountedSensor::connect(ports);
   }
-  Duration delay() const override { return readings_.delay(); }
-  void deliver(Time) override { readings_.deliver(); }
-  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
 
   void step(Time now) override {
-    const Odometry& truth = truth_.value();
+    const Odometry& truth = body();
     // A gimbal also turns between the pictures.
     const Eigen::Quaterniond q_W =
         has_gimbal_ ? gimbal_.advance((now - last_).s(), truth.X_WB.q) : truth.X_WB.q;
@@ -84,7 +78,7 @@ class CameraTrigger final : public Sensor {
     }
     waits_for_lane_ = false;
     shot_.index += 1;
-    look({q_W * X_BS_.q, truth.X_WB * X_BS_.p});
+    look({q_W * X_BS_.q, X_WS().p});
     shot_at_ = now;
     shot_from_W_ = truth.X_WB.p.head<2>();
     readings_.push(now, shot_, shot_);
@@ -128,8 +122,6 @@ class CameraTrigger final : public Sensor {
   }
 
   const SceneQuery* scene_;
-  Pose X_BS_;
-  Readings<CameraShot> readings_;
   SurveyCamera camera_;
   bool on_lanes_;
   bool has_gimbal_;
@@ -145,48 +137,43 @@ class CameraTrigger final : public Sensor {
   int lane_ = -1;
   bool waits_for_lane_ = false;  ///< a lane has begun, and there is no picture of it yet
   PlanStretch plan_;
-  SignalReader<Odometry> truth_;
 };
 
 }  // namespace
 
 PartSpec camera_trigger_spec() {
-  PartSpec spec;
-  spec.name = "camera_trigger";
-  spec.description =
+  PartSpec spec = mounted_sensor_spec<CameraShot>(
+      "camera_trigger",
       "Survey camera: pictures by time or by distance, each with its pose and its footprint on the "
-      "ground";
-  spec.default_rate_Hz = 20.0;
-  spec.parameters = mounting_parameters({0.0, 0.0, 0.0});
+      "ground",
+      20.0,
+      join_parameters(
+          {survey_camera_parameters(),
+           {optional(
+                positive_parameter("interval_s", "s", 1.0,
+                                   "time between pictures; default: as fast as the camera can")),
+            optional(
+                positive_parameter("distance_m", "m", 10.0,
+                                   "distance over ground between pictures, instead of interval_s")),
+            choice_parameter("on", "lanes", {"lanes", "always"},
+                             "where it takes pictures: on the plan's legs only, or all the time"),
+            choice_parameter("mount", "fixed", {"fixed", "gimbal"},
+                             "gimbal: a stabilised mount takes the vehicle's roll and pitch out of "
+                             "rotation_deg"),
+            // Chosen: travel of small servo gimbals; a lag a little above that of small digital
+            // servos (0.04 s), since the gimbal measures the attitude first. Direct drives are
+            // much faster.
+            number_parameter("gimbal_limit_deg", "deg", 30.0, 0.0, 90.0,
+                             "roll and pitch that the gimbal takes out at most"),
+            number_parameter("gimbal_lag_s", "s", 0.05, 0.0, 10.0,
+                             "time constant with which the gimbal follows; 0: at once")}}));
   for (ParameterSpec& parameter : spec.parameters) {
     // Straight down, upper edge of the picture ahead.
     if (parameter.name == "rotation_deg") {
       parameter.default_value = std::vector<double>{0.0, 90.0, 0.0};
     }
   }
-  for (ParameterSpec& parameter : survey_camera_parameters()) {
-    spec.parameters.push_back(std::move(parameter));
-  }
-  spec.parameters.push_back(optional(positive_parameter(
-      "interval_s", "s", 1.0, "time between pictures; default: as fast as the camera can")));
-  spec.parameters.push_back(optional(positive_parameter(
-      "distance_m", "m", 10.0, "distance over ground between pictures, instead of interval_s")));
-  spec.parameters.push_back(choice_parameter("on", "lanes", {"lanes", "always"},
-                                             "where it takes pictures: on the plan's legs only, or "
-                                             "all the time"));
-  spec.parameters.push_back(choice_parameter(
-      "mount", "fixed", {"fixed", "gimbal"},
-      "gimbal: a stabilised mount takes the vehicle's roll and pitch out of rotation_deg"));
-  // Chosen: travel of small servo gimbals; a lag a little above that of small digital servos
-  // (0.04 s), since the gimbal measures the attitude first. Direct drives are much faster.
-  spec.parameters.push_back(number_parameter("gimbal_limit_deg", "deg", 30.0, 0.0, 90.0,
-                                             "roll and pitch that the gimbal takes out at most"));
-  spec.parameters.push_back(
-      number_parameter("gimbal_lag_s", "s", 0.05, 0.0, 10.0,
-                       "time constant with which the gimbal follows; 0: at once"));
-  add_reading_parameters(spec.parameters);
-  spec.reads = {"truth", "plan (where on: lanes)"};
-  spec.writes = {"<name>: CameraShot", "<name>_truth: CameraShot"};
+  spec.reads.push_back("plan (where on: lanes)");
   return spec;
 }
 

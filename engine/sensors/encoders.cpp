@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "engine/core/error.h"
-#include "engine/sensors/readings.h"
+#include "engine/sensors/reading_sensor.h"
+#include "engine/sensors/resolution.h"
 
 namespace vinerow {
 namespace {
@@ -17,15 +18,16 @@ struct Channel {
   double noise_std = 0.0;
 
   double read(double truth, RandomStream& random) const {
-    const double noisy = truth + noise_std * random.normal();
-    return resolution > 0.0 ? resolution * std::round(noisy / resolution) : noisy;
+    return round_to_step(truth + noise_std * random.normal(), resolution);
   }
 };
 
-class Encoders final : public Sensor {
+class Encoders final : public ReadingSensor<NamedValues> {
  public:
   Encoders(const ParameterSet& parameters, const SensorContext& context)
-      : vehicle_(context.vehicle_truth), readings_(parameters, context), random_(context.random()) {
+      : ReadingSensor(parameters, context),
+        vehicle_(context.vehicle_truth),
+        random_(context.random()) {
     const Channel angle{parameters.number("angle_resolution_rad"),
                         parameters.number("angle_noise_std_rad")};
     const Channel speed{parameters.number("speed_resolution_radps"),
@@ -51,10 +53,6 @@ class Encoders final : public Sensor {
     readings_.prefill(reading_);
   }
 
-  void connect(Ports& ports) override { readings_.connect(ports); }
-  Duration delay() const override { return readings_.delay(); }
-  void deliver(Time) override { readings_.deliver(); }
-
   void step(Time now) override {
     const std::span<const double> truth = vehicle_->actuator_states();
     const bool out = readings_.is_in_outage(now);
@@ -68,7 +66,6 @@ class Encoders final : public Sensor {
 
  private:
   const Vehicle* vehicle_;
-  Readings<NamedValues> readings_;
   RandomStream random_;
   std::vector<Channel> channels_;  // per actuator
   NamedValues reading_;
@@ -78,26 +75,20 @@ class Encoders final : public Sensor {
 }  // namespace
 
 PartSpec encoders_spec() {
-  PartSpec spec;
-  spec.name = "encoders";
-  spec.description = "Steering angles and wheel speeds of the actuators, with noise and resolution";
-  spec.default_rate_Hz = 50.0;
   // Defaults: a 12-bit absolute magnetic encoder on the steering axle (AMS AS5600 data sheet: 4096
   // steps a turn, 0.015 deg noise in the slow filter), and a motor's hall-sensor speed estimate
   // (chosen: 0.01 rad/s at the wheel).
-  spec.parameters = {
-      number_parameter("angle_resolution_rad", "rad", 0.00153398, 0.0, 1.0,
-                       "step of angle readings; 0 = none"),
-      number_parameter("angle_noise_std_rad", "rad", 0.00026, 0.0, 1.0,
-                       "white noise of angle readings"),
-      number_parameter("speed_resolution_radps", "rad/s", 0.005, 0.0, 10.0,
-                       "step of speed readings; 0 = none"),
-      number_parameter("speed_noise_std_radps", "rad/s", 0.01, 0.0, 10.0,
-                       "white noise of speed readings"),
-  };
-  add_reading_parameters(spec.parameters);
-  spec.writes = {"<name>: NamedValues", "<name>_truth: NamedValues"};
-  return spec;
+  return reading_sensor_spec<NamedValues>(
+      "encoders", "Steering angles and wheel speeds of the actuators, with noise and resolution",
+      50.0,
+      {number_parameter("angle_resolution_rad", "rad", 0.00153398, 0.0, 1.0,
+                        "step of angle readings; 0 = none"),
+       number_parameter("angle_noise_std_rad", "rad", 0.00026, 0.0, 1.0,
+                        "white noise of angle readings"),
+       number_parameter("speed_resolution_radps", "rad/s", 0.005, 0.0, 10.0,
+                        "step of speed readings; 0 = none"),
+       number_parameter("speed_noise_std_radps", "rad/s", 0.01, 0.0, 10.0,
+                        "white noise of speed readings")});
 }
 
 std::unique_ptr<Sensor> make_encoders(const ParameterSet& parameters,

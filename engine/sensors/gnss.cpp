@@ -7,12 +7,10 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/geo.h"
 #include "engine/sensors/gnss_error.h"
 #include "engine/sensors/gnss_mode.h"
 #include "engine/sensors/gnss_tracking.h"
-#include "engine/sensors/mounting.h"
-#include "engine/sensors/readings.h"
+#include "engine/sensors/satellite_receiver.h"
 
 namespace vinerow {
 namespace {
@@ -71,12 +69,10 @@ GnssSky read_sky(const ParameterSet& parameters, const SensorContext& context) {
                  read_utc(parameters.text("epoch_utc"), context.part + ": epoch_utc"));
 }
 
-class Gnss final : public Sensor {
+class Gnss final : public SatelliteReceiver {
  public:
   Gnss(const ParameterSet& parameters, const SensorContext& context)
-      : frame_(context.world->origin),
-        X_BS_(mounting_pose(parameters)),
-        readings_(parameters, context),
+      : SatelliteReceiver(parameters, context),
         jamming_(read_jamming(parameters, context.part)),
         tracking_(read_gnss_signals(parameters, context.part), read_sky(parameters, context),
                   *context.scene, context.period.s(), is_running_at_start(parameters),
@@ -85,20 +81,8 @@ class Gnss final : public Sensor {
                is_running_at_start(parameters)),
         error_(read_gnss_errors(parameters), context.period.s(), context.random()) {}
 
-  void connect(Ports& ports) override {
-    truth_ = ports.read<Odometry>("truth");
-    readings_.connect(ports);
-  }
-  Duration delay() const override { return readings_.delay(); }
-  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
-  void deliver(Time) override { readings_.deliver(); }
-
   void step(Time now) override {
-    const Odometry& truth = truth_.value();
-    GnssFix exact;
-    exact.valid = true;
-    exact.p_W = truth.X_WB * X_BS_.p;
-    exact.v_W = truth.X_WB.q * (truth.v_WB_B + truth.w_WB_B.cross(X_BS_.p));
+    const GnssFix exact = exact_fix();
     error_.draw();
 
     double jamming_dB = 0.0;
@@ -121,58 +105,39 @@ class Gnss final : public Sensor {
       error_.apply(is_rtk ? by_carrier : by_code, fix);
       locate(fix);
     }
-    locate(exact);
     readings_.push(now, fix, exact);
   }
 
  private:
-  void locate(GnssFix& fix) const {
-    const io::Geodetic g = frame_.to_geodetic(fix.p_W);
-    fix.latitude_rad = g.latitude_rad;
-    fix.longitude_rad = g.longitude_rad;
-    fix.altitude_m = g.altitude_m;
-  }
-
-  io::LocalFrame frame_;
-  Pose X_BS_;
-  Readings<GnssFix> readings_;
   std::vector<Jamming> jamming_;
   GnssTracking tracking_;
   GnssModes modes_;
   GnssError error_;
-  SignalReader<Odometry> truth_;
 };
 
 }  // namespace
 
 PartSpec gnss_spec() {
-  PartSpec spec;
-  spec.name = "gnss";
-  spec.description =
+  const std::vector<ParameterSpec> jamming = join_parameters(
+      {time_window_fields("the jamming"),
+       {required(number_parameter("drop_dB", "dB", 20.0, 0.0, 200.0,
+                                  "loss of carrier-to-noise density at its strongest")),
+        number_parameter("ramp_s", "s", 0.0, 0.0, 1e6, "how long it takes to rise, and to fall")}});
+  return mounted_sensor_spec<GnssFix>(
+      "gnss",
       "Satellite receiver, standalone to RTK, whose fix and error follow from the satellites it "
-      "sees past ground, posts and leaves";
-  spec.default_rate_Hz = 5.0;
-  spec.parameters = mounting_parameters({0.0, 0.0, 0.0});
-  const auto add = [&](std::vector<ParameterSpec> more) {
-    for (ParameterSpec& parameter : more) spec.parameters.push_back(std::move(parameter));
-  };
-  add({text_list_parameter("constellations", {"gps", "galileo"},
-                           "satellites it receives: gps, galileo"),
-       text_parameter("epoch_utc", "2024-06-15T10:00:00",
-                      "date and time at the start of the run, which say where satellites stand")});
-  add(gnss_mode_parameters());
-  add(gnss_signal_parameters());
-  add(gnss_error_parameters());
-  std::vector<ParameterSpec> jamming = time_window_fields("the jamming");
-  jamming.push_back(required(number_parameter(
-      "drop_dB", "dB", 20.0, 0.0, 200.0, "loss of carrier-to-noise density at its strongest")));
-  jamming.push_back(
-      number_parameter("ramp_s", "s", 0.0, 0.0, 1e6, "how long it takes to rise, and to fall"));
-  add({group_list_parameter("jamming", std::move(jamming), "time windows of disturbed reception")});
-  add_reading_parameters(spec.parameters);
-  spec.reads = {"truth"};
-  spec.writes = {"<name>: GnssFix", "<name>_truth: GnssFix"};
-  return spec;
+      "sees past ground, posts and leaves",
+      5.0,
+      join_parameters(
+          {{text_list_parameter("constellations", {"gps", "galileo"},
+                                "satellites it receives: gps, galileo"),
+            text_parameter("epoch_utc", "2024-06-15T10:00:00",
+                           "date and time at the start of the run, which say where satellites "
+                           "stand")},
+           gnss_mode_parameters(),
+           gnss_signal_parameters(),
+           gnss_error_parameters(),
+           {group_list_parameter("jamming", jamming, "time windows of disturbed reception")}}));
 }
 
 std::unique_ptr<Sensor> make_gnss(const ParameterSet& parameters, const SensorContext& context) {

@@ -1,8 +1,7 @@
 #include "engine/sensors/imu.h"
 
 #include "engine/math/angles.h"
-#include "engine/sensors/mounting.h"
-#include "engine/sensors/readings.h"
+#include "engine/sensors/mounted_sensor.h"
 #include "engine/sensors/triad.h"
 
 namespace vinerow {
@@ -36,47 +35,34 @@ Vector3d rotation_vector(const Quaterniond& q) {
   return q.vec() * (angle / sine);
 }
 
-class Imu final : public Sensor {
+class Imu final : public MountedSensor<ImuSample> {
  public:
   Imu(const ParameterSet& parameters, const SensorContext& context)
-      : vehicle_(context.vehicle_truth),
-        X_BS_(mounting_pose(parameters)),
+      : MountedSensor(parameters, context),
+        vehicle_(context.vehicle_truth),
         gravity_W_(0.0, 0.0, context.gravity_mps2),
         period_s_(context.period.s()),
         gyro_(gyro_names(), parameters, context),
-        accelerometer_(accelerometer_names(), parameters, context),
-        readings_(parameters, context) {
+        accelerometer_(accelerometer_names(), parameters, context) {
     RandomStream device = context.random("g_sensitivity");
     const double std_radps_per_mps2 =
         rad_from_deg(parameters.number("gyro_g_sensitivity_std_dps_per_g")) / kStandardGravity_mps2;
     for (int i = 0; i < 9; ++i) g_sensitivity_(i) = std_radps_per_mps2 * device.normal();
   }
 
-  void connect(Ports& ports) override {
-    truth_ = ports.read<Odometry>("truth");
-    readings_.connect(ports);
-  }
-  Duration delay() const override { return readings_.delay(); }
-  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
-  void deliver(Time) override { readings_.deliver(); }
-
   void step(Time now) override {
-    const ImuSample truth = measure(truth_.value());
+    const ImuSample truth = measure();
     ImuSample sample;
     sample.w_WS_S = gyro_.read(truth.w_WS_S + g_sensitivity_ * truth.f_WS_S);
     sample.f_WS_S = accelerometer_.read(truth.f_WS_S);
-    if (readings_.is_in_outage(now)) {
-      readings_.push_silence(now, truth);
-    } else {
-      readings_.push(now, sample, truth);
-    }
+    readings_.push_or_silence(now, sample, truth);
   }
 
  private:
   /// Without errors.
-  ImuSample measure(const Odometry& body) {
-    const Quaterniond q_WS = body.X_WB.q * X_BS_.q;
-    const Vector3d v_WS_W = body.X_WB.q * (body.v_WB_B + body.w_WB_B.cross(X_BS_.p));
+  ImuSample measure() {
+    const Quaterniond q_WS = X_WS().q;
+    const Vector3d v_WS_W = v_WS();
     const Quaterniond q_SB = X_BS_.q.conjugate();
     ImuSample truth;
     if (has_last_) {
@@ -85,7 +71,7 @@ class Imu final : public Sensor {
       truth.w_WS_S = turn_S / period_s_;
       truth.f_WS_S = q_W_middle.conjugate() * ((v_WS_W - last_v_WS_W_) / period_s_ + gravity_W_);
     } else {
-      const Vector3d& w_B = body.w_WB_B;
+      const Vector3d& w_B = body().w_WB_B;
       truth.w_WS_S = q_SB * w_B;
       truth.f_WS_S = q_SB * (vehicle_->specific_force_B() + w_B.cross(w_B.cross(X_BS_.p)));
     }
@@ -96,43 +82,32 @@ class Imu final : public Sensor {
   }
 
   const Vehicle* vehicle_;
-  Pose X_BS_;
   Vector3d gravity_W_;  ///< what an accelerometer at rest reads
   double period_s_;
   Triad gyro_;
   Triad accelerometer_;
   Eigen::Matrix3d g_sensitivity_;  ///< rad/s per m/s2
-  Readings<ImuSample> readings_;
   Quaterniond last_q_WS_ = Quaterniond::Identity();
   Vector3d last_v_WS_W_ = Vector3d::Zero();
   bool has_last_ = false;
-  SignalReader<Odometry> truth_;
 };
 
 }  // namespace
 
 PartSpec imu_spec() {
-  PartSpec spec;
-  spec.name = "imu";
-  spec.description =
-      "Rate gyro and accelerometer: white noise, bias instability and random walk by their Allan "
-      "deviation, turn-on bias, scale, misalignment, saturation";
-  spec.default_rate_Hz = 100.0;
-  spec.parameters = mounting_parameters({0.0, 0.0, 0.0});
   // Defaults: white noise and ranges of the VectorNav VN-100/VN-200 (gyro 0.0035 deg/s/rtHz,
   // accelerometer 0.14 mg/rtHz, 2000 deg/s, 16 g); all else is off.
-  const auto add = [&](const std::vector<ParameterSpec>& more) {
-    spec.parameters.insert(spec.parameters.end(), more.begin(), more.end());
-  };
-  add(triad_parameters(gyro_names(), 0.0035, 2000.0));
-  spec.parameters.push_back(number_parameter(
-      "gyro_g_sensitivity_std_dps_per_g", "deg/s/g", 0.0, 0.0, 10.0,
-      "rate read per specific force, drawn once per run for each gyro and each direction"));
-  add(triad_parameters(accelerometer_names(), 0.00137, 156.9));
-  add_reading_parameters(spec.parameters);
-  spec.reads = {"truth"};
-  spec.writes = {"<name>: ImuSample", "<name>_truth: ImuSample"};
-  return spec;
+  return mounted_sensor_spec<ImuSample>(
+      "imu",
+      "Rate gyro and accelerometer: white noise, bias instability and random walk by their Allan "
+      "deviation, turn-on bias, scale, misalignment, saturation",
+      100.0,
+      join_parameters(
+          {triad_parameters(gyro_names(), 0.0035, 2000.0),
+           {number_parameter("gyro_g_sensitivity_std_dps_per_g", "deg/s/g", 0.0, 0.0, 10.0,
+                             "rate read per specific force, drawn once per run for each gyro and "
+                             "each direction")},
+           triad_parameters(accelerometer_names(), 0.00137, 156.9)}));
 }
 
 std::unique_ptr<Sensor> make_imu(const ParameterSet& parameters, const SensorContext& context) {

@@ -4,7 +4,7 @@
 
 #include "engine/math/angles.h"
 #include "engine/sensors/gauss_markov.h"
-#include "engine/sensors/readings.h"
+#include "engine/sensors/reading_sensor.h"
 
 namespace vinerow {
 namespace {
@@ -49,10 +49,11 @@ Quaterniond turn_by(const Vector3d& rotation) {
   return Quaterniond(Eigen::AngleAxisd(angle, rotation / angle));
 }
 
-class Ins final : public Sensor {
+class Ins final : public ReadingSensor<Odometry> {
  public:
   Ins(const ParameterSet& parameters, const SensorContext& context)
-      : position_std_m_(parameters.number("horizontal_std_m"),
+      : ReadingSensor(parameters, context),
+        position_std_m_(parameters.number("horizontal_std_m"),
                         parameters.number("horizontal_std_m"), parameters.number("vertical_std_m")),
         attitude_std_rad_(rad_from_deg(parameters.number("roll_pitch_std_deg")),
                           rad_from_deg(parameters.number("roll_pitch_std_deg")),
@@ -63,15 +64,12 @@ class Ins final : public Sensor {
         velocity_(Vector3d::Constant(parameters.number("velocity_std_mps")), "velocity", parameters,
                   context),
         attitude_(attitude_std_rad_, "attitude", parameters, context),
-        rate_random_(context.random("rate")),
-        readings_(parameters, context) {}
+        rate_random_(context.random("rate")) {}
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
-    readings_.connect(ports);
+    ReadingSensor::connect(ports);
   }
-  Duration delay() const override { return readings_.delay(); }
-  void deliver(Time) override { readings_.deliver(); }
 
   void step(Time now) override {
     const Odometry& truth = truth_.value();
@@ -85,11 +83,7 @@ class Ins final : public Sensor {
     }
     reading.position_variance_m2 = position_std_m_.cwiseAbs2();
     reading.yaw_std_rad = attitude_std_rad_.z();
-    if (readings_.is_in_outage(now)) {
-      readings_.push_silence(now, truth);
-    } else {
-      readings_.push(now, reading, truth);
-    }
+    readings_.push_or_silence(now, reading, truth);
   }
 
  private:
@@ -98,7 +92,6 @@ class Ins final : public Sensor {
   double rate_std_radps_;
   MixedError position_, velocity_, attitude_;
   RandomStream rate_random_;
-  Readings<Odometry> readings_;
   SignalReader<Odometry> truth_;
 };
 
@@ -113,13 +106,8 @@ void add_error(const std::string& quantity, double white_share, double time_s,
 }  // namespace
 
 PartSpec ins_spec() {
-  PartSpec spec;
-  spec.name = "ins";
-  spec.description =
-      "Aided inertial unit as a black box: pose and velocity with the errors of its data sheet";
-  spec.default_rate_Hz = 100.0;
   // Defaults: paper C, table 2 (VectorNav VN-200); see assets/sensors/vn200_ins.yaml.
-  auto& list = spec.parameters;
+  std::vector<ParameterSpec> list;
   const auto add = [&](const char* name, const char* unit, double value, const char* text) {
     list.push_back(number_parameter(name, unit, value, 0.0, 1e3, text));
   };
@@ -132,9 +120,11 @@ PartSpec ins_spec() {
   add("yaw_std_deg", "deg", 0.2, "1 sigma of yaw");
   add_error("attitude", 0.0, 60.0, list);
   add("rate_noise_dps_rtHz", "deg/s/sqrt(Hz)", 0.0035, "white noise density of the angular rate");
-  add_reading_parameters(list);
+  PartSpec spec = reading_sensor_spec<Odometry>(
+      "ins",
+      "Aided inertial unit as a black box: pose and velocity with the errors of its data sheet",
+      100.0, std::move(list));
   spec.reads = {"truth"};
-  spec.writes = {"<name>: Odometry", "<name>_truth: Odometry"};
   return spec;
 }
 

@@ -8,8 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "engine/sensors/mounting.h"
-#include "engine/sensors/readings.h"
+#include "engine/sensors/mounted_sensor.h"
 
 namespace vinerow {
 namespace {
@@ -39,12 +38,11 @@ int read_sub_rays(const ParameterSet& parameters) {
   return count;
 }
 
-class Lidar final : public Sensor {
+class Lidar final : public MountedSensor<LaserScan> {
  public:
   Lidar(const ParameterSet& parameters, const SensorContext& context)
-      : scene_(context.scene),
-        X_BS_(mounting_pose(parameters)),
-        readings_(parameters, context),
+      : MountedSensor(parameters, context),
+        scene_(context.scene),
         random_(context.random()),
         beams_(count_beams(parameters)),
         sub_rays_(read_sub_rays(parameters)),
@@ -81,16 +79,8 @@ class Lidar final : public Sensor {
     }
   }
 
-  void connect(Ports& ports) override {
-    truth_ = ports.read<Odometry>("truth");
-    readings_.connect(ports);
-  }
-  Duration delay() const override { return readings_.delay(); }
-  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
-  void deliver(Time) override { readings_.deliver(); }
-
   void step(Time now) override {
-    scan_.X_WS = true_scan_.X_WS = truth_.value().X_WB * X_BS_;
+    scan_.X_WS = true_scan_.X_WS = X_WS();
     const bool is_silent = readings_.is_in_outage(now);
     for (int beam = 0; beam < beams_; ++beam) {
       // The same count is drawn for every beam, whatever it sees.
@@ -159,8 +149,6 @@ class Lidar final : public Sensor {
   }
 
   const SceneQuery* scene_;
-  Pose X_BS_;
-  Readings<LaserScan> readings_;
   RandomStream random_;
   int beams_;
   int sub_rays_;
@@ -175,56 +163,46 @@ class Lidar final : public Sensor {
   std::vector<Eigen::Vector3d> directions_S_;  ///< of all sub-rays, beam by beam
   LaserScan scan_;
   LaserScan true_scan_;
-  SignalReader<Odometry> truth_;
 };
 
 }  // namespace
 
 PartSpec lidar_spec() {
-  PartSpec spec;
-  spec.name = "lidar";
-  spec.description =
-      "2D laser scanner: ranges in a plane, with noise, dropouts by distance and incidence, and "
-      "beam divergence; a scan is of one instant";
-  spec.default_rate_Hz = 40.0;
+  const auto reflectance = [](const char* name, double value, const char* of) {
+    return number_parameter(name, "", value, 0.0, 1.0, fmt::format("near infrared, of {}", of));
+  };
   // Defaults: the geometry of a Hokuyo UST-10LX with ideal readings. Real ones: assets/sensors.
-  spec.parameters = mounting_parameters({0.0, 0.0, 0.0});
-  const auto add = [&](ParameterSpec parameter) {
-    spec.parameters.push_back(std::move(parameter));
-  };
-  const auto reflectance = [&](const char* name, double value, const char* of) {
-    add(number_parameter(name, "", value, 0.0, 1.0, fmt::format("near infrared, of {}", of)));
-  };
-  add(number_parameter("field_of_view_deg", "deg", 270.0, 0.0, 360.0,
-                       "between the first and the last beam"));
-  add(positive_parameter("angle_step_deg", "deg", 0.25, "between beams"));
-  add(positive_parameter("min_range_m", "m", 0.06, "shortest distance it tells"));
-  add(positive_parameter("max_range_m", "m", 10.0, "longest distance it tells"));
-  add(number_parameter("accuracy_m", "m", 0.0, 0.0, 10.0,
-                       "largest constant error; the device's own is drawn once, uniformly"));
-  add(number_parameter("noise_std_m", "m", 0.01, 0.0, 10.0, "white noise of a range at 0 m"));
-  add(number_parameter("noise_growth", "m/m", 0.0, 0.0, 1.0, "what that grows by with distance"));
-  add(positive_parameter("dark_range_m", "m", 1000.0,
-                         "where a surface of 10 % reflectance, met head on, is detected nine "
-                         "times in ten; large: nothing is lost"));
-  add(number_parameter("beam_dropout_share", "", 0.0, 0.0, 1.0,
-                       "share of the beams that are lost whatever they meet"));
-  reflectance("canopy_reflectance", 0.45, "leaves");
-  reflectance("ground_reflectance", 0.25, "soil and grass");
-  reflectance("stem_reflectance", 0.35, "posts and trunks");
-  reflectance("obstacle_reflectance", 0.4, "all else");
-  add(number_parameter("divergence_deg", "deg", 0.0, 0.0, 5.0, "full width of a beam"));
-  add(integer_parameter("sub_rays", 1, 1, kMostSubRays,
-                        "rays across a beam's width, an odd number"));
-  add(choice_parameter("edge", "nearest", {"nearest", "mixed"},
-                       "what a beam tells that meets two surfaces: the nearer one, or their mean "
-                       "weighted by power"));
-  add(positive_parameter("pulse_m", "m", 0.75,
-                         "surfaces of a beam nearer to each other make one echo"));
-  add_reading_parameters(spec.parameters);
-  spec.reads = {"truth"};
-  spec.writes = {"<name>: LaserScan", "<name>_truth: LaserScan"};
-  return spec;
+  return mounted_sensor_spec<LaserScan>(
+      "lidar",
+      "2D laser scanner: ranges in a plane, with noise, dropouts by distance and incidence, and "
+      "beam divergence; a scan is of one instant",
+      40.0,
+      {number_parameter("field_of_view_deg", "deg", 270.0, 0.0, 360.0,
+                        "between the first and the last beam"),
+       positive_parameter("angle_step_deg", "deg", 0.25, "between beams"),
+       positive_parameter("min_range_m", "m", 0.06, "shortest distance it tells"),
+       positive_parameter("max_range_m", "m", 10.0, "longest distance it tells"),
+       number_parameter("accuracy_m", "m", 0.0, 0.0, 10.0,
+                        "largest constant error; the device's own is drawn once, uniformly"),
+       number_parameter("noise_std_m", "m", 0.01, 0.0, 10.0, "white noise of a range at 0 m"),
+       number_parameter("noise_growth", "m/m", 0.0, 0.0, 1.0, "what that grows by with distance"),
+       positive_parameter("dark_range_m", "m", 1000.0,
+                          "where a surface of 10 % reflectance, met head on, is detected nine "
+                          "times in ten; large: nothing is lost"),
+       number_parameter("beam_dropout_share", "", 0.0, 0.0, 1.0,
+                        "share of the beams that are lost whatever they meet"),
+       reflectance("canopy_reflectance", 0.45, "leaves"),
+       reflectance("ground_reflectance", 0.25, "soil and grass"),
+       reflectance("stem_reflectance", 0.35, "posts and trunks"),
+       reflectance("obstacle_reflectance", 0.4, "all else"),
+       number_parameter("divergence_deg", "deg", 0.0, 0.0, 5.0, "full width of a beam"),
+       integer_parameter("sub_rays", 1, 1, kMostSubRays,
+                         "rays across a beam's width, an odd number"),
+       choice_parameter("edge", "nearest", {"nearest", "mixed"},
+                        "what a beam tells that meets two surfaces: the nearer one, or their mean "
+                        "weighted by power"),
+       positive_parameter("pulse_m", "m", 0.75,
+                          "surfaces of a beam nearer to each other make one echo")});
 }
 
 std::unique_ptr<Sensor> make_lidar(const ParameterSet& parameters, const SensorContext& context) {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/math/geomagnetic_field.h"
-#include "engine/sensors/mounting.h"
-#include "engine/sensors/readings.h"
+#include "engine/sensors/mounted_sensor.h"
+#include "engine/sensors/resolution.h"
 
 namespace vinerow {
 namespace {
@@ -20,16 +20,15 @@ Eigen::Vector3d field_W_T(const ParameterSet& parameters, const GeoOrigin& origi
                                   parameters.number("year"));
 }
 
-class Magnetometer final : public Sensor {
+class Magnetometer final : public MountedSensor<MagneticSample> {
  public:
   Magnetometer(const ParameterSet& parameters, const SensorContext& context)
-      : X_BS_(mounting_pose(parameters)),
+      : MountedSensor(parameters, context),
         field_W_T_(field_W_T(parameters, context.world->origin)),
         noise_std_T_(1e-9 * parameters.number("noise_std_nT")),
         resolution_T_(1e-9 * parameters.number("resolution_nT")),
         range_T_(1e-6 * parameters.number("range_uT")),
-        random_(context.random()),
-        readings_(parameters, context) {
+        random_(context.random()) {
     RandomStream device = context.random("device");
     const auto& hard_uT = parameters.numbers("hard_iron_uT");
     const double hard_std_T = 1e-6 * parameters.number("hard_iron_std_uT");
@@ -46,79 +45,53 @@ class Magnetometer final : public Sensor {
     soft_iron_ = symmetric_matrix(diagonal, beside);
   }
 
-  void connect(Ports& ports) override {
-    truth_ = ports.read<Odometry>("truth");
-    readings_.connect(ports);
-  }
-  Duration delay() const override { return readings_.delay(); }
-  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
-  void deliver(Time) override { readings_.deliver(); }
-
   void step(Time now) override {
     MagneticSample truth;
-    truth.field_S_T = (truth_.value().X_WB.q * X_BS_.q).conjugate() * field_W_T_;
+    truth.field_S_T = X_WS().q.conjugate() * field_W_T_;
     MagneticSample sample;
     sample.field_S_T = soft_iron_ * truth.field_S_T + hard_iron_T_;
     for (int i = 0; i < 3; ++i) {
       double& u_T = sample.field_S_T[i];
-      u_T += noise_std_T_ * random_.normal();
-      if (resolution_T_ > 0.0) u_T = resolution_T_ * std::round(u_T / resolution_T_);
+      u_T = round_to_step(u_T + noise_std_T_ * random_.normal(), resolution_T_);
       u_T = std::clamp(u_T, -range_T_, range_T_);
     }
     sample.std_T = noise_std_T_;
-    if (readings_.is_in_outage(now)) {
-      readings_.push_silence(now, truth);
-    } else {
-      readings_.push(now, sample, truth);
-    }
+    readings_.push_or_silence(now, sample, truth);
   }
 
  private:
-  Pose X_BS_;
   Eigen::Vector3d field_W_T_;
   double noise_std_T_;
   double resolution_T_;
   double range_T_;
   RandomStream random_;
-  Readings<MagneticSample> readings_;
   Eigen::Vector3d hard_iron_T_;
   Eigen::Matrix3d soft_iron_;
-  SignalReader<Odometry> truth_;
 };
 
 }  // namespace
 
 PartSpec magnetometer_spec() {
-  PartSpec spec;
-  spec.name = "magnetometer";
-  spec.description =
-      "Earth's magnetic field (World Magnetic Model 2025) with hard and soft iron and noise";
-  spec.default_rate_Hz = 50.0;
-  spec.parameters = mounting_parameters({0.0, 0.0, 0.0});
-  const auto add = [&](ParameterSpec parameter) {
-    spec.parameters.push_back(std::move(parameter));
-  };
-  add(number_parameter("year", "", kFirstGeomagneticYear, kFirstGeomagneticYear,
-                       kLastGeomagneticYear, "decimal year for which the field is worked out"));
-  add(optional(number_list_parameter("field_uT", "uT", {},
-                                     "field to the east, north and up instead of the Earth's", 3)));
-  // Defaults: PNI RM3100, see assets/sensors/rm3100.yaml.
-  add(number_parameter("noise_std_nT", "nT", 15.0, 0.0, 1e6,
-                       "white noise of a reading, each axis"));
-  add(number_parameter("resolution_nT", "nT", 0.0, 0.0, 1e6, "step of the reading; 0: none"));
-  add(positive_parameter("range_uT", "uT", 800.0, "saturation"));
-  add(number_list_parameter("hard_iron_uT", "uT", {0.0, 0.0, 0.0},
-                            "constant field of the vehicle in S, x, y, z", 3));
-  add(number_parameter("hard_iron_std_uT", "uT", 0.0, 0.0, 1e3,
-                       "1 sigma of what is added to it, drawn once per run and axis"));
-  add(number_list_parameter("soft_iron", "", {0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-                            "what soft iron adds to the identity: xx, yy, zz, xy, xz, yz", 6));
-  add(number_parameter("soft_iron_std", "", 0.0, 0.0, 1.0,
-                       "1 sigma of what is added to each of these, drawn once per run"));
-  add_reading_parameters(spec.parameters);
-  spec.reads = {"truth"};
-  spec.writes = {"<name>: MagneticSample", "<name>_truth: MagneticSample"};
-  return spec;
+  return mounted_sensor_spec<MagneticSample>(
+      "magnetometer",
+      "Earth's magnetic field (World Magnetic Model 2025) with hard and soft iron and noise", 50.0,
+      {number_parameter("year", "", kFirstGeomagneticYear, kFirstGeomagneticYear,
+                        kLastGeomagneticYear, "decimal year for which the field is worked out"),
+       optional(number_list_parameter("field_uT", "uT", {},
+                                      "field to the east, north and up instead of the Earth's", 3)),
+       // Defaults: PNI RM3100, see assets/sensors/rm3100.yaml.
+       number_parameter("noise_std_nT", "nT", 15.0, 0.0, 1e6,
+                        "white noise of a reading, each axis"),
+       number_parameter("resolution_nT", "nT", 0.0, 0.0, 1e6, "step of the reading; 0: none"),
+       positive_parameter("range_uT", "uT", 800.0, "saturation"),
+       number_list_parameter("hard_iron_uT", "uT", {0.0, 0.0, 0.0},
+                             "constant field of the vehicle in S, x, y, z", 3),
+       number_parameter("hard_iron_std_uT", "uT", 0.0, 0.0, 1e3,
+                        "1 sigma of what is added to it, drawn once per run and axis"),
+       number_list_parameter("soft_iron", "", {0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+                             "what soft iron adds to the identity: xx, yy, zz, xy, xz, yz", 6),
+       number_parameter("soft_iron_std", "", 0.0, 0.0, 1.0,
+                        "1 sigma of what is added to each of these, drawn once per run")});
 }
 
 std::unique_ptr<Sensor> make_magnetometer(const ParameterSet& parameters,

@@ -4,14 +4,13 @@
 
 namespace vinerow {
 
-std::vector<ParameterSpec> mounting_parameters(Eigen::Vector3d default_position_m) {
-  return {number_list_parameter(
-              "position_m", "m",
-              {default_position_m.x(), default_position_m.y(), default_position_m.z()},
-              "place of the sensor in the body frame (x forward, y left, z up)", 3),
-          number_list_parameter(
-              "rotation_deg", "deg", {0.0, 0.0, 0.0},
-              "roll, pitch, yaw of the sensor in the body frame; it looks along its x axis", 3)};
+std::vector<ParameterSpec> mounting_parameters() {
+  return {
+      number_list_parameter("position_m", "m", {0.0, 0.0, 0.0},
+                            "place of the sensor in the body frame (x forward, y left, z up)", 3),
+      number_list_parameter(
+          "rotation_deg", "deg", {0.0, 0.0, 0.0},
+          "roll, pitch, yaw of the sensor in the body frame; it looks along its x axis", 3)};
 }
 
 Pose mounting_pose(const ParameterSet& parameters) {

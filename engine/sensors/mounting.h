@@ -10,7 +10,7 @@ namespace vinerow {
 
 /// `position_m` [x, y, z] in B and `rotation_deg` [roll, pitch, yaw] of S in B (x of S is where the
 /// sensor looks).
-std::vector<ParameterSpec> mounting_parameters(Eigen::Vector3d default_position_m);
+std::vector<ParameterSpec> mounting_parameters();
 
 /// X_BS of the mounting parameters.
 Pose mounting_pose(const ParameterSet& parameters);

@@ -11,8 +11,13 @@ std::vector<ParameterSpec> reading_parameters() {
                                "time windows without a reading")};
 }
 
-void add_reading_parameters(std::vector<ParameterSpec>& parameters) {
-  for (ParameterSpec& parameter : reading_parameters()) parameters.push_back(std::move(parameter));
+std::vector<ParameterSpec> join_parameters(
+    std::initializer_list<std::vector<ParameterSpec>> lists) {
+  std::vector<ParameterSpec> all;
+  for (const std::vector<ParameterSpec>& list : lists) {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  return all;
 }
 
 }  // namespace vinerow

@@ -10,6 +10,7 @@
 /// sensor's own affair: an invalid fix, no echo. Random numbers of dropouts come from a stream of
 /// their own, one a reading, so they shift no noise.
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ namespace vinerow {
 
 /// `delay_s`, `dropout_share`, `outages`.
 std::vector<ParameterSpec> reading_parameters();
-/// Appends them to a sensor's own.
-void add_reading_parameters(std::vector<ParameterSpec>& parameters);
+/// Several lists as one, in their order.
+std::vector<ParameterSpec> join_parameters(std::initializer_list<std::vector<ParameterSpec>> lists);
 
 template <class T>
 class Readings {
@@ -30,7 +31,7 @@ class Readings {
   /// @param parameters  with reading_parameters()
   Readings(const ParameterSet& parameters, const SensorContext& context)
       : name_(context.name),
-        outages_(read_time_windows(parameters, "outages")),
+        outages_(read_time_windows(parameters, "outages", context.part)),
         dropout_share_(parameters.number("dropout_share")),
         line_(duration_from_s(parameters.number("delay_s")), context.period),
         random_(context.random("dropout")) {}
@@ -63,6 +64,14 @@ class Readings {
     truth_out_.write(now, truth);
     if (dropout_share_ > 0.0) random_.uniform();
     line_.push_lost();
+  }
+
+  void push_or_silence(Time now, const T& reading, const T& truth) {
+    if (is_in_outage(now)) {
+      push_silence(now, truth);
+    } else {
+      push(now, reading, truth);
+    }
   }
 
   /// Instead of push() at a tick without a reading, of sensors that do not read at every tick.

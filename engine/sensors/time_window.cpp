@@ -20,10 +20,11 @@ TimeWindow read_time_window(const ParameterSet& entry, std::string_view list) {
   return {Time{duration_from_s(begin_s).ns}, Time{duration_from_s(end_s).ns}};
 }
 
-std::vector<TimeWindow> read_time_windows(const ParameterSet& parameters, std::string_view list) {
+std::vector<TimeWindow> read_time_windows(const ParameterSet& parameters, const std::string& list,
+                                          const std::string& part) {
   std::vector<TimeWindow> windows;
   for (const ParameterSet& entry : parameters.groups(list)) {
-    windows.push_back(read_time_window(entry, list));
+    windows.push_back(read_time_window(entry, part + ": " + list));
   }
   return windows;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Windows of simulated time in which something is different: an outage, jamming.
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,8 +24,10 @@ std::vector<ParameterSpec> time_window_fields(const std::string& what);
 /// @throws ConfigError if the window ends before it begins
 TimeWindow read_time_window(const ParameterSet& entry, std::string_view list);
 
-/// All windows of the group list `list`. @throws ConfigError as above
-std::vector<TimeWindow> read_time_windows(const ParameterSet& parameters, std::string_view list);
+/// All windows of the group list `list`. @param part  whose they are, for errors
+/// @throws ConfigError as above
+std::vector<TimeWindow> read_time_windows(const ParameterSet& parameters, const std::string& list,
+                                          const std::string& part);
 
 bool is_in_any(const std::vector<TimeWindow>& windows, Time now);
 

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "engine/sensors/resolution.h"
 
 namespace vinerow {
 
@@ -96,10 +97,7 @@ Eigen::Vector3d Triad::read(const Eigen::Vector3d& truth) {
       u += instability_[i].step(bias_random_);
     }
     u += bias_u_[i] + white_std_u_ * noise_random_.normal();
-    if (figures_.resolution_u > 0.0) {
-      u = figures_.resolution_u * std::round(u / figures_.resolution_u);
-    }
-    u = std::clamp(u, -figures_.range_u, figures_.range_u);
+    u = std::clamp(round_to_step(u, figures_.resolution_u), -figures_.range_u, figures_.range_u);
   }
   return reading;
 }

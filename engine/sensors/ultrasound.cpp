@@ -8,8 +8,8 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/echo.h"
-#include "engine/sensors/mounting.h"
-#include "engine/sensors/readings.h"
+#include "engine/sensors/mounted_sensor.h"
+#include "engine/sensors/resolution.h"
 #include "engine/sensors/sound_cone.h"
 
 namespace vinerow {
@@ -42,12 +42,11 @@ Turn read_turn(const ParameterSet& parameters, Duration period) {
   return turn;
 }
 
-class Ultrasound final : public Sensor {
+class Ultrasound final : public MountedSensor<RangeSample> {
  public:
   Ultrasound(const ParameterSet& parameters, const SensorContext& context)
-      : scene_(context.scene),
-        X_BS_(mounting_pose(parameters)),
-        readings_(parameters, context),
+      : MountedSensor(parameters, context),
+        scene_(context.scene),
         turn_(read_turn(parameters, context.period)),
         noise_(context.random()),
         faults_(context.random("faults")),
@@ -75,14 +74,6 @@ class Ultrasound final : public Sensor {
     returns_.reserve(rays_.size());
   }
 
-  void connect(Ports& ports) override {
-    truth_ = ports.read<Odometry>("truth");
-    readings_.connect(ports);
-  }
-  Duration delay() const override { return readings_.delay(); }
-  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
-  void deliver(Time) override { readings_.deliver(); }
-
   void step(Time now) override {
     // The same count is drawn at every tick, whatever is seen.
     const Fate fate = draw_fate();
@@ -94,7 +85,7 @@ class Ultrasound final : public Sensor {
     truth.min_range_m = min_range_m_;
     truth.max_range_m = max_range_m_;
     truth.half_angle_rad = half_angle_rad_;
-    truth.X_WS = truth_.value().X_WB * X_BS_;
+    truth.X_WS = X_WS();
     RangeSample sample = truth;
     double heard_m;
     if (echo_.threshold > 0.0) {
@@ -167,14 +158,11 @@ class Ultrasound final : public Sensor {
       return min_range_m_ + fate.false_place * (until_m - min_range_m_);
     }
     if (fate.is_missed || !std::isfinite(heard_m)) return kNothing_m;
-    double reading_m = scale_ * heard_m + fate.noise_m;
-    if (resolution_m_ > 0.0) reading_m = resolution_m_ * std::round(reading_m / resolution_m_);
+    const double reading_m = round_to_step(scale_ * heard_m + fate.noise_m, resolution_m_);
     return reading_m > max_range_m_ ? kNothing_m : std::max(min_range_m_, reading_m);
   }
 
   const SceneQuery* scene_;
-  Pose X_BS_;
-  Readings<RangeSample> readings_;
   Turn turn_;
   RandomStream noise_;
   RandomStream faults_;
@@ -191,52 +179,46 @@ class Ultrasound final : public Sensor {
   EchoParams echo_;
   std::vector<ConeRay> rays_;  ///< shares with the beam pattern, all together 1
   std::vector<EchoReturn> returns_;
-  SignalReader<Odometry> truth_;
 };
 
 }  // namespace
 
 PartSpec ultrasound_spec() {
-  PartSpec spec;
-  spec.name = "ultrasound";
-  spec.description =
-      "Ultrasonic ranger: first return in a cone of rays, with noise, echo strength, missed and "
-      "false echoes";
-  spec.default_rate_Hz = 20.0;
   // Defaults: HC-SR04 data sheet (2 cm to 4 m, 3 mm, 15 degrees effective cone); all else ideal.
   // The real one is assets/sensors/hc_sr04.yaml.
-  spec.parameters = mounting_parameters({0.0, 0.0, 0.0});
-  const auto add = [&](ParameterSpec parameter) {
-    spec.parameters.push_back(std::move(parameter));
-  };
-  add(number_parameter("half_angle_deg", "deg", 15.0, 0.0, 80.0,
-                       "half angle of the cone; 0 = a single ray"));
-  add(integer_parameter("rings", 2, 0, 64, "rings of rays around the axis"));
-  add(positive_parameter("min_range_m", "m", 0.02, "shortest distance it tells"));
-  add(positive_parameter("max_range_m", "m", 4.0, "longest distance it tells"));
-  add(choice_parameter("error", "gaussian", {"uniform", "gaussian"},
-                       "distribution of the noise; paper C's accuracy is uniform"));
-  add(number_parameter("accuracy_m", "m", 0.003, 0.0, 10.0, "uniform: largest error"));
-  add(number_parameter("noise_std_m", "m", 0.003, 0.0, 10.0,
-                       "gaussian: white noise of the reading"));
-  add(number_parameter("resolution_m", "m", 0.0, 0.0, 1.0,
-                       "readings are multiples of it; 0: all values"));
-  add(number_parameter("air_temperature_degC", "degC", 20.0, -60.0, 80.0, "of the true air"));
-  add(number_parameter("assumed_temperature_degC", "degC", 20.0, -60.0, 80.0,
-                       "that the sensor's speed of sound belongs to"));
-  add(number_parameter("missed_share", "", 0.0, 0.0, 1.0, "share of the echoes that are missed"));
-  add(number_parameter("false_share", "", 0.0, 0.0, 1.0,
-                       "share of the readings that are a false echo, uniform between the shortest "
-                       "range and the true echo"));
-  for (ParameterSpec& parameter : echo_parameters()) add(std::move(parameter));
-  add(number_parameter("cycle_s", "s", 0.0, 0.0, 10.0,
-                       "time between pulses, a multiple of the period; 0: one at every tick"));
-  add(number_parameter("phase_s", "s", 0.0, 0.0, 10.0,
-                       "first pulse, a multiple of the period below cycle_s: rangers in turn"));
-  add_reading_parameters(spec.parameters);
-  spec.reads = {"truth"};
-  spec.writes = {"<name>: RangeSample", "<name>_truth: RangeSample"};
-  return spec;
+  return mounted_sensor_spec<RangeSample>(
+      "ultrasound",
+      "Ultrasonic ranger: first return in a cone of rays, with noise, echo strength, missed and "
+      "false echoes",
+      20.0,
+      join_parameters(
+          {{number_parameter("half_angle_deg", "deg", 15.0, 0.0, 80.0,
+                             "half angle of the cone; 0 = a single ray"),
+            integer_parameter("rings", 2, 0, 64, "rings of rays around the axis"),
+            positive_parameter("min_range_m", "m", 0.02, "shortest distance it tells"),
+            positive_parameter("max_range_m", "m", 4.0, "longest distance it tells"),
+            choice_parameter("error", "gaussian", {"uniform", "gaussian"},
+                             "distribution of the noise; paper C's accuracy is uniform"),
+            number_parameter("accuracy_m", "m", 0.003, 0.0, 10.0, "uniform: largest error"),
+            number_parameter("noise_std_m", "m", 0.003, 0.0, 10.0,
+                             "gaussian: white noise of the reading"),
+            number_parameter("resolution_m", "m", 0.0, 0.0, 1.0,
+                             "readings are multiples of it; 0: all values"),
+            number_parameter("air_temperature_degC", "degC", 20.0, -60.0, 80.0, "of the true air"),
+            number_parameter("assumed_temperature_degC", "degC", 20.0, -60.0, 80.0,
+                             "that the sensor's speed of sound belongs to"),
+            number_parameter("missed_share", "", 0.0, 0.0, 1.0,
+                             "share of the echoes that are missed"),
+            number_parameter(
+                "false_share", "", 0.0, 0.0, 1.0,
+                "share of the readings that are a false echo, uniform between the shortest "
+                "range and the true echo")},
+           echo_parameters(),
+           {number_parameter("cycle_s", "s", 0.0, 0.0, 10.0,
+                             "time between pulses, a multiple of the period; 0: one at every tick"),
+            number_parameter("phase_s", "s", 0.0, 0.0, 10.0,
+                             "first pulse, a multiple of the period below cycle_s: rangers in "
+                             "turn")}}));
 }
 
 std::unique_ptr<Sensor> make_ultrasound(const ParameterSet& parameters,

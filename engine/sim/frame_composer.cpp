@@ -71,6 +71,11 @@ const VehicleTrace& FrameComposer::trace_of(const std::string& vehicle) const {
   return trace_.vehicles.at(vehicle);
 }
 
+bool FrameComposer::looks_out_of(const io::CameraConfig& camera, const std::string& vehicle) {
+  return (camera.kind == io::CameraKind::kOnBoard || camera.kind == io::CameraKind::kShots) &&
+         camera.vehicle == vehicle;
+}
+
 bool FrameComposer::flies(const std::string& vehicle) const {
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
     if (scenario_.vehicles[v].name == vehicle) return vehicles_[v]->description().flies();
@@ -135,11 +140,8 @@ render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, doub
 void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::Frame& frame) const {
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
     const io::VehicleConfig& config = scenario_.vehicles[v];
-    const bool from_inside =
-        (camera.kind == io::CameraKind::kOnBoard || camera.kind == io::CameraKind::kShots) &&
-        camera.vehicle == config.name;
     const Trace<Odometry>& truth = trace_of(config.name).truth;
-    if (truth.empty() || from_inside) continue;
+    if (truth.empty() || looks_out_of(camera, config.name)) continue;
     render::Polyline trail;
     trail.colour = kTrailColours[v % std::size(kTrailColours)];
     trail.width_px = camera.kind == io::CameraKind::kTop ? 3.0f : 4.0f;
@@ -152,7 +154,12 @@ void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::F
         continue;
       trail.points_W.push_back(p);
     }
-    if (trail.points_W.size() > 1) frame.lines.push_back(std::move(trail));
+    if (trail.points_W.size() < 2) continue;
+    if (camera.show_estimate) {
+      const bool alone = scenario_.vehicles.size() == 1;
+      frame.legend.push_back({alone ? "truth" : config.name + " truth", trail.colour});
+    }
+    frame.lines.push_back(std::move(trail));
   }
 }
 
@@ -260,9 +267,11 @@ render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) con
     if (frame.vehicles.back().X_WL.empty()) frame.vehicles.pop_back();
   }
   if (camera.show_grid) frame.grid = grid_;
+  if (camera.show_map) add_map_edges(frame);
   if (camera.show_tree) add_trees(t, frame);
   if (camera.show_plan) add_plans(t, frame);
   if (camera.show_trail) add_trails(camera, t, frame);
+  if (camera.show_estimate) add_estimates(camera, t, frame);
   if (camera.show_sensor_rays) {
     add_rays(t, frame);
     add_scans(t, frame);

@@ -35,8 +35,12 @@ class FrameComposer {
   void add_trails(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
   void add_plans(Time t, render::Frame& frame) const;
   void add_trees(Time t, render::Frame& frame) const;
+  void add_map_edges(render::Frame& frame) const;
+  void add_estimates(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
   void add_rays(Time t, render::Frame& frame) const;
   void add_scans(Time t, render::Frame& frame) const;
+  /// Whether a camera is on the vehicle and sees it from inside.
+  static bool looks_out_of(const io::CameraConfig& camera, const std::string& vehicle);
   const Trace<CameraShot>& shots_of(const io::CameraConfig& camera) const;
   double ground_m(double x, double y) const;
   bool flies(const std::string& vehicle) const;

@@ -52,14 +52,16 @@ template struct Trace<RangeSample>;
 template struct Trace<LaserScan>;
 template struct Trace<CameraShot>;
 
-Odometry VehicleTrace::truth_at(Time t) const {
-  const Bracket at = bracket(truth.times, t);
-  const Odometry& a = truth.values[at.before];
-  const Odometry& b = truth.values[at.after];
+Odometry odometry_at(const Trace<Odometry>& trace, Time t) {
+  const Bracket at = bracket(trace.times, t);
+  const Odometry& a = trace.values[at.before];
+  const Odometry& b = trace.values[at.after];
   Odometry result = a;
   result.X_WB = between(a.X_WB, b.X_WB, at.share);
   result.v_WB_B = a.v_WB_B + at.share * (b.v_WB_B - a.v_WB_B);
   result.w_WB_B = a.w_WB_B + at.share * (b.w_WB_B - a.w_WB_B);
+  result.set_position_covariance((1.0 - at.share) * a.position_covariance() +
+                                 at.share * b.position_covariance());
   return result;
 }
 
@@ -75,7 +77,7 @@ std::vector<Pose> VehicleTrace::links_at(Time t) const {
 }
 
 LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles,
-                    bool with_scans) {
+                    const TraceWishes& wishes) {
   LogTrace trace;
   trace.first = log.info().first;
   trace.last = log.info().last;
@@ -96,10 +98,17 @@ LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>
       if (type == channel.metadata.end() || !channel.topic.starts_with(prefix)) continue;
       const std::string sensor = channel.topic.substr(prefix.size());
       if (is_truth_beside(log, channel.topic)) continue;
+      if (type->second == Odometry::kType && wishes.estimates && sensor != "truth") {
+        read_into(log, channel.topic, vehicle.estimates[sensor]);
+      }
+      if (sensor == "map_edges" && wishes.map_edges) {
+        log.read<LineList>(channel.topic,
+                           [&](Time, const LineList& edges) { vehicle.map_edges = edges; });
+      }
       if (type->second == RangeSample::kType) {
         read_into(log, channel.topic, vehicle.ranges[sensor]);
       }
-      if (type->second == LaserScan::kType && with_scans) {
+      if (type->second == LaserScan::kType && wishes.scans) {
         read_into(log, channel.topic, vehicle.scans[sensor]);
       }
       if (type->second == CameraShot::kType) read_into(log, channel.topic, vehicle.shots[sensor]);

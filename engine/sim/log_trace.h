@@ -24,6 +24,10 @@ struct Trace {
   std::size_t index_at(Time t) const;
 };
 
+/// Pose, speed and covariance at t, between the samples around it (constant twist is not assumed:
+/// straight and slerp). @pre !trace.empty()
+Odometry odometry_at(const Trace<Odometry>& trace, Time t);
+
 struct VehicleTrace {
   Trace<Odometry> truth;
   Trace<LinkPoses> links;
@@ -32,10 +36,12 @@ struct VehicleTrace {
   std::map<std::string, Trace<RangeSample>> ranges;  ///< by sensor
   std::map<std::string, Trace<LaserScan>> scans;     ///< by sensor, where they were asked for
   std::map<std::string, Trace<CameraShot>> shots;    ///< by sensor
+  /// "estimate" and those of observers by signal, where they were asked for.
+  std::map<std::string, Trace<Odometry>> estimates;
+  LineList map_edges;  ///< of its own map, where they were asked for; empty where it has none
 
-  /// Pose and speed at t, between the samples around it (constant twist is not assumed: straight
-  /// and slerp).
-  Odometry truth_at(Time t) const;
+  /// Pose and speed at t.
+  Odometry truth_at(Time t) const { return odometry_at(truth, t); }
   /// Link poses at t, interpolated likewise.
   std::vector<Pose> links_at(Time t) const;
 };
@@ -50,10 +56,16 @@ struct LogTrace {
 /// Whether a topic tells what the sensor beside it would have read without error: "<sensor>_truth".
 bool is_truth_beside(const record::LogReader& log, const std::string& topic);
 
+/// What is read beside the rest.
+struct TraceWishes {
+  bool scans = false;  ///< half a megabyte for each second of a laser scanner
+  bool estimates = false;
+  bool map_edges = false;
+};
+
 /// What is_truth_beside() is left out.
 /// @param vehicles  names to look for
-/// @param with_scans  whether laser scans are read: half a megabyte for each second of a scanner
 LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles,
-                    bool with_scans = false);
+                    const TraceWishes& wishes = {});
 
 }  // namespace vinerow

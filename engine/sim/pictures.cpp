@@ -35,6 +35,17 @@ std::vector<io::CameraConfig> chosen_cameras(const io::Scenario& scenario,
   return chosen;
 }
 
+/// What the cameras show that is not always read.
+TraceWishes wishes_of(const std::vector<io::CameraConfig>& cameras) {
+  TraceWishes wishes;
+  for (const io::CameraConfig& camera : cameras) {
+    wishes.scans |= camera.show_sensor_rays;
+    wishes.estimates |= camera.show_estimate;
+    wishes.map_edges |= camera.show_map;
+  }
+  return wishes;
+}
+
 /// Instants of the frames, in order, each once. Instants after the log's end are left out.
 std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOptions& options,
                            const LogTrace& trace) {
@@ -129,10 +140,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   const std::vector<std::unique_ptr<Vehicle>> vehicles = build_vehicles(scenario, registry);
   std::vector<std::string> names;
   for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
-  const bool shows_rays =
-      std::any_of(cameras.begin(), cameras.end(),
-                  [](const io::CameraConfig& camera) { return camera.show_sensor_rays; });
-  const LogTrace trace = read_trace(reader, names, shows_rays);
+  const LogTrace trace = read_trace(reader, names, wishes_of(cameras));
   const FrameComposer composer(scenario, *world, vehicles, trace);
   const std::set<Time> schedule = frame_times(scenario.pictures, options, trace);
   std::vector<std::set<Time>> times_by_camera;

@@ -63,8 +63,10 @@ class LogObserver final : public RunObserver {
   }
   static Duration shortest_period(const SignalBase& signal, const io::RecordConfig& config) {
     const std::string& name = signal.name();
+    const bool is_observed = std::string_view(signal.type()) == Odometry::kType &&
+                             signal.writer().find(".observers.") != std::string::npos;
     const bool is_truth = name.ends_with("/truth") || name.ends_with("/estimate");
-    if (is_truth) return period_of_rate(config.truth_rate_Hz);
+    if (is_truth || is_observed) return period_of_rate(config.truth_rate_Hz);
     // The widest message of all; half as often is enough to see slip come and go.
     if (name.ends_with("/wheels")) return period_of_rate(config.truth_rate_Hz) * 2;
     // A charge changes slowly, and its message is a large one.

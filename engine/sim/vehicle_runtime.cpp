@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/observer.h"
 #include "engine/core/error.h"
+#include "engine/sim/map_edges.h"
 #include "engine/sim/truth_estimator.h"
 
 namespace vinerow {
@@ -73,8 +75,9 @@ std::function<void(Time)> VehicleRuntime::guarded(const std::string& part, const
 }
 
 void VehicleRuntime::add_stepped(Stage stage, const std::string& part, const std::string& type,
-                                 double rate_Hz, SteppedPart& stepped) {
-  Ports ports(run_.bus, config_.name, part);
+                                 double rate_Hz, SteppedPart& stepped,
+                                 std::map<std::string, std::string> written_as) {
+  Ports ports(run_.bus, config_.name, part, std::move(written_as));
   stepped.connect(ports);
   run_.scheduler.add(stage, part, period_of_rate(rate_Hz), {},
                      guarded(part, type, [&stepped](Time now) { stepped.step(now); }));
@@ -113,6 +116,7 @@ VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext
   make_map();
   add_sensors();
   add_estimator();
+  add_observers();
   add_planner();
   add_controller();
   add_metrics();
@@ -128,6 +132,9 @@ void VehicleRuntime::make_map() {
   map_context.world = &run_.world;
   map_context.scene = &run_.physics.scene();
   own_map_ = run_.registry.make_map(config_.map->type, config_.map->parameters, map_context);
+  if (own_map_->meshes.empty()) return;
+  map_edges_writer_ = Ports(run_.bus, config_.name, map_context.part).write<LineList>("map_edges");
+  diagnostic_signals_.push_back(config_.name + "/map_edges");
 }
 
 void VehicleRuntime::add_sensors() {
@@ -161,15 +168,30 @@ void VehicleRuntime::add_estimator() {
   const std::string type = given ? config_.estimator->type : "truth";
   const double rate_Hz =
       given && config_.estimator->rate_Hz > 0.0 ? config_.estimator->rate_Hz : control_rate_Hz();
-  auto estimator_context = context<EstimatorContext>(part, rate_Hz);
-  estimator_context.vehicle_description = &vehicle_->description();
-  estimator_context.map = &map();
-  estimator_context.sensors = mountings_;
-  estimator_context.origin = run_.world.origin;
-  estimator_ =
-      given ? run_.registry.make_estimator(type, config_.estimator->parameters, estimator_context)
-            : std::make_unique<TruthEstimator>();
+  estimator_ = given ? run_.registry.make_estimator(type, config_.estimator->parameters,
+                                                    estimator_context(part, rate_Hz))
+                     : std::make_unique<TruthEstimator>();
   add_stepped(Stage::kEstimate, part, type, rate_Hz, *estimator_);
+}
+
+EstimatorContext VehicleRuntime::estimator_context(const std::string& part, double rate_Hz) const {
+  auto result = context<EstimatorContext>(part, rate_Hz);
+  result.vehicle_description = &vehicle_->description();
+  result.map = &map();
+  result.sensors = mountings_;
+  result.origin = run_.world.origin;
+  return result;
+}
+
+void VehicleRuntime::add_observers() {
+  for (const io::NamedPart& observer : config_.observers) {
+    const std::string part = fmt::format("{}.observers.{}", config_.name, observer.name);
+    const double rate_Hz = observer.part.rate_Hz > 0.0 ? observer.part.rate_Hz : control_rate_Hz();
+    observers_.push_back(run_.registry.make_estimator(observer.part.type, observer.part.parameters,
+                                                      estimator_context(part, rate_Hz)));
+    add_stepped(Stage::kEstimate, part, observer.part.type, rate_Hz, *observers_.back(),
+                observer_signals(observer.name));
+  }
 }
 
 void VehicleRuntime::add_planner() {
@@ -293,6 +315,9 @@ void VehicleRuntime::add_metrics() {
     metric_context.scene = &run_.physics.scene();
     metric_context.world = &run_.world;
     metric_context.vehicle_truth = vehicle_.get();
+    for (const io::NamedPart& observer : config_.observers) {
+      metric_context.observers.push_back(observer.name);
+    }
     metrics_.push_back(
         {metric.name,
          run_.registry.make_metric(metric.part.type, metric.part.parameters, metric_context)});
@@ -311,6 +336,10 @@ void VehicleRuntime::publish_diagnostics(Time now) {
   links_writer_.write(now, links_);
   vehicle_->publish(now);
   if (now.ns == 0) contacts_writer_.write(now, contacts_);
+  // For those who look at the log: which map it was is told there, not made again from the world.
+  if (now.ns == 0 && map_edges_writer_.connected()) {
+    map_edges_writer_.write(now, map_edges(*own_map_));
+  }
 }
 
 void VehicleRuntime::after_physics(Time now, Duration step) {

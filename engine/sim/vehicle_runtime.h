@@ -65,11 +65,13 @@ class VehicleRuntime {
   template <class Context>
   Context context(const std::string& part, double rate_Hz) const;
   void add_stepped(Stage stage, const std::string& part, const std::string& type, double rate_Hz,
-                   SteppedPart& stepped);
+                   SteppedPart& stepped, std::map<std::string, std::string> written_as = {});
   void make_map();
   const RowMap& map() const { return own_map_ ? *own_map_ : run_.world.rows; }
   void add_sensors();
   void add_estimator();
+  void add_observers();
+  EstimatorContext estimator_context(const std::string& part, double rate_Hz) const;
   void add_planner();
   void add_controller();
   /// @throws ConfigError naming who reads a plan that no planner writes
@@ -92,6 +94,7 @@ class VehicleRuntime {
   std::vector<std::unique_ptr<Sensor>> sensors_;
   std::unique_ptr<RowMap> own_map_;  ///< null: the world's rows
   std::unique_ptr<Estimator> estimator_;
+  std::vector<std::unique_ptr<Estimator>> observers_;
   std::unique_ptr<Planner> planner_;
   std::unique_ptr<Guidance> guidance_;
   std::unique_ptr<Controller> controller_;
@@ -102,6 +105,7 @@ class VehicleRuntime {
   SignalWriter<Odometry> truth_writer_;
   SignalWriter<LinkPoses> links_writer_;
   SignalWriter<NamedValues> contacts_writer_;
+  SignalWriter<LineList> map_edges_writer_;  ///< of its own map, where that has row meshes
   SignalWriter<PlannedPath> plan_writer_;
   SignalWriter<LineList> tree_writer_;
   SignalReader<Odometry> estimate_;

@@ -228,7 +228,11 @@ TEST_P(EveryEstimator, AllocatesNothing) {
   auto imu = world.write<ImuSample>("imu");
   auto ins = world.write<Odometry>("ins");
   auto range = world.write<RangeSample>("sonar");
-  const RowMap map = make_row_mesh_map({.rows = 4, .length_m = 40.0}, RandomStream(1, "", "map"));
+  const RowMeshBlock block{.rows = 4, .length_m = 40.0};
+  const RowMap map = make_row_mesh_map(block, RandomStream(1, "", "map"));
+  // On the ground of an alley, where the sonar has a wall of the map before it.
+  Odometry place;
+  place.X_WB.p = row_mesh_ground(block, 20.0, 1.25);
   auto command = world.write<VelocityCommand>("command");
   const auto estimate = world.read<Odometry>("estimate");
   EstimatorContext context;
@@ -236,7 +240,7 @@ TEST_P(EveryEstimator, AllocatesNothing) {
   context.period = Duration{25'000'000};
   context.vehicle_description = &description;
   context.map = &map;
-  context.sensors = {{"sonar", "ultrasound", {quaternion_from_rpy({0, 0, 0.8}), {0, 0, 0}}}};
+  context.sensors = {{"sonar", "ultrasound", {quaternion_from_rpy({0, 0, 0.8}), {0, 0, 1}}}};
   const PartSpec& spec = parts().spec(PartKind::kEstimator, GetParam());
   const auto estimator = parts().make_estimator(GetParam(), make_parameters(spec, {}), context);
   Ports ports(bus, "rover", "rover.estimator");
@@ -244,15 +248,16 @@ TEST_P(EveryEstimator, AllocatesNothing) {
   const auto run = [&](int from, int to) {
     for (int i = from; i < to; ++i) {
       const Time now = tick(i);
-      truth.write(now, Odometry{});
+      truth.write(now, place);
       command.write(now, {1.0, 0.1});
       ImuSample sample;
       sample.f_WS_S.z() = context.gravity_mps2;
       imu.write(now, sample);
       GnssFix fix;
       fix.valid = true;
+      fix.p_W = place.X_WB.p;
       gps.write(now, fix);
-      ins.write(now, Odometry{});
+      ins.write(now, place);
       RangeSample echo;
       echo.range_m = 1.0;
       echo.max_range_m = 4.0;

@@ -1,7 +1,9 @@
 #pragma once
 /// Builds worlds by name for tests, with mesh files in a folder of the test.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -47,11 +49,14 @@ inline std::string riseholme_file() {
   return std::string(VINEROW_SOURCE_DIR) + "/assets/worlds/riseholme/riseholme.geojson";
 }
 
-/// Writes a file below the system's folder for temporary files.
+/// Writes a file below the system's folder for temporary files, whole or not at all: tests that run
+/// beside this one may read the same name.
 inline std::string temporary_file(const std::string& name, const std::string& content) {
   const auto folder = std::filesystem::temp_directory_path() / "vinerow_worlds_test";
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / name, std::ios::binary) << content;
+  const auto part = folder / fmt::format("{}.{}", name, ::getpid());
+  std::ofstream(part, std::ios::binary) << content;
+  std::filesystem::rename(part, folder / name);
   return (folder / name).string();
 }
 

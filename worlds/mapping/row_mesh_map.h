@@ -3,7 +3,7 @@
 /// them.
 ///
 /// Source: paper A (Mammarella et al., Biosystems Engineering 223, 2022), section 3.2, and paper C
-/// (Drones 2022), section 2.2. Where paper A thins a point cloud, here the true canopy is measured
+/// (Remote Sensing 14(6) 1374, 2022), section 2.2. Where paper A thins a point cloud, here the true canopy is measured
 /// by rays and a chain of cross-sections is fitted to it (canopy_survey.h).
 
 #include "engine/api/registry.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// How far the estimate is from the truth, and whether it knows.
+/// How far the estimate is from the truth, and whether it knows; likewise of every observer.
 ///
 /// Looked at where the estimate was written at the very instant of the tick, from `from_s` on, so
 /// that nothing is mistaken for an error that is only age. Nothing is measured (NaN) where the
@@ -21,7 +21,9 @@
 ///   ellipsoid_containment_share: share of the signal "ellipsoid" that contains the true position;
 ///     one without height is judged in the plane
 ///   nis_<source>_mean: mean of the values nis_<source> of "estimator_state", of those sources that
-///     the parameter `nis` names; a value counts when it has changed.
+///     the parameter `nis` names; a value counts when it has changed
+/// Of every observer (engine/api/observer.h) the same: <observer>_lateral_rms_m,
+/// <observer>_consistent, <observer>_nees_mean, <observer>_nis_<source>_mean and so on.
 
 #include <memory>
 
@@ -32,11 +34,5 @@ namespace vinerow {
 PartSpec estimation_spec();
 std::unique_ptr<Metric> make_estimation(const ParameterSet& parameters,
                                         const MetricContext& context);
-
-/// Quantile of the chi-square distribution, also for fractional degrees of freedom; the bounds of
-/// 95 % within 1.5 % from 10 degrees on, the lower one below that too low. E. B. Wilson, M. M.
-/// Hilferty, "The distribution of chi-square", 1931.
-/// @param z  the normal quantile of the wanted probability
-double chi_square_quantile(double degrees_of_freedom, double z);
 
 }  // namespace vinerow

@@ -209,6 +209,23 @@ TEST(DistanceFilterLaw, FliesOnBeyondTheMapAndPicksItUpAgain) {
   flight.expect_sound();
 }
 
+TEST(DistanceFilterLaw, ASliceOfTheMapReachesAsFarAsItsSensor) {
+  DistanceFilterParams params;
+  params.fusion = DistanceFusion::kJoint;
+  params.association = EchoAssociation::kClosestSegment;
+  Flight flight(params);
+  flight.fly(300);
+  const auto before = flight.law.counters();
+  flight.predict();
+  // No row within 0.5 m; those of the same moment that look farther see theirs.
+  std::array<RangeReading, 4> readings;
+  for (int i = 0; i < 4; ++i) readings[i] = {i, flight.range(i), 4.0};
+  readings[0] = {0, 0.4, 0.5};
+  flight.law.take_ranges(flight.now(), readings);
+  EXPECT_EQ(flight.law.counters().echoes_unmatched, before.echoes_unmatched + 1);
+  EXPECT_EQ(flight.law.counters().echoes, before.echoes + 3);
+}
+
 TEST(DistanceFilterLaw, CountsAPrintedEllipseThatIsNoCovariance) {
   DistanceFilterParams params;
   params.fusion = DistanceFusion::kReplace;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/controllers/estimation/localisation_lab.h"
+#include "tests/controllers/estimation/map_localisation_lab.h"
 
 namespace vinerow::test {
 namespace {
@@ -290,11 +291,73 @@ void robustness() {
   }
 }
 
+/// The filter of ours on the same flights.
+void better() {
+  const auto tell = [](const std::string& name, const LabSetup& setup,
+                       const MapLocalisationParams& params = {}, bool on_map = false,
+                       const std::function<bool(const LabSample&)>& counts = {}) {
+    print(name, study(setup, seeds, map_localisation(params, on_map), counts));
+  };
+  tell("nominal", {});
+  LabSetup setup;
+  setup.height_std_m = 0.0;
+  tell("no height told", setup);
+  setup = {};
+  setup.cone_rad = 15.0 * kDeg;
+  setup.filter_fan_rays = 7;
+  tell("cone", setup);
+  LabSetup hard = setup;
+  hard.missed_share = 0.3;
+  hard.false_share = 0.2;
+  hard.fix_time_s = 60.0;
+  hard.fix_age = 20;
+  setup = {};
+  setup.false_share = 0.2;
+  tell("false 20 %", setup);
+  tell("cone, missed, false, correlated and late fixes", hard);
+  setup = {};
+  setup.outage_from_s = 30.0;
+  setup.outage_to_s = 40.0;
+  tell("outage", setup, {}, false,
+       [](const LabSample& b) { return b.time_s >= 30.0 && b.time_s < 40.0; });
+  for (const bool in_truth : {true, false}) {
+    setup = {};
+    (in_truth ? setup.world.true_gaps : setup.world.map_gaps) = make_gaps();
+    tell(in_truth ? "gaps in truth" : "gaps in the map", setup);
+  }
+  setup = {};
+  setup.world.map_offset_W = {0.025, 0.0433013, 0};
+  MapLocalisationParams shifted;
+  shifted.map_shift_std_m = 0.05;
+  tell("map bias 5 cm, its shift a state", setup, shifted);
+  tell("the same, place on the map", setup, shifted, true);
+  tell("no bias, its shift a state", {}, shifted);
+  for (const double fix_time_s : {0.0, 60.0}) {
+    int wrong = 0, all = 0;
+    for (const int alleys_off : {-1, 0, 1}) {
+      setup = {};
+      setup.start_std_m = 1.0;
+      setup.start_vertical_std_m = 0.1;
+      setup.duration_s = 23.0;
+      setup.start_alleys_off = alleys_off;
+      setup.fix_time_s = fix_time_s;
+      for (int seed = 1; seed <= 100; ++seed, ++all) {
+        double worst_m = 0.0;
+        for (const LabSample& sample : fly(setup, seed, map_localisation()).samples) {
+          if (sample.time_s >= 20.0) worst_m = std::max(worst_m, std::abs(sample.lateral_m));
+        }
+        wrong += worst_m >= 1.0;
+      }
+    }
+    fmt::print("start 1 m, fixes correlated {} s: wrong alley {} of {}\n", fix_time_s, wrong, all);
+  }
+}
+
 int main_study(int argc, char** argv) {
   const std::vector<std::pair<std::string, void (*)()>> tables = {
-      {"assumptions", assumptions}, {"modes", modes},          {"readings", readings},
-      {"sensors", sensors},         {"world", world},          {"echoes", echoes},
-      {"latency", latency},         {"robustness", robustness}};
+      {"assumptions", assumptions}, {"modes", modes},           {"readings", readings},
+      {"sensors", sensors},         {"world", world},           {"echoes", echoes},
+      {"latency", latency},         {"robustness", robustness}, {"better", better}};
   if (argc > 1) seeds = std::atoi(argv[1]);
   for (const auto& [name, print_table] : tables) {
     bool wanted = argc <= 2;

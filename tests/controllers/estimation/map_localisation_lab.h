@@ -10,8 +10,11 @@ namespace vinerow::test {
 
 class MapLocalisationFilter final : public LabFilter {
  public:
-  MapLocalisationFilter(const MapLocalisationParams& params, const LabContext& context)
+  /// @param on_map  judged by its place beside the map's walls instead of that in W
+  MapLocalisationFilter(const MapLocalisationParams& params, const LabContext& context,
+                        bool on_map = false)
       : law_(params, context.map, context.index, context.sensors),
+        on_map_(on_map),
         period_s_(0.01 * context.setup.range_every) {}
 
   void start(Time now, const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance) override {
@@ -34,18 +37,24 @@ class MapLocalisationFilter final : public LabFilter {
       }
     }
   }
-  Eigen::Vector3d p_W() const override { return law_.state().p_W(); }
-  Eigen::Matrix3d covariance() const override { return law_.position_covariance(); }
+  Eigen::Vector3d p_W() const override {
+    return on_map_ ? law_.position_on_map() : law_.state().p_W();
+  }
+  Eigen::Matrix3d covariance() const override {
+    return on_map_ ? law_.position_on_map_covariance() : law_.position_covariance();
+  }
   const MapLocalisationLaw& law() const { return law_; }
 
  private:
   MapLocalisationLaw law_;
+  bool on_map_;
   double period_s_;
 };
 
-inline LabFilterMaker map_localisation(const MapLocalisationParams& params = {}) {
-  return [params](const LabContext& context) {
-    return std::make_unique<MapLocalisationFilter>(params, context);
+inline LabFilterMaker map_localisation(const MapLocalisationParams& params = {},
+                                       bool on_map = false) {
+  return [params, on_map](const LabContext& context) {
+    return std::make_unique<MapLocalisationFilter>(params, context, on_map);
   };
 }
 

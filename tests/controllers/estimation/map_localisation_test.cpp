@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/math/angles.h"
 #include "tests/controllers/estimation/map_localisation_lab.h"
 #include "tests/support/no_alloc.h"
 
@@ -92,6 +93,29 @@ TEST(MapLocalisation, AMapOffByFiveCentimetresIsConsistentWhereItsShiftIsAState)
   EXPECT_LE(score.lateral_m, 0.06);
 }
 
+TEST(MapLocalisation, BesideTheMapsWallsItIsAsGoodWhereverTheMapLies) {
+  LabSetup setup;
+  setup.world.map_offset_W = {0.025, 0.0433, 0.0};
+  MapLocalisationParams params;
+  params.map_shift_std_m = 0.05;
+  double sum_m = 0.0, squares_m2 = 0.0, nees = 0.0;
+  int count = 0;
+  for (int seed = 1; seed <= 10; ++seed) {
+    for (const LabSample& sample : fly(setup, seed, map_localisation(params, true)).samples) {
+      if (sample.time_s < 3.0) continue;
+      sum_m += sample.lateral_m;
+      squares_m2 += sample.lateral_m * sample.lateral_m;
+      nees += sample.nees;
+      ++count;
+    }
+  }
+  const double mean_m = sum_m / count;
+  EXPECT_NEAR(mean_m, 0.05, 0.01) << "the map's own shift";
+  EXPECT_LE(std::sqrt(squares_m2 / count - mean_m * mean_m), 0.018) << "as on a true map";
+  EXPECT_LE(nees / count, 2.4) << "and it says how far off the map may be";
+  EXPECT_GE(nees / count, 1.0);
+}
+
 TEST(MapLocalisation, FindsTheRightAlleyFromAStartThatIsKnownToAMetre) {
   constexpr int kRuns = 34;  // for each of three alleys
   int right = 0;
@@ -111,6 +135,22 @@ TEST(MapLocalisation, FindsTheRightAlleyFromAStartThatIsKnownToAMetre) {
   }
   RecordProperty("right", right);
   EXPECT_GE(right, 3 * kRuns - 1);
+}
+
+TEST(MapLocalisation, TwoSensorsOnRowsThatAreRoughOverLessThanTheStartIsKnownTo) {
+  // A wall's slope at one place holds for half a metre, the start is known to 0.26 m along the
+  // rows.
+  LabSetup setup;
+  setup.world.section_min_m = 0.4;
+  setup.world.section_max_m = 0.5;
+  setup.sensor_angles_rad = {0.5 * kPi, -0.5 * kPi};
+  setup.cone_rad = 0.2618;
+  setup.filter_fan_rays = 7;
+  const LabScore score = run(setup);
+  EXPECT_LE(score.lateral_m, 0.025);
+  EXPECT_LE(score.longitudinal_m, 0.2);
+  EXPECT_LE(score.nees, 3.0);
+  EXPECT_EQ(score.lost, 0);
 }
 
 /// A law standing in the lab's alley, with what it looks at.
@@ -158,6 +198,9 @@ TEST(MapLocalisationLaw, RefusesAndCountsBadDataAndGoesOn) {
   law.predict(Time{0}, {0, 0, 0}, standing.q_WB);
   law.predict(standing.now, {kNan, 0, 0}, standing.q_WB);
   EXPECT_EQ(law.counters().refused, 7);
+  // The stamp that this sensor's last reading had.
+  law.correct_range(standing.now, 0, 1.0, 0.05);
+  EXPECT_EQ(law.counters().refused, 8);
   EXPECT_EQ(law.state().p_W(), before);
   // Contradictory ranges: gated, until the bank begins anew; good ones bring it back.
   for (int i = 0; i < 400; ++i) {
@@ -175,6 +218,28 @@ TEST(MapLocalisationLaw, RefusesAndCountsBadDataAndGoesOn) {
   }
   EXPECT_LT((law.state().p_W() - standing.true_p_W).head<2>().norm(), 0.5);
   EXPECT_TRUE(law.state().is_sound());
+}
+
+TEST(MapLocalisationLaw, BeginningAnewKeepsTheOldPlaceInQuestion) {
+  Standing standing;
+  MapLocalisationLaw& law = *standing.law;
+  standing.tick();
+  // The last fix is 1.5 m off along the rows: a bank about it alone would be, too.
+  law.correct_fix(standing.now, standing.true_p_W + 1.5 * standing.world.along_W(), {1, 1, 1},
+                  {0, 0, 0});
+  int ticks = 0;
+  for (; law.counters().lost == 0 && ticks < 1000; ++ticks) {
+    standing.tick();
+    if (ticks % 5 == 0) {
+      for (const int sensor : {0, 1}) law.correct_range(standing.now, sensor, 0.1, 0.05);
+    }
+  }
+  ASSERT_EQ(law.counters().lost, 1);
+  EXPECT_GT(law.filter_count(), 1) << "what is new is in question beside it";
+  const Eigen::Vector3d along_W = standing.world.along_W();
+  EXPECT_GT(along_W.dot(law.position_covariance() * along_W), 0.25) << "and the covariance says so";
+  EXPECT_LT(std::abs(along_W.dot(law.state().p_W() - standing.true_p_W)), 0.75)
+      << "the old place, the likeliest, not the fix";
 }
 
 TEST(MapLocalisationLaw, TheCovarianceCountsEveryAlleyInQuestion) {

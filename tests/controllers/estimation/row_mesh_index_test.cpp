@@ -420,6 +420,44 @@ TEST(RangePrediction, IsTheFirstReturnOfItsFan) {
   EXPECT_GT(off_axis, 3500);  // a sensor at 45 deg hears the side of its cone first
 }
 
+TEST(SpreadPrediction, IsTheLineThatFitsARoughWallBest) {
+  // A wall that stands back by c |x| of its nearest point, seen at a right angle: the ranges at
+  // 0, +-sigma, +-2 sigma are 1 + c |x|, their weights exp(-k^2 / 2).
+  constexpr double c = 0.2, sigma = 0.4;
+  RowMap map;
+  RowMesh wall;
+  wall.mesh_W.vertices = {{-5, 1 + 5 * c, -2}, {0, 1, -2}, {5, 1 + 5 * c, -2},
+                          {-5, 1 + 5 * c, 2},  {0, 1, 2},  {5, 1 + 5 * c, 2}};
+  wall.mesh_W.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+  map.meshes.push_back(wall);
+  const RowMeshIndex index(map);
+  const RangeSensorModel ahead;
+  const auto spread_at = [&](double x, double std_m, bool stands) {
+    const Pose X_WB{quaternion_from_rpy({0, 0, 0.5 * kPi}), {x, 0.0, 0.1}};
+    const auto middle = predict_range(index, X_WB, ahead, 4.0);
+    return predict_spread(index, X_WB, ahead, 4.0, *middle, Vector3d::UnitX(), std_m, 0.7, stands);
+  };
+  const double w1 = std::exp(-0.5), w2 = std::exp(-2.0), all = 1.0 + 2.0 * w1 + 2.0 * w2;
+  const double mean = c * sigma * (2.0 * w1 + 4.0 * w2) / all;
+  const SpreadPrediction about = spread_at(0.0, sigma, false);
+  EXPECT_NEAR(about.slope, 0.0, 1e-9) << "either way the wall stands back";
+  EXPECT_NEAR(about.range_m, 1.0 + mean, 1e-9);
+  EXPECT_NEAR(about.variance_m2, c * c * sigma * sigma * (2.0 * w1 + 8.0 * w2) / all - mean * mean,
+              1e-9);
+  // On one side of the bend the wall is plane: the fit is its tangent, nothing is left over.
+  const SpreadPrediction beside = spread_at(2.0, sigma, false);
+  EXPECT_NEAR(beside.slope, c, 1e-9);
+  EXPECT_NEAR(beside.range_m, 1.0 + 2.0 * c, 1e-9);
+  EXPECT_NEAR(beside.variance_m2, 0.0, 1e-9);
+  // A place that is known takes the tangent.
+  EXPECT_NEAR(spread_at(0.01, 0.0, false).slope, c, 1e-9);
+  // One that stands near the bend believes the smaller slope, and that it may be wrong about it.
+  const SpreadPrediction standing = spread_at(0.1, sigma, true);
+  EXPECT_GE(standing.slope, 0.0);
+  EXPECT_LT(standing.slope, 0.5 * c);
+  EXPECT_GT(standing.variance_m2, about.variance_m2);
+}
+
 TEST(RangePrediction, GradientsAreThoseOfCentralDifferences) {
   const RowMeshBlock block;
   const RowMeshIndex index(make_row_mesh_map(block, RandomStream(17, "", "block")));

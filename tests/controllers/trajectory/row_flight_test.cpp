@@ -214,14 +214,29 @@ TEST(RowFlight, TakesOffTowardsTheFirstRow) {
   }
 }
 
-TEST(RowFlight, BeginsWhereItStandsBesideTheLeg) {
-  FlightBench bench({.alleys = 1, .row_length_m = 20.0});
-  const auto plan = bench.plan(1.28, 0.03);
-  ASSERT_TRUE(plan.ok()) << plan.reason();
-  EXPECT_NEAR((plan->points[0].p_W - Eigen::Vector3d(1.28, 0.03, 0.2)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((plan->points[1].p_W - Eigen::Vector3d(1.28, 0.03, 1.5)).norm(), 0.0, 1e-12);
-  EXPECT_LT(std::abs(plan->points[1].yaw_rad - 0.5 * kPi), 0.05);
-  EXPECT_NEAR(plan->points[2].p_W.x(), 1.25, 1e-9);
+TEST(RowFlight, BeginsInTheAlleyThatItStandsIn) {
+  for (const char* turns : {"grid", "dubins"}) {
+    for (const double x : {1.28, 1.0, 1.6}) {
+      // Climbs to the middle where that is steep: it may well be there already.
+      FlightBench bench({.alleys = 1, .row_length_m = 20.0});
+      bench.values = {{"turns", std::string(turns)}};
+      const auto plan = bench.plan(x, 4.0);
+      ASSERT_TRUE(plan.ok()) << plan.reason();
+      EXPECT_NEAR((plan->points[0].p_W - Eigen::Vector3d(x, 4.0, 0.2)).norm(), 0.0, 1e-12);
+      EXPECT_NEAR((plan->points[1].p_W - Eigen::Vector3d(1.25, 4.0, 1.5)).norm(), 0.0, 1e-9);
+      EXPECT_LT(std::abs(plan->points[1].yaw_rad - 0.5 * kPi), 0.05);
+      EXPECT_NEAR(plan->points[2].p_W.x(), 1.25, 1e-9);
+      EXPECT_GT(plan->points[2].p_W.y(), 4.0) << "no way back to the entrance";
+    }
+    // Where there is little to climb it does so on the spot and joins the middle ahead.
+    FlightBench bench({.alleys = 1, .row_length_m = 20.0});
+    bench.values = {{"turns", std::string(turns)}, {"height_m", 0.7}};
+    const auto plan = bench.plan(1.55, 4.0);
+    ASSERT_TRUE(plan.ok()) << plan.reason();
+    EXPECT_NEAR((plan->points[1].p_W - Eigen::Vector3d(1.55, 4.0, 0.7)).norm(), 0.0, 1e-9);
+    EXPECT_NEAR(plan->points[2].p_W.x(), 1.25, 1e-9);
+    EXPECT_NEAR(plan->points[2].p_W.y(), 5.0, 0.5);
+  }
 }
 
 TEST(RowFlight, MayLandAtTheEndOfTheLastRow) {

@@ -8,20 +8,14 @@
 #include "engine/core/error.h"
 #include "engine/core/random.h"
 #include "engine/io/pgm.h"
+#include "tests/support/folder_test.h"
 
 namespace vinerow::io {
 namespace {
 
-class RosMapFiles : public testing::Test {
+class RosMapFiles : public test::FolderTest {
  protected:
-  RosMapFiles()
-      : folder_(std::filesystem::temp_directory_path() /
-                (std::string("vinerow_ros_map_") +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~RosMapFiles() override { std::filesystem::remove_all(folder_); }
+  RosMapFiles() : FolderTest("ros_map") {}
 
   std::string write(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
@@ -38,12 +32,7 @@ class RosMapFiles : public testing::Test {
     try {
       load_ros_map(file);
     } catch (const ConfigError& e) {
-      // Without the folder, which differs from machine to machine.
-      std::string text = e.what();
-      for (std::size_t at; (at = text.find(folder_.string() + "/")) != std::string::npos;) {
-        text.erase(at, folder_.string().size() + 1);
-      }
-      return text;
+      return without_folder(e.what());
     }
     return "no error";
   }
@@ -53,7 +42,6 @@ class RosMapFiles : public testing::Test {
       "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
   const std::string kPicture =
       std::string("P5\n2 2\n255\n") + "\xfe" + std::string(1, '\0') + "\xcd\xfe";
-  std::filesystem::path folder_;
 };
 
 TEST_F(RosMapFiles, ReadsAMapAsMapSaverWritesIt) {

@@ -246,10 +246,35 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
       fault_of(with_line(10, "      truth: {type: gps}")),
       "scenario:10: vehicles.rover.sensors.truth: a sensor cannot have the name of another signal "
       "(truth, estimate, plan, reference, links, actuators, follower, command, plan_tree, "
-      "local_command, ellipsoid, estimator_state, contacts)");
+      "local_command, ellipsoid, estimator_state, contacts, map_edges)");
   EXPECT_EQ(fault_of(with_line(10, "      gps: {type: gps}\n      gps_truth: {type: gps}")),
             "scenario:11: vehicles.rover.sensors.gps_truth: a sensor cannot have the name of the "
             "truth beside the sensor 'gps'");
+}
+
+TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {
+  const auto observers = [](const std::string& names) {
+    return fault_of(with_line(11, "    observers: {" + names + "}\n    controller:"));
+  };
+  EXPECT_EQ(observers("a: {type: filter}, a_b: {type: filter}"), "");
+  EXPECT_EQ(
+      observers("estimate: {type: filter}"),
+      "scenario:11: vehicles.rover.observers.estimate: an observer cannot have the name of "
+      "another signal (truth, estimate, plan, reference, links, actuators, follower, command, "
+      "plan_tree, local_command, ellipsoid, estimator_state, contacts, map_edges)");
+  EXPECT_EQ(observers("gps: {type: filter}"),
+            "scenario:11: vehicles.rover.observers.gps: its signal 'gps' has the name of the "
+            "sensor 'gps'");
+  EXPECT_EQ(observers("a: {type: filter}, a_state: {type: filter}"),
+            "scenario:11: vehicles.rover.observers.a_state: its signal 'a_state' has the name of "
+            "the observer 'a'");
+  EXPECT_EQ(
+      observers("a: {type: gps}"),
+      "scenario:11: vehicles.rover.observers.a.type = 'gps' is a sensor, must be an estimator "
+      "(known: filter)");
+  EXPECT_EQ(observers("a: {type: filtr}"),
+            "scenario:11: vehicles.rover.observers.a.type = 'filtr': unknown estimator; did you "
+            "mean 'filter'? (known: filter)");
 }
 
 TEST(ScenarioFault, DuplicateKeysNameBothLines) {

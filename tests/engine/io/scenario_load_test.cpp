@@ -37,6 +37,7 @@ vehicles:
       gps: {type: gps, rate_Hz: 10, noise_m: 0.1}
       body_rates: {type: imu}
     estimator: {type: filter}
+    observers: {slow: {type: filter, rate_Hz: 5}, keen: {type: filter, gain: 0.9}}
     map: {type: survey, offset_m: {value: 0.05, source: "survey of May"}}
     planner: {type: coverage, first_alley: 3}
     guidance: {type: window}
@@ -63,7 +64,7 @@ pictures:
     behind: {kind: chase, vehicle: tail, distance_m: 4, height_m: 1, yaw_deg: 180, show_trail: false}
     map: {kind: top, height_m: 80, show_plan: false}
     bonnet: {kind: on_board, offset_m: [1, 0, 0.5], pitch_deg: 45, show_sensor_rays: true}
-    turn: {kind: top, centre_m: [12.5, -3], height_m: 15, show_grid: true, show_tree: true}
+    turn: {kind: top, centre_m: [12.5, -3], height_m: 15, show_grid: true, show_tree: true, show_estimate: true, show_map: true}
     down: {kind: shots, sensor: gps, every: 5}
 )");
   EXPECT_EQ(s.name, "all");
@@ -102,12 +103,16 @@ pictures:
   EXPECT_EQ(rover.sensors[1].part.type, "imu");
   EXPECT_EQ(rover.sensors[1].part.rate_Hz, 500.0) << "default: every physics step";
   EXPECT_EQ(rover.estimator->rate_Hz, 20.0);
+  ASSERT_EQ(rover.observers.size(), 2u);
+  EXPECT_EQ(rover.observers[0].name, "slow");
+  EXPECT_EQ(rover.observers[0].part.rate_Hz, 5.0);
+  EXPECT_EQ(rover.observers[1].part.parameters.number("gain"), 0.9);
   EXPECT_EQ(rover.planner->parameters.integer("first_alley"), 3);
   EXPECT_EQ(rover.planner->rate_Hz, 0.0);
   EXPECT_EQ(rover.guidance->type, "window");
   EXPECT_EQ(rover.controller->rate_Hz, 50.0);
   EXPECT_EQ(rover.controller->parameters.number("lookahead_m"), 0.5);
-  EXPECT_EQ(rover.controller->where.line, 30);
+  EXPECT_EQ(rover.controller->where.line, 31);
   ASSERT_TRUE(rover.map.has_value());
   EXPECT_EQ(rover.map->type, "survey");
   EXPECT_EQ(rover.map->parameters.number("offset_m"), 0.05);
@@ -155,6 +160,8 @@ pictures:
   EXPECT_TRUE(p.cameras[3].show_sensor_rays);
   EXPECT_FALSE(p.cameras[3].show_grid);
   EXPECT_FALSE(p.cameras[3].show_tree);
+  EXPECT_FALSE(p.cameras[3].show_estimate);
+  EXPECT_FALSE(p.cameras[3].show_map);
   EXPECT_FALSE(p.cameras[2].centre_W.has_value());
   EXPECT_EQ(p.cameras[4].centre_W, Eigen::Vector2d(12.5, -3));
   EXPECT_EQ(p.cameras[4].height_m, 15.0);
@@ -166,6 +173,8 @@ pictures:
   EXPECT_FALSE(p.cameras[5].show_plan);
   EXPECT_TRUE(p.cameras[4].show_grid);
   EXPECT_TRUE(p.cameras[4].show_tree);
+  EXPECT_TRUE(p.cameras[4].show_estimate);
+  EXPECT_TRUE(p.cameras[4].show_map);
 }
 
 TEST(Scenario, FillsInDefaults) {

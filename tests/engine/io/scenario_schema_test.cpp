@@ -87,6 +87,7 @@ const Variant kGood[] = {
      "      gps: {type: gps, rate_Hz: 10}\n      gps2: {type: gps, noise_m: 0}\n      off: null"},
     {11, "    estimator: {type: filter}\n    planner: {type: coverage}\n    controller:"},
     {11, "    estimator: null\n    guidance: {type: window, rate_Hz: 5}\n    controller:"},
+    {11, "    observers: {a: {type: filter}, b: {type: filter, gain: 1}, c: null}\n    controller:"},
     {11, "    map: {type: survey}\n    controller:"},
     {11, "    map: {type: survey, offset_m: -0.1}\n    controller:"},
     {11, "    map: null\n    controller:"},
@@ -96,6 +97,8 @@ const Variant kGood[] = {
 };
 
 const Variant kBad[] = {
+    {11, "    observers: {estimate: {type: filter}}\n    controller:"},
+    {11, "    observers: {a: {type: gps}}\n    controller:"},
     {1, "vinerow: 2"},
     {1, "vinerow: '1'"},
     {1, ""},

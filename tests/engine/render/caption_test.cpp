@@ -30,6 +30,47 @@ TEST(Caption, IsWrittenInTheLowerLeftCornerAndNowhereElse) {
   EXPECT_EQ(test::pixel(image, panel.min().x(), panel.min().y()), Eigen::Vector3i(120, 120, 120));
 }
 
+TEST(Caption, ALegendHasASquareOfEachColourInOrder) {
+  Image image = grey_image();
+  const std::vector<LegendEntry> legend = {{"truth", {1, 0.5f, 0}}, {"no_map", {0, 1, 0}}};
+  if (!draw_caption({"riseholme"}, image, legend)) GTEST_SKIP() << "no DejaVu fonts";
+  const auto first = [](const Eigen::Vector3i& p) { return p == Eigen::Vector3i(255, 128, 0); };
+  const auto second = [](const Eigen::Vector3i& p) { return p == Eigen::Vector3i(0, 255, 0); };
+  const auto ink = [](const Eigen::Vector3i& p) { return p.minCoeff() > 200; };
+  const Eigen::AlignedBox2i a = test::box_of(image, first), b = test::box_of(image, second);
+  ASSERT_FALSE(a.isEmpty() || b.isEmpty());
+  EXPECT_EQ(a.sizes(), b.sizes());
+  EXPECT_EQ(a.sizes().x(), a.sizes().y());
+  EXPECT_GT(a.sizes().x(), 3);
+  EXPECT_EQ(a.min().y(), b.min().y()) << "side by side";
+  EXPECT_GT(b.min().x(), a.max().x() + 10) << "text between them";
+  EXPECT_GT(a.min().y(), test::box_of(image, ink).min().y() + 10) << "below the first line";
+}
+
+TEST(Caption, ALegendTakesAsManyRowsAsThePictureIsNarrow) {
+  std::vector<LegendEntry> legend(12, LegendEntry{"map_localisation 0.03 m off", {0, 1, 0}});
+  Image image = grey_image();
+  if (!draw_caption({"riseholme"}, image, legend)) GTEST_SKIP() << "no DejaVu fonts";
+  const auto square = [](const Eigen::Vector3i& p) { return p == Eigen::Vector3i(0, 255, 0); };
+  int begun = 0, rows = 0;
+  for (int y = 0; y < image.height; ++y) {
+    int in_row = 0;
+    for (int x = 1; x < image.width; ++x) {
+      if (square(test::pixel(image, x, y)) && !square(test::pixel(image, x - 1, y))) ++in_row;
+    }
+    const bool above =
+        y > 0 && square(test::pixel(image, test::box_of(image, square).min().x(), y - 1));
+    if (in_row > 0 && !above) {
+      begun += in_row;
+      ++rows;
+    }
+  }
+  EXPECT_EQ(begun, 12);
+  EXPECT_GT(rows, 2);
+  const auto changed = [](const Eigen::Vector3i& p) { return p != Eigen::Vector3i(120, 120, 120); };
+  EXPECT_LT(test::box_of(image, changed).max().x(), 639);
+}
+
 TEST(Caption, NothingToSayDrawsNothing) {
   Image image = grey_image();
   EXPECT_FALSE(draw_caption({}, image));

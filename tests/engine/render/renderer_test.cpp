@@ -315,6 +315,34 @@ TEST(Renderer, LinesBehindWallsAreHidden) {
   EXPECT_TRUE(test::box_of(renderer->draw(frame), is_red).isEmpty());
 }
 
+TEST(Renderer, LinesBehindWallsShowThroughWhereTheyAreToldTo) {
+  WorldModel world = western_light();
+  // The wall hides y < 0, the right half of the picture.
+  world.meshes.push_back(make_instance("wall", make_box({0.1f, 1, 2}), {5, -1, 1}, kBlue));
+  const auto renderer = renderer_of(world);
+  ASSERT_TRUE(renderer);
+  Frame frame = small_frame(look_at({0, 0, 1}, {10, 0, 1}));
+  const Image before = renderer->draw(frame);
+  Polyline line;
+  line.colour = {1, 0, 1};
+  line.width_px = 8;
+  line.alpha = 1.0f;
+  line.hidden_alpha = 0.5f;
+  line.points_W = {{8, 1, 1}, {8, -1, 1}, {8, -0.9, 1}};  // back over itself where it is hidden
+  frame.lines = {line};
+  const Image image = renderer->draw(frame);
+  // 8 m ahead 1 m are 120 / tan(0.48) / 8 = 28.8 pixels.
+  EXPECT_EQ(test::pixel(image, 160 - 15, 120), Eigen::Vector3i(255, 0, 255));
+  for (const int x : {160 + 15, 160 + 27}) {
+    const Eigen::Vector3i below = test::pixel(before, x, 120);
+    const Eigen::Vector3i seen = test::pixel(image, x, 120);
+    EXPECT_NEAR(seen[0], 0.5 * (below[0] + 255), 4) << x;
+    EXPECT_NEAR(seen[1], 0.5 * below[1], 4) << x;
+    EXPECT_NEAR(seen[2], 0.5 * (below[2] + 255), 4) << x;
+  }
+  EXPECT_EQ(test::pixel(image, 160 + 40, 120), test::pixel(before, 160 + 40, 120)) << "its end";
+}
+
 TEST(Renderer, CaptionIsPartOfThePicture) {
   const auto renderer = renderer_of(WorldModel{});
   ASSERT_TRUE(renderer);

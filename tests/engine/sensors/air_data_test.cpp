@@ -4,6 +4,7 @@
 
 #include "engine/sensors/air_data.h"
 #include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow {
 namespace {
@@ -12,11 +13,8 @@ using Eigen::Vector3d;
 
 class AirDataBench : public testing::Test {
  protected:
-  void start(const std::vector<std::pair<std::string, ParameterSet::Value>>& values,
-             double rate_Hz = 20.0) {
-    ParameterSet parameters(air_data_spec().parameters, "air_data");
-    for (const auto& [name, value] : values) parameters.set(name, value);
-    sensor_ = make_air_data(parameters, bench_.context(rate_Hz));
+  void start(const test::SensorValues& values) {
+    sensor_ = make_air_data(test::sensor_parameters("air_data", values), bench_.context(20.0));
     bench_.connect(*sensor_);
   }
   Vector3d read(std::int64_t tick) {
@@ -80,11 +78,8 @@ TEST_F(AirDataBench, TheNoiseHasItsSizeOnEveryAxis) {
 TEST_F(AirDataBench, AnOutageReadsZeroAndDoesNotShiftTheNoise) {
   start({});
   test::SensorBench other;
-  ParameterSet parameters(air_data_spec().parameters, "air_data");
-  ParameterSet window = parameters.make_group("outages");
-  window.set("begin_s", 0.25).set("end_s", 0.5);
-  parameters.set("outages", std::vector<ParameterSet>{window});
-  auto broken = make_air_data(parameters, other.context(20.0));
+  auto broken = make_air_data(test::with_outage(test::sensor_parameters("air_data"), 0.25, 0.5),
+                              other.context(20.0));
   other.connect(*broken);
   const auto reading = other.bus.subscribe<AirData>("rover/s", "test");
   for (int i = 0; i < 20; ++i) {

@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "tests/engine/sensors/data_sheet.h"
 #include "tests/engine/sensors/sensor_rig.h"
 
 namespace vinerow {

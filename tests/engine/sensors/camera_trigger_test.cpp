@@ -7,32 +7,27 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow {
 namespace {
 
 using Eigen::Vector3d;
-using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
+using test::SensorValues;
 
 // The RedEdge of paper A by its data sheet: f 5.4 mm, sensor 4.8 x 3.6 mm, 1280 pixels across.
 constexpr double kAcross = 2.4 / 5.4, kAlong = 1.8 / 5.4, kPixel = 4.8 / 1280 / 5.4;
 
 class CameraBench : public testing::Test {
  protected:
-  void start(const Values& values, double rate_Hz = 20.0) {
-    ParameterSet parameters(camera_trigger_spec().parameters, "camera_trigger");
-    for (const auto& [name, value] : values) parameters.set(name, value);
-    sensor_ = make_camera_trigger(parameters, bench_.context(rate_Hz));
+  void start(const SensorValues& values, double rate_Hz = 20.0) {
+    sensor_ = make_camera_trigger(test::sensor_parameters("camera_trigger", values),
+                                  bench_.context(rate_Hz));
     bench_.connect(*sensor_);
     shot_ = bench_.bus.subscribe<CameraShot>("rover/s", "test");
   }
-  void refuse(const Values& values, const std::string& sentence) {
-    try {
-      start(values);
-      FAIL() << "not refused: " << sentence;
-    } catch (const ConfigError& error) {
-      EXPECT_EQ(error.what(), sentence);
-    }
+  void refuse(const SensorValues& values, const std::string& sentence) {
+    EXPECT_EQ(test::refusal_of([&] { start(values); }), sentence);
   }
   /// One tick of 50 ms. @returns whether it took a picture
   bool tick(const Vector3d& p_W, const RollPitchYaw& attitude = {},

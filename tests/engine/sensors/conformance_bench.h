@@ -3,20 +3,16 @@
 
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "engine/sensors/register.h"
 #include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow::test {
 
 /// With what works on lanes only: one along x from -100 m to 100 m.
 struct ConformanceBench : SensorBench {
-  using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
-
   /// @param type  of a registered sensor; it ticks at its default rate
-  explicit ConformanceBench(const std::string& type, const Values& values = {},
+  explicit ConformanceBench(const std::string& type, const SensorValues& values = {},
                             std::uint64_t seed = 1) {
     scene.wall_x_m = 40.0;
     PlannedPath lane;
@@ -24,13 +20,10 @@ struct ConformanceBench : SensorBench {
     lane.points[0].p_W = {-100, 0, 1};
     lane.points[1].p_W = {100, 0, 1};
     plan.write(Time{0}, lane);
-    Registry registry;
-    register_sensors(registry);
-    const PartSpec& spec = registry.spec(PartKind::kSensor, type);
-    period = period_of_rate(spec.default_rate_Hz);
-    ParameterSet parameters(spec.parameters, type);
-    for (const auto& [name, value] : values) parameters.set(name, value);
-    sensor = registry.make_sensor(type, parameters, context(spec.default_rate_Hz, seed));
+    const double rate_Hz = sensor_registry().spec(PartKind::kSensor, type).default_rate_Hz;
+    period = period_of_rate(rate_Hz);
+    sensor = sensor_registry().make_sensor(type, sensor_parameters(type, values),
+                                           context(rate_Hz, seed));
     connect(*sensor);
     reading = bus.find("rover/s");
     exact = bus.find("rover/s_truth");

@@ -57,9 +57,7 @@ TEST_P(SensorConformance, AStepAllocatesNothingAndWritesNoNan) {
 }
 
 TEST_P(SensorConformance, HasTheParametersOfEveryReadingOnce) {
-  Registry registry;
-  register_sensors(registry);
-  const PartSpec& spec = registry.spec(PartKind::kSensor, GetParam());
+  const PartSpec& spec = test::sensor_registry().spec(PartKind::kSensor, GetParam());
   EXPECT_GT(spec.default_rate_Hz, 0.0);
   for (const char* name : {"delay_s", "dropout_share", "outages"}) {
     EXPECT_EQ(std::count_if(spec.parameters.begin(), spec.parameters.end(),
@@ -145,12 +143,8 @@ TEST_P(SensorConformance, KeepsTimeWhereReadingsComeLateAndSomeNever) {
   EXPECT_GT(seen_late, 0u);
 }
 
-std::vector<std::string> registered_sensors() {
-  Registry registry;
-  register_sensors(registry);
-  return registry.names(PartKind::kSensor);
-}
-INSTANTIATE_TEST_SUITE_P(All, SensorConformance, ::testing::ValuesIn(registered_sensors()),
+INSTANTIATE_TEST_SUITE_P(All, SensorConformance,
+                         ::testing::ValuesIn(test::sensor_registry().names(PartKind::kSensor)),
                          [](const auto& parameter) { return parameter.param; });
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include "engine/sensors/echo.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "engine/math/angles.h"
@@ -19,8 +21,8 @@ constexpr auto kSmooth = SurfaceClass::kObstacle;
 
 io::PartConfig hc_sr04() {
   // Many rays: these tests are of the model, not of the bundle.
-  return test::device("hc_sr04",
-                      {{"missed_share", 0.0}, {"false_share", 0.0}, {"rings", std::int64_t{40}}});
+  return test::data_sheet(
+      "hc_sr04", {{"missed_share", 0.0}, {"false_share", 0.0}, {"rings", std::int64_t{40}}});
 }
 
 bool hears(const ShapeScene& scene) {
@@ -46,7 +48,7 @@ ShapeScene panel(double distance_m, double width_m, double height_m, double asid
 }
 
 TEST(HcSr04, ReadsItsFile) {
-  const io::PartConfig part = test::device("hc_sr04");
+  const io::PartConfig part = test::data_sheet("hc_sr04");
   EXPECT_EQ(part.type, "ultrasound");
   EXPECT_EQ(part.rate_Hz, 20.0);
   EXPECT_EQ(part.parameters.number("accuracy_m"), 0.003);

@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_parts.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow {
@@ -13,25 +14,19 @@ namespace {
 
 using test::SensorBench;
 
-std::unique_ptr<Sensor> make(SensorBench& bench,
-                             const std::vector<std::pair<std::string, double>>& values,
+std::unique_ptr<Sensor> make(SensorBench& bench, const test::SensorValues& values,
                              bool with_outage = false) {
-  ParameterSet parameters(encoders_spec().parameters, "encoders");
-  for (const auto& [name, value] : values) parameters.set(name, value);
-  if (with_outage) {
-    ParameterSet window = parameters.make_group("outages");
-    window.set("begin_s", 1.0).set("end_s", 2.0);
-    parameters.set("outages", std::vector<ParameterSet>{window});
-  }
+  ParameterSet parameters = test::sensor_parameters("encoders", values);
+  if (with_outage) parameters = test::with_outage(parameters, 1.0, 2.0);
   auto sensor = make_encoders(parameters, bench.context(50.0));
   bench.connect(*sensor);
   return sensor;
 }
 
-const std::vector<std::pair<std::string, double>> kIdeal = {{"angle_resolution_rad", 0.0},
-                                                            {"angle_noise_std_rad", 0.0},
-                                                            {"speed_resolution_radps", 0.0},
-                                                            {"speed_noise_std_radps", 0.0}};
+const test::SensorValues kIdeal = {{"angle_resolution_rad", 0.0},
+                                   {"angle_noise_std_rad", 0.0},
+                                   {"speed_resolution_radps", 0.0},
+                                   {"speed_noise_std_radps", 0.0}};
 
 TEST(Encoders, IdealReadingIsTheTruthUnderTheActuatorsNames) {
   SensorBench bench;

@@ -4,6 +4,7 @@
 
 #include "engine/io/yaml.h"
 #include "engine/math/angles.h"
+#include "tests/engine/sensors/data_sheet.h"
 #include "tests/engine/sensors/sensor_rig.h"
 #include "tests/support/no_alloc.h"
 #include "tests/support/paths.h"

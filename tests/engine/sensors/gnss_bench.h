@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/math/angles.h"
-#include "engine/sensors/gnss.h"
 #include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow::test {
 
@@ -69,12 +69,8 @@ inline GeoOrigin barolo() {
 
 class GnssBench {
  public:
-  using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
-
-  static ParameterSet parameters(const Values& values) {
-    ParameterSet result(gnss_spec().parameters, "gnss");
-    for (const auto& [name, value] : values) result.set(name, value);
-    return result;
+  static ParameterSet parameters(const SensorValues& values) {
+    return sensor_parameters("gnss", values);
   }
 
   GnssBench(const SceneQuery& scene, const ParameterSet& parameters, std::uint64_t seed = 1,
@@ -83,7 +79,7 @@ class GnssBench {
     SensorContext context = bench_.context(rate_Hz, seed);
     context.scene = &scene;
     period_ = context.period;
-    sensor_ = make_gnss(parameters, context);
+    sensor_ = sensor_registry().make_sensor("gnss", parameters, context);
     bench_.connect(*sensor_);
     fix_ = bench_.bus.subscribe<GnssFix>("rover/s", "test");
     exact_ = bench_.bus.subscribe<GnssFix>("rover/s_truth", "test");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/error.h"
+#include "tests/engine/sensors/data_sheet.h"
 #include "tests/engine/sensors/gnss_bench.h"
 #include "tests/engine/sensors/sensor_rig.h"
 #include "tests/support/no_alloc.h"
@@ -24,7 +25,7 @@ struct Quality {
 
 /// One minute at 1 m/s along +y.
 Quality drive(const SceneQuery& scene, double x_m, double height_m,
-              const GnssBench::Values& values = {}) {
+              const test::SensorValues& values = {}) {
   GnssBench bench(scene, GnssBench::parameters(values));
   Quality quality;
   constexpr int kTicks = 300;
@@ -160,15 +161,10 @@ TEST(Gnss, AStepAllocatesNothingWhateverItSees) {
 
 TEST(Gnss, ContradictionsAreRefusedInOneSentence) {
   const BoxScene open;
-  const auto refusal_of = [&](const ParameterSet& parameters) -> std::string {
-    try {
-      GnssBench bench(open, parameters);
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "no error";
+  const auto refusal_of = [&](const ParameterSet& parameters) {
+    return test::refusal_of([&] { GnssBench bench(open, parameters); });
   };
-  const auto refusal = [&](const GnssBench::Values& values) {
+  const auto refusal = [&](const test::SensorValues& values) {
     return refusal_of(GnssBench::parameters(values));
   };
   using Texts = std::vector<std::string>;
@@ -190,6 +186,8 @@ TEST(Gnss, ContradictionsAreRefusedInOneSentence) {
   EXPECT_EQ(refusal_of(with_window(plain, "jamming",
                                    {{"begin_s", 5.0}, {"end_s", 4.0}, {"drop_dB", 10.0}})),
             "rover.sensors.s: jamming: end_s = 4 s, must be >= begin_s = 5 s");
+  EXPECT_EQ(refusal_of(with_window(plain, "outages", {{"begin_s", 9.0}, {"end_s", 5.0}})),
+            "rover.sensors.s: outages: end_s = 5 s, must be >= begin_s = 9 s");
   EXPECT_EQ(refusal_of(with_window(
                 plain, "jamming",
                 {{"begin_s", 5.0}, {"end_s", 9.0}, {"drop_dB", 10.0}, {"ramp_s", 3.0}})),

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/math/angles.h"
+#include "tests/engine/sensors/data_sheet.h"
 #include "tests/engine/sensors/sensor_rig.h"
 #include "tests/support/no_alloc.h"
 

@@ -1,5 +1,7 @@
 #include "engine/sensors/lidar.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "engine/math/angles.h"
@@ -32,7 +34,7 @@ TEST(Lidar, BeamsRunFromRightToLeftOverTheFieldOfView) {
   EXPECT_NEAR(scan.first_angle_rad, -rad_from_deg(135.0), 1e-12);
   EXPECT_NEAR(angle_of(scan, 1080), rad_from_deg(135.0), 1e-9);
   for (const double range_m : scan.ranges_m) EXPECT_TRUE(std::isinf(range_m));
-  Bench tim(test::device("sick_tim571"), scene);
+  Bench tim(test::data_sheet("sick_tim571"), scene);
   EXPECT_EQ(tim.step().ranges_m.size(), 811u);  // 270 deg by thirds of a degree
 }
 
@@ -184,7 +186,7 @@ TEST(Lidar, WhatIsSeenShiftsNoRandomNumber) {
 
 TEST(Lidar, AStepAllocatesNothingWithADelayToo) {
   const ShapeScene scene = wall_ahead(2.0);
-  Bench bench(test::device("hokuyo_ust10lx", {{"delay_s", 0.05}}), scene);
+  Bench bench(test::data_sheet("hokuyo_ust10lx", {{"delay_s", 0.05}}), scene);
   bench.step_only();
   bench.step_only();
   bench.sensor().deliver(bench.now());
@@ -200,10 +202,8 @@ TEST(Lidar, AStepAllocatesNothingWithADelayToo) {
 
 TEST(Lidar, AnOutageIsAScanWithoutAnEcho) {
   const ShapeScene scene = wall_ahead(2.0);
-  ParameterSet parameters = test::sensor_parameters("lidar", {{"field_of_view_deg", 2.0}});
-  ParameterSet window = parameters.make_group("outages");
-  window.set("begin_s", 0.0).set("end_s", 0.025);
-  parameters.set("outages", std::vector<ParameterSet>{window});
+  const ParameterSet parameters =
+      test::with_outage(test::sensor_parameters("lidar", {{"field_of_view_deg", 2.0}}), 0.0, 0.025);
   Bench bench("lidar", parameters, scene, 40.0, 1);
   for (const double range_m : bench.step().ranges_m) EXPECT_TRUE(std::isinf(range_m));
   EXPECT_EQ(bench.truth().value().ranges_m[4], 2.0);

@@ -1,60 +1,13 @@
 #pragma once
 /// A ranging sensor on a bench: parameters by name or from a device's file, any scene, one pose.
 
-#include <gtest/gtest.h>
-
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "engine/core/error.h"
-#include "engine/io/scenario.h"
-#include "engine/sensors/register.h"
+#include "tests/engine/sensors/data_sheet.h"
 #include "tests/engine/sensors/fixed_scene.h"
-#include "tests/engine/sim/small_parts.h"
-#include "tests/support/paths.h"
 
 namespace vinerow::test {
-
-inline const Registry& sensor_registry() {
-  static const Registry registry = [] {
-    Registry r;
-    register_sensors(r);
-    PartSpec world;
-    world.name = "plain";
-    world.parameters = {boolean_parameter("has_map", false, "an occupancy grid")};
-    r.add_world(world, make_plain);
-    PartSpec vehicle;
-    vehicle.name = "statue";
-    r.add_vehicle(vehicle, [](const ParameterSet&, const VehicleContext&) {
-      return std::unique_ptr<Vehicle>(std::make_unique<Statue>());
-    });
-    return r;
-  }();
-  return registry;
-}
-
-using SensorValues = std::vector<std::pair<std::string, ParameterSet::Value>>;
-
-inline ParameterSet sensor_parameters(const std::string& type, const SensorValues& values) {
-  ParameterSet parameters(sensor_registry().spec(PartKind::kSensor, type).parameters, type);
-  for (const auto& [name, value] : values) parameters.set(name, value);
-  return parameters;
-}
-
-/// A sensor as a scenario gets it that includes assets/sensors/<device>.yaml.
-inline io::PartConfig device(const std::string& name, const SensorValues& values = {}) {
-  const std::string folder = std::string(VINEROW_SOURCE_DIR) + "/assets/sensors";
-  io::Scenario scenario = io::parse_scenario(
-      "vinerow: 1\nname: bench\nduration_s: 1\nworld: {type: plain}\nvehicles:\n  rover:\n"
-      "    type: statue\n    spawn: {x_m: 0, y_m: 0}\n    sensors:\n      s: {include: " +
-          name + ".yaml}\n",
-      folder, sensor_registry());
-  io::PartConfig part = scenario.vehicles.at(0).sensors.at(0).part;
-  for (const auto& [parameter, value] : values) part.parameters.set(parameter, value);
-  return part;
-}
 
 /// Reads T ("s") and its truth ("s_truth") of a sensor whose vehicle stands where `truth` says.
 template <class T>
@@ -105,16 +58,5 @@ class RangingBench {
   SignalReader<T> reading_, truth_;
   Time now_{0};
 };
-
-/// What a maker refuses.
-template <class F>
-std::string refusal_of(F&& f) {
-  try {
-    f();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 }  // namespace vinerow::test

@@ -1,6 +1,8 @@
 /// Ranging sensors in the surveyed vineyard of Riseholme: how many rays a cone needs, and whether
 /// what a scanner sees are the posts and vines that were measured there.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -78,7 +80,7 @@ ConeError error_on_the_canopy(int rings) {
 }
 
 TEST(RangingInAVineyard, TheConeOfADeviceFindsTheFirstReturnOnACanopy) {
-  const auto rings = static_cast<int>(test::device("hc_sr04").parameters.integer("rings"));
+  const auto rings = static_cast<int>(test::data_sheet("hc_sr04").parameters.integer("rings"));
   const ConeError error = error_on_the_canopy(rings);
   // Measured: mean 1.1 mm with 2 rings, 0.5 mm with 4, 0.3 mm with 6; 95 % within 5.4, 2.0, 1.1 mm.
   // The sensor's own accuracy is 3 mm.
@@ -111,7 +113,7 @@ std::vector<double> nearest_m(const std::vector<Eigen::Vector2d>& points,
 
 /// Drives a scanner, 0.3 m above the ground and level, down every other alley, a scan each 0.2 m.
 std::vector<Eigen::Vector2d> detect_posts(const std::string& name) {
-  test::RangingBench<LaserScan> bench(test::device(name), *riseholme().scene);
+  test::RangingBench<LaserScan> bench(test::data_sheet(name), *riseholme().scene);
   test::PostDetector detector;
   for (std::size_t alley = 0; alley < riseholme().world->rows.alleys.size(); alley += 2) {
     for (int i = 0; i <= 85; ++i) {

@@ -4,8 +4,8 @@
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "engine/sensors/register.h"
 #include "tests/engine/sensors/fixed_scene.h"
+#include "tests/engine/sensors/sensor_parts.h"
 
 namespace vinerow {
 namespace {
@@ -13,13 +13,9 @@ namespace {
 using test::SensorBench;
 
 std::unique_ptr<Sensor> make(SensorBench& bench, const std::string& type, double rate_Hz,
-                             const std::vector<std::pair<std::string, ParameterSet::Value>>& values,
-                             std::uint64_t seed = 1) {
-  Registry registry;
-  register_sensors(registry);
-  ParameterSet parameters(registry.spec(PartKind::kSensor, type).parameters, type);
-  for (const auto& [name, value] : values) parameters.set(name, value);
-  auto sensor = registry.make_sensor(type, parameters, bench.context(rate_Hz, seed));
+                             const test::SensorValues& values, std::uint64_t seed = 1) {
+  auto sensor = test::sensor_registry().make_sensor(type, test::sensor_parameters(type, values),
+                                                    bench.context(rate_Hz, seed));
   bench.connect(*sensor);
   return sensor;
 }
@@ -69,13 +65,8 @@ TEST(Gps, UniformErrorFillsItsSquareAndNoMore) {
 TEST(Gps, OutageGivesInvalidFixesAndDoesNotShiftTheNoise) {
   SensorBench a, b;
   auto plain = make(a, "gps", 5.0, {});
-  Registry registry;
-  register_sensors(registry);
-  ParameterSet parameters(registry.spec(PartKind::kSensor, "gps").parameters, "gps");
-  ParameterSet window = parameters.make_group("outages");
-  window.set("begin_s", 1.0).set("end_s", 2.0);
-  parameters.set("outages", std::vector<ParameterSet>{window});
-  auto broken = registry.make_sensor("gps", parameters, b.context(5.0));
+  auto broken = test::sensor_registry().make_sensor(
+      "gps", test::with_outage(test::sensor_parameters("gps"), 1.0, 2.0), b.context(5.0));
   b.connect(*broken);
   a.truth.write(Time{0}, Odometry{}), b.truth.write(Time{0}, Odometry{});
   const auto fix_a = a.bus.subscribe<GnssFix>("rover/s", "test"),

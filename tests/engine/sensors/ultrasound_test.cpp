@@ -1,5 +1,7 @@
 #include "engine/sensors/ultrasound.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "engine/math/angles.h"
@@ -200,11 +202,9 @@ TEST(Ultrasound, FourRangersFireInTurn) {
 
 TEST(Ultrasound, OutagesAndDropoutsLeaveTheTruth) {
   const ShapeScene scene = wall(1.0);
-  ParameterSet parameters =
-      test::sensor_parameters("ultrasound", {{"dropout_share", 0.25}, {"noise_std_m", 0.0}});
-  ParameterSet window = parameters.make_group("outages");
-  window.set("begin_s", 1.0).set("end_s", 2.0);
-  parameters.set("outages", std::vector<ParameterSet>{window});
+  const ParameterSet parameters = test::with_outage(
+      test::sensor_parameters("ultrasound", {{"dropout_share", 0.25}, {"noise_std_m", 0.0}}), 1.0,
+      2.0);
   Bench bench("ultrasound", parameters, scene, 20.0, 1);
   constexpr int kCount = 4000;
   for (int i = 0; i < kCount; ++i) {
@@ -222,7 +222,7 @@ TEST(Ultrasound, OutagesAndDropoutsLeaveTheTruth) {
 
 TEST(Ultrasound, ListeningAllocatesNothing) {
   const ShapeScene scene = wall(1.0, 10.0);
-  Bench bench(test::device("hc_sr04"), scene);
+  Bench bench(test::data_sheet("hc_sr04"), scene);
   bench.step();
   const test::AllocationCounter counter;
   for (int i = 0; i < 50; ++i) bench.step();

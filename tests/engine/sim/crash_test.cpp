@@ -8,9 +8,8 @@
 
 #include "engine/core/error.h"
 #include "engine/record/log_reader.h"
-#include "engine/sim/metrics/register.h"
 #include "engine/sim/run.h"
-#include "tests/engine/sim/small_parts.h"
+#include "tests/engine/sim/small_run.h"
 
 namespace vinerow {
 namespace {
@@ -32,28 +31,9 @@ vehicles:
 metrics: {travel: {type: travel}}
 )";
 
-class CrashRun : public testing::Test {
+class CrashRun : public test::RunFixture {
  protected:
-  CrashRun() : registry_(test::small_registry()) {
-    register_metrics(registry_);
-    folder_ =
-        std::filesystem::temp_directory_path() /
-        (std::string("vinerow_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-  }
-  ~CrashRun() override { std::filesystem::remove_all(folder_); }
-
-  RunResult run(const std::vector<std::string>& sets) {
-    io::Overrides overrides;
-    overrides.sets = sets;
-    RunOptions options;
-    options.out = folder_;
-    return run_scenario(io::parse_scenario(kScenario, ".", registry_, overrides), registry_,
-                        options);
-  }
-  nlohmann::json summary() const {
-    return nlohmann::json::parse(std::ifstream(folder_ / "summary.json"));
-  }
+  CrashRun() : RunFixture(kScenario) {}
   /// Lines of the event file whose text begins so.
   std::vector<nlohmann::json> events(const std::string& beginning) const {
     std::ifstream lines(folder_ / "events.jsonl");
@@ -64,9 +44,6 @@ class CrashRun : public testing::Test {
     }
     return found;
   }
-
-  Registry registry_;
-  std::filesystem::path folder_;
 };
 
 TEST_F(CrashRun, EndsAtTheCrashUnlessTheScenarioSaysOtherwise) {

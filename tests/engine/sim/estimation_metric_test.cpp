@@ -8,6 +8,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "engine/sim/metrics/batch_means.h"
+#include "engine/sim/metrics/estimate_judge.h"
 #include "engine/sim/metrics/estimation.h"
 #include "tests/support/no_alloc.h"
 

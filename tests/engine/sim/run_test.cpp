@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/record/log_reader.h"
-#include "engine/sim/metrics/register.h"
-#include "tests/engine/sim/small_parts.h"
+#include "engine/sim/log_trace.h"
+#include "tests/engine/sim/small_run.h"
 
 namespace vinerow {
 namespace {
@@ -30,32 +30,10 @@ vehicles:
 metrics: {travel: {type: travel}}
 )";
 
-class SmallRun : public testing::Test {
+class SmallRun : public test::RunFixture {
  protected:
-  SmallRun() : registry_(test::small_registry()) {
-    register_metrics(registry_);
-    folder_ =
-        std::filesystem::temp_directory_path() /
-        (std::string("vinerow_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-  }
-  ~SmallRun() override { std::filesystem::remove_all(folder_); }
-
-  RunResult run(const std::vector<std::string>& sets = {}) {
-    io::Overrides overrides;
-    overrides.sets = sets;
-    RunOptions options;
-    options.out = folder_;
-    return run_scenario(io::parse_scenario(kScenario, ".", registry_, overrides), registry_,
-                        options);
-  }
-  nlohmann::json summary() const {
-    return nlohmann::json::parse(std::ifstream(folder_ / "summary.json"));
-  }
+  SmallRun() : RunFixture(kScenario) {}
   record::LogReader log() const { return record::LogReader(folder_ / "log.mcap"); }
-
-  Registry registry_;
-  std::filesystem::path folder_;
 };
 
 TEST_F(SmallRun, APartsEventReachesTheRunsEventsOnce) {
@@ -107,6 +85,53 @@ TEST_F(SmallRun, WithoutAReportThereIsNothingToTell) {
   int trees = 0;
   log().read<LineList>("/rover/plan_tree", [&](Time, const LineList&) { ++trees; });
   EXPECT_EQ(trees, 0);
+}
+
+TEST_F(SmallRun, AVehiclesOwnMapIsInTheLogOnceAsEdges) {
+  const std::string digest = run().digest;
+  EXPECT_EQ(run({"rover.map={type: one_sheet}"}).digest, digest) << "it follows from the world";
+  std::vector<LineList> maps;
+  log().read<LineList>("/rover/map_edges", [&](Time t, const LineList& map) {
+    EXPECT_EQ(t.ns, 0);
+    maps.push_back(map);
+  });
+  ASSERT_EQ(maps.size(), 1u);
+  EXPECT_EQ(maps[0].points_W,
+            (std::vector<Eigen::Vector3d>{
+                {0, 0, 0}, {3, 0, 0}, {3, 0, 0}, {3, 4, 0}, {0, 0, 0}, {3, 4, 0}}));
+  run({"rover.map={type: one_sheet, has_meshes: false}"});
+  const auto without_meshes = log();
+  for (const record::ChannelInfo& channel : without_meshes.info().channels) {
+    EXPECT_NE(channel.topic, "/rover/map_edges");
+  }
+}
+
+TEST_F(SmallRun, EstimatesAndMapsAreReadFromTheLogWhereTheyAreAskedFor) {
+  run({"rover.map={type: one_sheet}"});
+  const VehicleTrace plain = read_trace(log(), {"rover"}).vehicles.at("rover");
+  EXPECT_FALSE(plain.truth.empty());
+  EXPECT_TRUE(plain.estimates.empty());
+  EXPECT_TRUE(plain.map_edges.points_W.empty());
+  TraceWishes wishes;
+  wishes.estimates = wishes.map_edges = true;
+  const VehicleTrace all = read_trace(log(), {"rover"}, wishes).vehicles.at("rover");
+  ASSERT_EQ(all.estimates.size(), 1u) << "the truth is none";
+  EXPECT_EQ(all.estimates.at("estimate").times, all.truth.times);
+  EXPECT_EQ(all.map_edges.points_W.size(), 6u);
+}
+
+TEST(OdometryAt, CovarianceGoesStraightFromSampleToSample) {
+  Trace<Odometry> trace;
+  trace.times = {Time{0}, Time{1'000'000'000}};
+  trace.values.resize(2);
+  trace.values[1].X_WB.p = {4, 0, 0};
+  trace.values[0].position_variance_m2 = {1, 2, 3};
+  trace.values[1].position_variance_m2 = {5, 2, 7};
+  trace.values[1].position_covariance_m2 = {0.4, 0, 0};
+  const Odometry at = odometry_at(trace, Time{250'000'000});
+  EXPECT_LT((at.X_WB.p - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((at.position_variance_m2 - Eigen::Vector3d(2, 2, 4)).norm(), 1e-12);
+  EXPECT_LT((at.position_covariance_m2 - Eigen::Vector3d(0.1, 0, 0)).norm(), 1e-12);
 }
 
 TEST_F(SmallRun, TheMapIsInTheLogOnceWhereTheWorldHasOne) {

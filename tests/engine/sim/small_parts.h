@@ -28,6 +28,17 @@ inline std::unique_ptr<WorldModel> make_plain(const ParameterSet& parameters, co
   return world;
 }
 
+/// A row mesh of one triangle.
+inline std::unique_ptr<RowMap> make_one_sheet(const ParameterSet& parameters, const MapContext&) {
+  auto map = std::make_unique<RowMap>();
+  if (!parameters.boolean("has_meshes")) return map;
+  RowMesh row;
+  row.mesh_W.vertices = {{0, 0, 0}, {3, 0, 0}, {3, 4, 0}};
+  row.mesh_W.triangles = {{0, 1, 2}};
+  map->meshes.push_back(row);
+  return map;
+}
+
 /// Stands where it was put, and is wrecked from `crash_s` on where that is given.
 class Statue final : public Vehicle {
  public:
@@ -130,6 +141,9 @@ inline Registry small_registry() {
       [](const ParameterSet& parameters, const VehicleContext&) {
         return std::make_unique<Statue>(parameters.number("crash_s"));
       });
+  registry.add_map(
+      spec("one_sheet", {boolean_parameter("has_meshes", true, "whether it has row meshes")}),
+      make_one_sheet);
   registry.add_planner(
       spec("straight_ahead", {boolean_parameter("reports", true, "whether it keeps a report")}),
       [](const ParameterSet& parameters, const PlannerContext&) {

@@ -1,0 +1,97 @@
+#include "engine/io/point_cloud.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/error.h"
+#include "engine/io/block_file.h"
+#include "engine/io/point_cloud_las.h"
+#include "engine/io/point_cloud_pcd.h"
+#include "engine/io/point_cloud_ply.h"
+#include "engine/io/point_cloud_xyz.h"
+
+namespace vinerow::io {
+namespace {
+
+bool is_text_extension(const std::string& extension) {
+  constexpr std::array<std::string_view, 5> kText = {".xyz", ".csv", ".txt", ".asc", ".pts"};
+  return std::find(kText.begin(), kText.end(), extension) != kText.end();
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+std::size_t PointCloudReader::read(std::span<CloudPoint> block) {
+  std::size_t count = 0;
+  while (count < block.size() && !ended_) {
+    CloudPoint& point = block[count];
+    switch (next(point)) {
+      case Next::kEnd:
+        ended_ = true;
+        break;
+      case Next::kWithheld:
+        ++tally_.withheld;
+        break;
+      case Next::kPoint:
+        if (point.position.allFinite()) {
+          ++count;
+        } else {
+          ++tally_.not_finite;
+        }
+    }
+  }
+  tally_.given += count;
+  return count;
+}
+
+std::unique_ptr<PointCloudReader> open_point_cloud(const std::filesystem::path& file) {
+  BlockFile bytes(file);
+  const std::string begin = bytes.peek(16);
+  const std::string extension = lower_extension(file);
+  if (begin.starts_with("LASF")) return open_las(std::move(bytes));
+  if (begin.starts_with("ply\n") || begin.starts_with("ply\r")) return open_ply(std::move(bytes));
+  if (begin.starts_with("# .PCD") || begin.starts_with("VERSION")) {
+    return open_pcd(std::move(bytes));
+  }
+  // The extension says what was meant, so the sentence can say what is wrong.
+  if (extension == ".las" || extension == ".laz") bytes.fail_kind(begin, "LAS file", "LASF");
+  if (extension == ".ply") bytes.fail_kind(begin, "PLY file", "ply");
+  if (extension == ".pcd") bytes.fail_kind(begin, "PCD file", "# .PCD or VERSION");
+  if (is_text_extension(extension)) return open_xyz(std::move(bytes));
+  bytes.fail(fmt::format(
+      "has the unknown format '{}', must be one of: .ply, .las, .pcd, .xyz, .csv, .txt, .asc, .pts",
+      extension));
+}
+
+PointCloudSummary summarise_point_cloud(const std::filesystem::path& file) {
+  const std::unique_ptr<PointCloudReader> reader = open_point_cloud(file);
+  PointCloudSummary summary;
+  std::vector<CloudPoint> block(4096);
+  while (const std::size_t count = reader->read(block)) {
+    for (std::size_t k = 0; k < count; ++k) summary.bounds.extend(block[k].position);
+  }
+  summary.info = reader->info();
+  summary.tally = reader->tally();
+  if (summary.tally.given == 0) {
+    throw ConfigError(
+        fmt::format("point cloud '{}' has no points{}", file.string(),
+                    summary.tally.not_finite + summary.tally.withheld == 0
+                        ? ""
+                        : fmt::format(" left: {} are not finite, {} are marked as withheld",
+                                      summary.tally.not_finite, summary.tally.withheld)));
+  }
+  return summary;
+}
+
+}  // namespace vinerow::io

@@ -1,0 +1,128 @@
+#include "engine/io/point_cloud_crs.h"
+
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/core/error.h"
+#include "engine/io/geo.h"
+#include "engine/io/quiet_gdal.h"
+#include "engine/math/angles.h"
+
+namespace vinerow::io {
+namespace {
+
+struct TransformDestroyer {
+  void operator()(OGRCoordinateTransformation* t) const {
+    OGRCoordinateTransformation::DestroyCT(t);
+  }
+};
+using Transformation = std::unique_ptr<OGRCoordinateTransformation, TransformDestroyer>;
+
+OGRSpatialReference parse_crs(const std::string& text) {
+  OGRSpatialReference crs;
+  if (text.empty() || crs.SetFromUserInput(text.c_str()) != OGRERR_NONE) {
+    throw ConfigError(
+        fmt::format("crs = '{}' is not a coordinate reference system, must be like EPSG:32632",
+                    text.substr(0, 60)));
+  }
+  return crs;
+}
+
+/// Metres of one unit of z.
+double height_unit_m(const OGRSpatialReference& crs) {
+  if (crs.IsCompound() || crs.IsVertical()) return crs.GetTargetLinearUnits("VERT_CS");
+  return crs.IsProjected() ? crs.GetLinearUnits() : 1.0;
+}
+
+}  // namespace
+
+EpsgCode find_epsg_code(const std::string& crs) {
+  const QuietGdal quiet;
+  const OGRSpatialReference parsed = parse_crs(crs);
+  const char* authority = parsed.GetAuthorityName(nullptr);
+  const char* code = parsed.GetAuthorityCode(nullptr);
+  const int number = code == nullptr ? 0 : std::atoi(code);
+  if (authority == nullptr || std::string(authority) != "EPSG" || number < 1024 ||
+      number >= 32767 || parsed.IsCompound() || !(parsed.IsProjected() || parsed.IsGeographic())) {
+    throw ConfigError(fmt::format(
+        "crs = '{}' must be the EPSG code of a geographic or projected system, like EPSG:32632",
+        crs.substr(0, 60)));
+  }
+  return {static_cast<std::uint16_t>(number), parsed.IsGeographic() != 0};
+}
+
+struct CloudFrame::Impl {
+  Impl(const std::string& text, const GeoOrigin& origin) : frame(origin) {
+    OGRSpatialReference crs = parse_crs(text);
+    height_m = height_unit_m(crs);
+    name = crs.GetName() ? crs.GetName() : "unknown";
+    // Heights go their own way, so that no geoid is taken where PROJ happens to have its grid.
+    if (crs.IsCompound()) crs.StripVertical();
+    crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    OGRSpatialReference wgs84;
+    wgs84.SetWellKnownGeogCS("WGS84");
+    wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    to_wgs84.reset(OGRCreateCoordinateTransformation(&crs, &wgs84));
+    if (!to_wgs84) {
+      throw ConfigError(fmt::format("crs '{}' does not convert to WGS84", name));
+    }
+  }
+
+  LocalFrame frame;
+  double height_m = 1.0;
+  std::string name;
+  Transformation to_wgs84;
+};
+
+CloudFrame::CloudFrame(const std::string& crs, const GeoOrigin& origin) {
+  const QuietGdal quiet;
+  impl_ = std::make_unique<Impl>(crs, origin);
+}
+
+CloudFrame::~CloudFrame() = default;
+
+Eigen::Vector3d CloudFrame::to_local(const Eigen::Vector3d& position) const {
+  const QuietGdal quiet;
+  double x = position.x(), y = position.y();
+  // From WGS84 to itself PROJ passes on whatever it is given.
+  if (!impl_->to_wgs84->Transform(1, &x, &y) || !(std::abs(x) <= 360.0 && std::abs(y) <= 90.0)) {
+    throw ConfigError(fmt::format("point ({}, {}, {}) lies outside of the crs '{}'", position.x(),
+                                  position.y(), position.z(), impl_->name));
+  }
+  return impl_->frame.to_local({rad_from_deg(y), rad_from_deg(x), impl_->height_m * position.z()});
+}
+
+void CloudFrame::to_local(std::span<CloudPoint> points) const {
+  for (CloudPoint& point : points) point.position = to_local(point.position);
+}
+
+bool looks_like_degrees(const Eigen::AlignedBox3d& bounds) {
+  const Eigen::Vector3d most = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs());
+  const Eigen::Vector3d size = bounds.sizes();
+  const double width = std::max(size.x(), size.y());
+  return most.x() <= 180.0 && most.y() <= 90.0 && width > 0.0 && size.z() >= 20.0 * width;
+}
+
+void check_cloud_unit(const std::filesystem::path& file, const std::string& crs,
+                      const Eigen::AlignedBox3d& bounds) {
+  if (!looks_like_degrees(bounds)) return;
+  const QuietGdal quiet;
+  std::string reason =
+      "has no coordinate reference system; give it by 'crs: EPSG:<code>' (EPSG:4326 for WGS84)";
+  if (!crs.empty()) {
+    const OGRSpatialReference parsed = parse_crs(crs);
+    if (parsed.IsGeographic()) return;
+    reason = fmt::format("its coordinate reference system '{}' is projected",
+                         parsed.GetName() ? parsed.GetName() : "unknown");
+  }
+  throw ConfigError(
+      fmt::format("point cloud '{}' looks as if it were in degrees (x {} to {}, y {} to {}, z {} "
+                  "to {}), but {}",
+                  file.string(), bounds.min().x(), bounds.max().x(), bounds.min().y(),
+                  bounds.max().y(), bounds.min().z(), bounds.max().z(), reason));
+}
+
+}  // namespace vinerow::io

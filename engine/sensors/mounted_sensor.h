@@ -1,0 +1,52 @@
+#pragma once
+/// A sensor that sits somewhere on its vehicle and measures from the body's true motion.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/sensors/mounting.h"
+#include "engine/sensors/reading_sensor.h"
+
+namespace vinerow {
+
+template <class T>
+class MountedSensor : public ReadingSensor<T> {
+ public:
+  MountedSensor(const ParameterSet& parameters, const SensorContext& context)
+      : ReadingSensor<T>(parameters, context), X_BS_(mounting_pose(parameters)) {}
+
+  void connect(Ports& ports) override {
+    truth_ = ports.read<Odometry>("truth");
+    ReadingSensor<T>::connect(ports);
+  }
+  std::optional<Pose> mounting_X_BS() const override { return X_BS_; }
+
+ protected:
+  const Odometry& body() const { return truth_.value(); }
+  Pose X_WS() const { return body().X_WB * X_BS_; }
+  /// Velocity of the place where it sits, in W.
+  Eigen::Vector3d v_WS() const {
+    return body().X_WB.q * (body().v_WB_B + body().w_WB_B.cross(X_BS_.p));
+  }
+
+  const Pose X_BS_;
+
+ private:
+  SignalReader<Odometry> truth_;
+};
+
+/// @param parameters  the sensor's own; those of its mounting are put before them, those of its
+///   readings behind
+template <class T>
+PartSpec mounted_sensor_spec(std::string name, std::string description, double default_rate_Hz,
+                             std::vector<ParameterSpec> parameters) {
+  PartSpec spec =
+      reading_sensor_spec<T>(std::move(name), std::move(description), default_rate_Hz,
+                             join_parameters({mounting_parameters(), std::move(parameters)}));
+  spec.reads = {"truth"};
+  return spec;
+}
+
+}  // namespace vinerow

@@ -1,0 +1,44 @@
+#pragma once
+/// What all sensors share: their readings of type T come late, get lost or fail as Readings says,
+/// and are written as the signal of the sensor's name with the truth beside it.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/api/stepped_parts.h"
+#include "engine/sensors/readings.h"
+
+namespace vinerow {
+
+/// What is left to a sensor is step(): it hands one reading a tick to `readings_`.
+template <class T>
+class ReadingSensor : public Sensor {
+ public:
+  ReadingSensor(const ParameterSet& parameters, const SensorContext& context)
+      : readings_(parameters, context) {}
+
+  void connect(Ports& ports) override { readings_.connect(ports); }
+  Duration delay() const override { return readings_.delay(); }
+  void deliver(Time) override { readings_.deliver(); }
+
+ protected:
+  Readings<T> readings_;
+};
+
+/// @param parameters  the sensor's own; those of its readings are put behind them
+template <class T>
+PartSpec reading_sensor_spec(std::string name, std::string description, double default_rate_Hz,
+                             std::vector<ParameterSpec> parameters) {
+  PartSpec spec;
+  spec.name = std::move(name);
+  spec.description = std::move(description);
+  spec.default_rate_Hz = default_rate_Hz;
+  spec.parameters = join_parameters({std::move(parameters), reading_parameters()});
+  for (const char* signal : {"<name>: ", "<name>_truth: "}) {
+    spec.writes.push_back(std::string(signal) + T::kType);
+  }
+  return spec;
+}
+
+}  // namespace vinerow

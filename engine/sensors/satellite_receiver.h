@@ -1,0 +1,36 @@
+#pragma once
+/// What receivers of satellites share: an antenna, and where it is on the ellipsoid.
+
+#include "engine/io/geo.h"
+#include "engine/sensors/mounted_sensor.h"
+
+namespace vinerow {
+
+class SatelliteReceiver : public MountedSensor<GnssFix> {
+ protected:
+  SatelliteReceiver(const ParameterSet& parameters, const SensorContext& context)
+      : MountedSensor(parameters, context), frame_(context.world->origin) {}
+
+  /// The antenna's place and velocity, without error.
+  GnssFix exact_fix() const {
+    GnssFix exact;
+    exact.valid = true;
+    exact.p_W = X_WS().p;
+    exact.v_W = v_WS();
+    locate(exact);
+    return exact;
+  }
+
+  /// Sets latitude, longitude and altitude to those of p_W.
+  void locate(GnssFix& fix) const {
+    const io::Geodetic g = frame_.to_geodetic(fix.p_W);
+    fix.latitude_rad = g.latitude_rad;
+    fix.longitude_rad = g.longitude_rad;
+    fix.altitude_m = g.altitude_m;
+  }
+
+ private:
+  io::LocalFrame frame_;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,126 @@
+#include "engine/io/point_cloud_crs.h"
+
+#include <cmath>
+
+#include "engine/core/random.h"
+#include "engine/io/geo.h"
+#include "engine/math/angles.h"
+#include "tests/engine/io/point_cloud_files.h"
+
+namespace vinerow::io {
+namespace {
+
+const GeoOrigin kOrigin{rad_from_deg(45.0), rad_from_deg(9.5), 100.0};
+
+/// Transverse Mercator of UTM zone 32 on GRS80, as far as n^3 (below 1 mm in a zone).
+/// Source: Krueger 1912, as given by Karney, "Transverse Mercator with an accuracy of a few
+/// nanometers", J. Geodesy 85 (2011), eqs. 7 to 14 and 35.
+Eigen::Vector2d utm32(double latitude_rad, double longitude_rad) {
+  const double f = 1.0 / 298.257222101, n = f / (2.0 - f), e = std::sqrt(f * (2.0 - f));
+  const double tau = std::tan(latitude_rad), lambda = longitude_rad - rad_from_deg(9.0);
+  const double sigma = std::sinh(e * std::atanh(e * tau / std::hypot(1.0, tau)));
+  const double tau1 = tau * std::hypot(1.0, sigma) - sigma * std::hypot(1.0, tau);
+  const double xi1 = std::atan2(tau1, std::cos(lambda));
+  const double eta1 = std::asinh(std::sin(lambda) / std::hypot(tau1, std::cos(lambda)));
+  const double alpha[3] = {n / 2 - 2 * n * n / 3 + 5 * n * n * n / 16,
+                           13 * n * n / 48 - 3 * n * n * n / 5, 61 * n * n * n / 240};
+  double xi = xi1, eta = eta1;
+  for (int j = 1; j <= 3; ++j) {
+    xi += alpha[j - 1] * std::sin(2 * j * xi1) * std::cosh(2 * j * eta1);
+    eta += alpha[j - 1] * std::cos(2 * j * xi1) * std::sinh(2 * j * eta1);
+  }
+  const double A = 6378137.0 / (1 + n) * (1 + n * n / 4 + n * n * n * n / 64);
+  return {500000.0 + 0.9996 * A * eta, 0.9996 * A * xi};
+}
+
+TEST(CloudFrame, UtmComesToTheLocalFrame) {
+  const CloudFrame utm("EPSG:25832", kOrigin);
+  const CloudFrame degrees("EPSG:4326", kOrigin);
+  const LocalFrame local(kOrigin);
+  RandomStream random(1, "", "utm");
+  for (int k = 0; k < 100; ++k) {
+    const Geodetic place{kOrigin.latitude_rad + random.uniform(-1e-4, 1e-4),
+                         kOrigin.longitude_rad + random.uniform(-1e-4, 1e-4),
+                         random.uniform(80, 160)};
+    const Eigen::Vector2d en = utm32(place.latitude_rad, place.longitude_rad);
+    const Eigen::Vector3d expected = local.to_local(place);
+    const Eigen::Vector3d p_W = utm.to_local({en.x(), en.y(), place.altitude_m});
+    EXPECT_LT((p_W - expected).norm(), 1e-3);  // of the series; the two ellipsoids differ by 0.1 mm
+    const Eigen::Vector3d q_W = degrees.to_local(
+        {deg_from_rad(place.longitude_rad), deg_from_rad(place.latitude_rad), place.altitude_m});
+    EXPECT_LT((q_W - expected).norm(), 1e-6);
+  }
+}
+
+TEST(CloudFrame, BlocksOfPointsMoveInPlace) {
+  const CloudFrame utm("EPSG:25832", kOrigin);
+  const Eigen::Vector2d en = utm32(kOrigin.latitude_rad, kOrigin.longitude_rad);
+  std::vector<CloudPoint> points(3);
+  for (CloudPoint& point : points) point.position = {en.x(), en.y(), 101.0};
+  points[1].classification = 2;
+  utm.to_local(points);
+  for (const CloudPoint& point : points) {
+    EXPECT_LT((point.position - Eigen::Vector3d(0, 0, 1)).norm(), 1e-3);
+  }
+  EXPECT_EQ(points[1].classification, 2);
+}
+
+TEST(CloudFrame, HeightsHaveTheUnitOfTheirSystem) {
+  const double kUsFoot_m = 1200.0 / 3937.0;  // of the U.S. survey foot, by definition
+  const GeoOrigin new_york{rad_from_deg(40.75), rad_from_deg(-74.0), 0.0};
+  const auto rise_m = [&](const std::string& crs, double x, double y) {
+    const CloudFrame frame(crs, new_york);
+    return (frame.to_local({x, y, 100.0}) - frame.to_local({x, y, 0.0})).norm();
+  };
+  EXPECT_NEAR(rise_m("EPSG:2263", 984000, 212000), 100 * kUsFoot_m, 1e-6);         // feet all over
+  EXPECT_NEAR(rise_m("EPSG:26918", 584000, 4511000), 100.0, 1e-6);                 // metres
+  EXPECT_NEAR(rise_m("EPSG:26918+6360", 584000, 4511000), 100 * kUsFoot_m, 1e-6);  // z in feet
+  EXPECT_NEAR(rise_m("EPSG:4326", -74.0, 40.75), 100.0, 1e-6);
+}
+
+class CloudCrs : public PointCloudFiles {};
+
+TEST_F(CloudCrs, FaultsAreNamed) {
+  EXPECT_EQ(error_in([] { CloudFrame("EPSG:nonsense", kOrigin); }),
+            "crs = 'EPSG:nonsense' is not a coordinate reference system, must be like EPSG:32632");
+  EXPECT_EQ(error_in([] { CloudFrame("", kOrigin); }),
+            "crs = '' is not a coordinate reference system, must be like EPSG:32632");
+  const CloudFrame utm("EPSG:25832", kOrigin);
+  const std::string error = error_in([&] { utm.to_local({1e12, 1e12, 0}); });
+  EXPECT_NE(error.find("lies outside of the crs 'ETRS89 / UTM zone 32N'"), std::string::npos)
+      << error;
+  // Metres, said to be degrees.
+  const CloudFrame degrees("EPSG:4326", kOrigin);
+  EXPECT_EQ(error_in([&] {
+              degrees.to_local({500000, 4649000, 100});
+            }),
+            "point (500000, 4649000, 100) lies outside of the crs 'WGS 84'");
+}
+
+TEST_F(CloudCrs, DegreesWithoutACrsAreRefused) {
+  // 200 m x 150 m of a vineyard whose canopy is 2 m above the ground.
+  const PointCloudSummary degrees = summarise_point_cloud(
+      write("a.xyz", "9.5 45.0 120.1\n9.5025 45.0013 122.3\n9.501 45.001 121\n"));
+  EXPECT_TRUE(looks_like_degrees(degrees.bounds));
+  EXPECT_EQ(error_in([&] { check_cloud_unit(folder_ / "a.xyz", "", degrees.bounds); }),
+            "point cloud 'a.xyz' looks as if it were in degrees (x 9.5 to 9.5025, y 45 to "
+            "45.0013, z 120.1 to 122.3), but has no coordinate reference system; give it by 'crs: "
+            "EPSG:<code>' (EPSG:4326 for WGS84)");
+  EXPECT_EQ(error_in([&] { check_cloud_unit("a.xyz", "EPSG:25832", degrees.bounds); }),
+            "point cloud 'a.xyz' looks as if it were in degrees (x 9.5 to 9.5025, y 45 to "
+            "45.0013, z 120.1 to 122.3), but its coordinate reference system 'ETRS89 / UTM zone "
+            "32N' is projected");
+  check_cloud_unit("a.xyz", "EPSG:4326", degrees.bounds);
+
+  // A scan around its own origin, a single trunk, a national grid: metres.
+  const auto box = [](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
+    return Eigen::AlignedBox3d(lower, upper);
+  };
+  EXPECT_FALSE(looks_like_degrees(box({-60, -40, -1}, {60, 40, 5})));
+  EXPECT_FALSE(looks_like_degrees(box({3.0, 4.0, 0}, {3.15, 4.12, 2})));
+  EXPECT_FALSE(looks_like_degrees(box({500000, 4649000, 100}, {500200, 4649150, 105})));
+  EXPECT_FALSE(looks_like_degrees(box({1, 2, 3}, {1, 2, 3})));
+}
+
+}  // namespace
+}  // namespace vinerow::io

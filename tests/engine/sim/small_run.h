@@ -1,0 +1,41 @@
+#pragma once
+/// A fixture for runs of the small parts (small_parts.h), each in a folder of its own.
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/sim/metrics/register.h"
+#include "engine/sim/run.h"
+#include "tests/engine/sim/small_parts.h"
+#include "tests/support/folder_test.h"
+
+namespace vinerow::test {
+
+class RunFixture : public FolderTest {
+ protected:
+  /// @param yaml  the scenario
+  explicit RunFixture(std::string yaml)
+      : FolderTest("run"), registry_(small_registry()), yaml_(std::move(yaml)) {
+    register_metrics(registry_);
+  }
+
+  RunResult run(const std::vector<std::string>& sets = {}) {
+    io::Overrides overrides;
+    overrides.sets = sets;
+    RunOptions options;
+    options.out = folder_;
+    return run_scenario(io::parse_scenario(yaml_, ".", registry_, overrides), registry_, options);
+  }
+  nlohmann::json summary() const {
+    return nlohmann::json::parse(std::ifstream(folder_ / "summary.json"));
+  }
+
+  Registry registry_;
+
+ private:
+  std::string yaml_;
+};
+
+}  // namespace vinerow::test

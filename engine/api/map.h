@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/api/height_field.h"
 #include "engine/api/mesh.h"
 
 namespace vinerow {
@@ -72,6 +74,7 @@ struct RowMap {
   OccupancyGrid occupancy;                  ///< empty where the world has none
   std::vector<RowMesh> meshes;              ///< empty where the map has none
   MapAccuracy accuracy;                     ///< of the meshes
+  std::optional<HeightField> terrain;       ///< absent where the map takes the world's ground
 };
 
 }  // namespace vinerow

@@ -1,4 +1,4 @@
-#include "engine/api/world_model.h"
+#include "engine/api/height_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,11 +30,6 @@ Corners corners(const HeightField& field, const CellPoint& c) {
 }
 
 }  // namespace
-
-const char* to_string(SurfaceClass surface) {
-  constexpr const char* kNames[] = {"terrain", "canopy", "post", "trunk", "wire", "obstacle", "vehicle"};
-  return kNames[static_cast<int>(surface)];
-}
 
 double HeightField::height_m(double x, double y) const {
   const CellPoint c = locate(*this, x, y);

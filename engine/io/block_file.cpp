@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
+#include <sstream>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
@@ -19,10 +22,22 @@ BlockFile::BlockFile(const std::filesystem::path& file) : file_(file) {
   }
   if (!std::filesystem::is_regular_file(file, error)) fail("is no file");
   size_ = std::filesystem::file_size(file, error);
-  stream_.open(file, std::ios::binary);
-  if (!stream_ || error) fail("cannot be read");
+  stream_ = std::make_unique<std::ifstream>(file, std::ios::binary);
+  if (!*stream_ || error) fail("cannot be read");
   if (size_ == 0) fail("is empty (0 bytes)");
-  buffer_.resize(kBytes);
+  make_buffer();
+}
+
+BlockFile::BlockFile(const std::filesystem::path& name, std::string bytes)
+    : file_(name), size_(bytes.size()) {
+  if (size_ == 0) fail("is empty (0 bytes)");
+  stream_ = std::make_unique<std::istringstream>(std::move(bytes), std::ios::binary);
+  make_buffer();
+}
+
+/// A small file needs a small one: with room for a byte more, its end is met when it is filled.
+void BlockFile::make_buffer() {
+  buffer_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBytes, size_ + 1)));
 }
 
 /// Moves the rest to the front and reads on, until `wanted` bytes are there.
@@ -31,10 +46,10 @@ bool BlockFile::fill(std::size_t wanted) {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  while (end_ < wanted && stream_) {
-    stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(kBytes - end_));
-    end_ += static_cast<std::size_t>(stream_.gcount());
-    read_ += static_cast<std::uint64_t>(stream_.gcount());
+  while (end_ < std::min(wanted, buffer_.size()) && *stream_) {
+    stream_->read(buffer_.data() + end_, static_cast<std::streamsize>(buffer_.size() - end_));
+    end_ += static_cast<std::size_t>(stream_->gcount());
+    read_ += static_cast<std::uint64_t>(stream_->gcount());
   }
   return end_ >= wanted;
 }
@@ -83,8 +98,8 @@ void BlockFile::seek(std::uint64_t position) {
   begin_ = end_ = 0;
   // A place that no file has stays at the end, where take() finds nothing.
   read_ = std::min(position, size_);
-  stream_.clear();
-  stream_.seekg(static_cast<std::streamoff>(read_));
+  stream_->clear();
+  stream_->seekg(static_cast<std::streamoff>(read_));
 }
 
 void BlockFile::seek_line(std::uint64_t position, std::uint64_t lines_before) {

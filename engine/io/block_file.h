@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <istream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,6 +20,10 @@ class BlockFile {
 
   /// @throws ConfigError naming the file: missing, no regular file, empty
   explicit BlockFile(const std::filesystem::path& file);
+  /// Bytes in memory as if they were a file of that name. @throws ConfigError: no bytes
+  BlockFile(const std::filesystem::path& name, std::string bytes);
+
+  const std::filesystem::path& name() const { return file_; }
 
   std::uint64_t size() const { return size_; }
   std::uint64_t position() const { return read_ - (end_ - begin_); }
@@ -44,10 +48,11 @@ class BlockFile {
   [[noreturn]] void fail_kind(const std::string& begin, const char* kind, const char* magic) const;
 
  private:
+  void make_buffer();
   bool fill(std::size_t wanted);
 
   std::filesystem::path file_;
-  std::ifstream stream_;
+  std::unique_ptr<std::istream> stream_;
   std::vector<char> buffer_;
   std::uint64_t size_ = 0;
   std::uint64_t read_ = 0;  // bytes of the file up to end_

@@ -56,9 +56,12 @@ std::size_t PointCloudReader::read(std::span<CloudPoint> block) {
 }
 
 std::unique_ptr<PointCloudReader> open_point_cloud(const std::filesystem::path& file) {
-  BlockFile bytes(file);
+  return open_point_cloud(BlockFile(file));
+}
+
+std::unique_ptr<PointCloudReader> open_point_cloud(BlockFile bytes) {
   const std::string begin = bytes.peek(16);
-  const std::string extension = lower_extension(file);
+  const std::string extension = lower_extension(bytes.name());
   if (begin.starts_with("LASF")) return open_las(std::move(bytes));
   if (begin.starts_with("ply\n") || begin.starts_with("ply\r")) return open_ply(std::move(bytes));
   if (begin.starts_with("# .PCD") || begin.starts_with("VERSION")) {

@@ -19,6 +19,8 @@
 
 namespace vinerow::io {
 
+class BlockFile;
+
 inline constexpr std::size_t kPointCloudMemory = 4 << 20;  ///< bytes of an open reader, at most
 
 /// One point as a file tells it.
@@ -77,6 +79,8 @@ class PointCloudReader {
 /// be, data shorter or longer than the header counts, compressed (LAZ, binary_compressed PCD: with
 /// how to decompress it)
 std::unique_ptr<PointCloudReader> open_point_cloud(const std::filesystem::path& file);
+/// The same of bytes that are open, at their first.
+std::unique_ptr<PointCloudReader> open_point_cloud(BlockFile bytes);
 
 /// What all points of a file have in common.
 struct PointCloudSummary {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -35,6 +37,12 @@ OGRSpatialReference parse_crs(const std::string& text) {
 double height_unit_m(const OGRSpatialReference& crs) {
   if (crs.IsCompound() || crs.IsVertical()) return crs.GetTargetLinearUnits("VERT_CS");
   return crs.IsProjected() ? crs.GetLinearUnits() : 1.0;
+}
+
+/// Degrees of longitude and latitude. What PROJ cannot convert it makes infinite, and from WGS84 to
+/// itself it passes on whatever it is given.
+bool is_on_earth(double x, double y) {
+  return std::abs(x) <= 360.0 && std::abs(y) <= 90.0;
 }
 
 }  // namespace
@@ -87,8 +95,7 @@ CloudFrame::~CloudFrame() = default;
 Eigen::Vector3d CloudFrame::to_local(const Eigen::Vector3d& position) const {
   const QuietGdal quiet;
   double x = position.x(), y = position.y();
-  // From WGS84 to itself PROJ passes on whatever it is given.
-  if (!impl_->to_wgs84->Transform(1, &x, &y) || !(std::abs(x) <= 360.0 && std::abs(y) <= 90.0)) {
+  if (!impl_->to_wgs84->Transform(1, &x, &y) || !is_on_earth(x, y)) {
     throw ConfigError(fmt::format("point ({}, {}, {}) lies outside of the crs '{}'", position.x(),
                                   position.y(), position.z(), impl_->name));
   }
@@ -96,7 +103,28 @@ Eigen::Vector3d CloudFrame::to_local(const Eigen::Vector3d& position) const {
 }
 
 void CloudFrame::to_local(std::span<CloudPoint> points) const {
-  for (CloudPoint& point : points) point.position = to_local(point.position);
+  const QuietGdal quiet;
+  constexpr std::size_t kBlock = 1024;
+  std::array<double, kBlock> x, y;
+  for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
+    const std::span<CloudPoint> block =
+        points.subspan(begin, std::min(kBlock, points.size() - begin));
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      x[k] = block[k].position.x();
+      y[k] = block[k].position.y();
+    }
+    // A point that fails is found again below, where it is named.
+    impl_->to_wgs84->Transform(block.size(), x.data(), y.data());
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      Eigen::Vector3d& position = block[k].position;
+      if (is_on_earth(x[k], y[k])) {
+        position = impl_->frame.to_local(
+            {rad_from_deg(y[k]), rad_from_deg(x[k]), impl_->height_m * position.z()});
+      } else {
+        position = to_local(position);
+      }
+    }
+  }
 }
 
 bool looks_like_degrees(const Eigen::AlignedBox3d& bounds) {

@@ -58,6 +58,8 @@ class PlyReader : public PointCloudReader {
     }
     if (header_.ascii) {
       read_text(*vertex_, at_);
+    } else if (fixed_bytes_ != 0) {
+      read_fixed();
     } else {
       read_bytes(*vertex_, at_);
     }
@@ -75,6 +77,7 @@ class PlyReader : public PointCloudReader {
  private:
   void learn_roles() {
     std::array<bool, kRoles + 1> has{};
+    std::size_t at = 0;
     for (const PlyProperty& property : vertex_->properties) {
       const Role role = role_of(property);
       const auto k = static_cast<std::size_t>(role);
@@ -82,9 +85,14 @@ class PlyReader : public PointCloudReader {
         file_.fail(fmt::format("has the property '{}' twice", property.name));
       }
       has[k] = true;
-      if (role != Role::kNone) types_[k] = property.type;
+      if (role != Role::kNone) {
+        types_[k] = property.type;
+        places_[k] = at;
+      }
+      at += size_of(property.type);
       roles_.push_back(role);
     }
+    if (!vertex_->has_lists()) fixed_bytes_ = at;
     for (std::size_t k = 0; k < 3; ++k) {
       if (!has[k]) file_.fail(fmt::format("has no property '{}' of its vertices", "xyz"[k]));
     }
@@ -130,6 +138,15 @@ class PlyReader : public PointCloudReader {
       } else if (!next_line(&line)) {
         fail_cut_off(element, k);
       }
+    }
+  }
+
+  /// A vertex without lists, whose numbers lie at known places.
+  void read_fixed() {
+    const std::uint8_t* bytes = file_.take(fixed_bytes_);
+    if (bytes == nullptr) fail_cut_off(at_);
+    for (std::size_t k = 0; k < kRoles; ++k) {
+      if (places_[k]) values_[k] = load(types_[k], bytes + *places_[k], header_.order);
     }
   }
 
@@ -212,7 +229,9 @@ class PlyReader : public PointCloudReader {
   const PlyElement* vertex_ = nullptr;
   std::vector<Role> roles_;  // of the vertex's properties
   std::array<Scalar, kRoles> types_{};
-  std::array<double, kRoles> values_{};  // of the last vertex, by role
+  std::array<std::optional<std::size_t>, kRoles> places_{};  // byte in a vertex without lists
+  std::size_t fixed_bytes_ = 0;                              // of it; 0: it has lists
+  std::array<double, kRoles> values_{};                      // of the last vertex, by role
   std::uint64_t at_ = 0;
   bool last_ = false;  // no element follows the vertices
 };

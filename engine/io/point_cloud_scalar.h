@@ -37,6 +37,10 @@ double load(Scalar type, const std::uint8_t* bytes, std::endian order);
 std::optional<double> parse_number(std::string_view text);
 /// A whole number >= 0 and nothing else.
 std::optional<std::uint64_t> parse_count(std::string_view text);
+/// What may stand between the words of a line.
+inline bool is_blank(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
+}
 /// The next word of a line after blanks; "" at its end. `line` loses what was read.
 std::string_view next_word(std::string_view* line);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "engine/io/point_cloud_scalar.h"
 #include "engine/io/xyz_columns.h"
@@ -19,9 +20,10 @@ class XyzReader : public PointCloudReader {
  public:
   explicit XyzReader(BlockFile file) : file_(std::move(file)) {
     find_first_point();
-    last_column_ = 0;
-    for (const std::optional<std::size_t>& column : columns_.of) {
-      if (column) last_column_ = std::max(last_column_, *column);
+    for (std::size_t k = 0; k < columns_.of.size(); ++k) {
+      if (!columns_.of[k]) continue;
+      quantity_of_.resize(std::max(quantity_of_.size(), *columns_.of[k] + 1));
+      quantity_of_[*columns_.of[k]] = k;
     }
     info_.format = "XYZ";
     info_.record_count = told_;
@@ -113,21 +115,20 @@ class XyzReader : public PointCloudReader {
 
   void read_fields(std::string_view line) {
     std::optional<std::string_view> rest = line;
-    for (std::size_t column = 0; column <= last_column_; ++column) {
+    for (std::size_t column = 0; column < quantity_of_.size(); ++column) {
       const std::optional<std::string_view> field = next_field(&rest, separator_);
       if (!field) {
         file_.fail(fmt::format("has {} columns in line {}, must have at least {}", column,
-                               file_.line_number(), last_column_ + 1));
+                               file_.line_number(), quantity_of_.size()));
       }
-      for (std::size_t k = 0; k < values_.size(); ++k) {
-        if (columns_.of[k] != column) continue;
-        const std::optional<double> value = parse_number(*field);
-        if (!value) {
-          file_.fail(fmt::format("has '{}' as {} in line {}, must be a number",
-                                 field->substr(0, 40), kNames[k], file_.line_number()));
-        }
-        values_[k] = *value;
+      if (!quantity_of_[column]) continue;
+      const std::size_t k = *quantity_of_[column];
+      const std::optional<double> value = parse_number(*field);
+      if (!value) {
+        file_.fail(fmt::format("has '{}' as {} in line {}, must be a number", field->substr(0, 40),
+                               kNames[k], file_.line_number()));
       }
+      values_[k] = *value;
     }
   }
 
@@ -142,8 +143,8 @@ class XyzReader : public PointCloudReader {
   BlockFile file_;
   XyzColumns columns_;
   char separator_ = ' ';
-  std::size_t last_column_ = 0;
-  std::optional<std::uint64_t> told_;  // by the first line of a PTS file
+  std::vector<std::optional<std::size_t>> quantity_of_;  // of each column, up to the last needed
+  std::optional<std::uint64_t> told_;                    // by the first line of a PTS file
   std::array<double, 7> values_{};
   std::uint64_t at_ = 0;
 };

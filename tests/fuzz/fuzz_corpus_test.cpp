@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include "engine/core/random.h"
+#include "tests/fuzz/cloud_seeds.h"
+#include "tests/support/folder_test.h"
+
+namespace vinerow::fuzz {
+namespace {
+
+/// What read_cloud_bytes() demands, it demands of every input; the tests only choose inputs.
+class FuzzCorpus : public test::FolderTest {
+ protected:
+  FuzzCorpus() : FolderTest("fuzz") {}
+
+  static std::string read(CloudKind kind, const std::string& bytes) {
+    return read_cloud_bytes(kind,
+                            {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  }
+  static std::size_t below(RandomStream& random, std::size_t count) {
+    return static_cast<std::size_t>(random.next_u64() % count);
+  }
+};
+
+TEST_F(FuzzCorpus, SeedsAreReadOrRefusedAsTheyWereMade) {
+  std::size_t refused = 0;
+  for (const CloudSeed& seed : cloud_seeds(folder_)) {
+    SCOPED_TRACE(seed.name);
+    EXPECT_LE(seed.bytes.size(), 2000u);
+    const std::string sentence = read(seed.kind, seed.bytes);
+    const bool is_broken = seed.name.starts_with("count_huge") || seed.name == "laszip.las" ||
+                           seed.name == "scale_nan.las" || seed.name == "compressed.pcd";
+    EXPECT_EQ(!sentence.empty(), is_broken) << sentence;
+    refused += sentence.empty() ? 0 : 1;
+    // The first bytes tell the kind, whatever the extension.
+    if (seed.kind != CloudKind::kXyz) {
+      EXPECT_EQ(read(CloudKind::kAny, seed.bytes).empty(), sentence.empty());
+    }
+  }
+  EXPECT_EQ(refused, 6u);
+}
+
+TEST_F(FuzzCorpus, EveryLengthOfEverySeed) {
+  for (const CloudSeed& seed : cloud_seeds(folder_)) {
+    for (std::size_t length = 0; length < seed.bytes.size(); ++length) {
+      const std::string sentence = read(seed.kind, seed.bytes.substr(0, length));
+      EXPECT_EQ(sentence.find("is empty (0 bytes)") != std::string::npos, length == 0);
+    }
+  }
+}
+
+TEST_F(FuzzCorpus, EveryByteOfEverySeedFlipped) {
+  RandomStream random(1, "", "flip");
+  for (const CloudSeed& seed : cloud_seeds(folder_)) {
+    for (std::size_t at = 0; at < seed.bytes.size(); ++at) {
+      for (const int value : {0x00, 0xff, 0x80, static_cast<int>(below(random, 256))}) {
+        std::string bytes = seed.bytes;
+        bytes[at] = static_cast<char>(value);
+        read(seed.kind, bytes);
+      }
+    }
+  }
+}
+
+TEST_F(FuzzCorpus, SeveralChangesAtOnce) {
+  constexpr int kRounds = 300;
+  RandomStream random(2, "", "changes");
+  const std::vector<CloudSeed> seeds = cloud_seeds(folder_);
+  for (const CloudSeed& seed : seeds) {
+    for (int round = 0; round < kRounds; ++round) {
+      std::string bytes = seed.bytes;
+      const std::size_t changes = 1 + below(random, 6);
+      for (std::size_t k = 0; k < changes && !bytes.empty(); ++k) {
+        const std::size_t at = below(random, bytes.size());
+        const std::size_t length = 1 + below(random, 16);
+        const std::string& other = seeds[below(random, seeds.size())].bytes;
+        switch (below(random, 5)) {
+          case 0:
+            bytes[at] = static_cast<char>(below(random, 256));
+            break;
+          case 1:
+            bytes.erase(at, length);
+            break;
+          case 2:
+            bytes.insert(at, bytes.substr(below(random, bytes.size()), length));
+            break;
+          case 3:
+            bytes.insert(at, other.substr(below(random, other.size()), length));
+            break;
+          default:
+            bytes.replace(at, length, std::string(length, '9'));
+        }
+      }
+      read(round % 4 == 0 ? CloudKind::kAny : seed.kind, bytes);
+    }
+  }
+}
+
+/// Longer than any buffer: lines, words and headers that never end.
+TEST_F(FuzzCorpus, WhatNeverEndsIsRefused) {
+  const std::string endless(1 << 19, '1');
+  for (const char* begin : {"", "ply\n", "ply\nformat ascii 1.0\nelement vertex ", "VERSION ",
+                            "VERSION 0.7\nFIELDS ", "# .PCD\n# ", "LASF"}) {
+    for (const CloudKind kind :
+         {CloudKind::kAny, CloudKind::kLas, CloudKind::kPly, CloudKind::kPcd, CloudKind::kXyz}) {
+      EXPECT_NE(read(kind, begin + endless), "") << begin;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vinerow::fuzz

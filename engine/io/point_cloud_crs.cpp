@@ -139,7 +139,7 @@ void check_cloud_unit(const std::filesystem::path& file, const std::string& crs,
   if (!looks_like_degrees(bounds)) return;
   const QuietGdal quiet;
   std::string reason =
-      "has no coordinate reference system; give it by 'crs: EPSG:<code>' (EPSG:4326 for WGS84)";
+      "has no coordinate reference system; give it by --crs EPSG:<code> (EPSG:4326 for WGS84)";
   if (!crs.empty()) {
     const OGRSpatialReference parsed = parse_crs(crs);
     if (parsed.IsGeographic()) return;

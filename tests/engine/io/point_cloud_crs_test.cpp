@@ -82,8 +82,8 @@ TEST_F(CloudCrs, DegreesWithoutACrsAreRefused) {
   EXPECT_TRUE(looks_like_degrees(degrees.bounds));
   EXPECT_EQ(error_in([&] { check_cloud_unit(folder_ / "a.xyz", "", degrees.bounds); }),
             "point cloud 'a.xyz' looks as if it were in degrees (x 9.5 to 9.5025, y 45 to "
-            "45.0013, z 120.1 to 122.3), but has no coordinate reference system; give it by 'crs: "
-            "EPSG:<code>' (EPSG:4326 for WGS84)");
+            "45.0013, z 120.1 to 122.3), but has no coordinate reference system; give it by --crs "
+            "EPSG:<code> (EPSG:4326 for WGS84)");
   EXPECT_EQ(error_in([&] { check_cloud_unit("a.xyz", "EPSG:25832", degrees.bounds); }),
             "point cloud 'a.xyz' looks as if it were in degrees (x 9.5 to 9.5025, y 45 to "
             "45.0013, z 120.1 to 122.3), but its coordinate reference system 'ETRS89 / UTM zone "

@@ -29,7 +29,7 @@ std::string degrees_hint(const CloudOutline& outline) {
   const Eigen::Vector3d most =
       outline.kept.min().cwiseAbs().cwiseMax(outline.kept.max().cwiseAbs());
   const bool is_possible = outline.unit_m.x() == 1.0 && most.x() <= 180.0 && most.y() <= 90.0;
-  return is_possible ? "; if its numbers are degrees, give their system by 'crs: EPSG:4326'" : "";
+  return is_possible ? "; if its numbers are degrees, give their system by --crs EPSG:4326" : "";
 }
 
 /// The box of most points that is no larger than a parcel, with as little cut off as that takes.

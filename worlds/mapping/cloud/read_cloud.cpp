@@ -33,7 +33,7 @@ auto named(const Path& file, F&& f) {
     return f();
   } catch (const ConfigError& error) {
     fail(file, fmt::format("cannot be brought to the local frame: {}; give the system of its "
-                           "coordinates by 'crs: EPSG:<code>', or 'crs: none' where they are "
+                           "coordinates by --crs EPSG:<code>, or --crs none where they are "
                            "metres of a local frame",
                            error.what()));
   }
@@ -74,7 +74,7 @@ void check_memory(const Path& file, const CloudReadOptions& options, const Cloud
   const std::uint64_t thin = outline.tally.given / std::max<std::uint64_t>(most, 1) + 1;
   fail(file,
        fmt::format("has {} points, which take {}, more than the limit of {}; keep one of {} "
-                   "by 'thin: {}', or raise the limit",
+                   "by --thin {}",
                    kept, megabytes(kept * bytes), megabytes(options.memory_limit), thin, thin));
 }
 
@@ -162,7 +162,7 @@ void add_sentences(const CloudOutline& outline, const CloudReadOptions& options,
   if (report.crs.empty() && outline.middle.head<2>().norm() > kNational_m) {
     say(
         fmt::format("The cloud names no coordinate reference system and lies at x = {:.0f} m, "
-                    "y = {:.0f} m of its frame; give the system by 'crs: EPSG:<code>' to have a "
+                    "y = {:.0f} m of its frame; give the system by --crs EPSG:<code> to have a "
                     "map near its origin and on Earth.",
                     outline.middle.x(), outline.middle.y()));
   }

@@ -193,7 +193,7 @@ TEST_F(ReadCloud, WithoutASystemTheNumbersAreTheWorlds) {
   ASSERT_EQ(report_.sentences.size(), 1u);
   EXPECT_EQ(report_.sentences[0],
             "The cloud names no coordinate reference system and lies at x = 500030 m, y = 4649020 "
-            "m of its frame; give the system by 'crs: EPSG:<code>' to have a map near its origin "
+            "m of its frame; give the system by --crs EPSG:<code> to have a map near its origin "
             "and on Earth.");
   CloudReadOptions plain;
   plain.with_colours = false;
@@ -315,15 +315,15 @@ TEST_F(ReadCloud, OneSpotIsRefused) {
   const std::vector<Eigen::Vector3d> spot(200'000, Eigen::Vector3d(12.5, 40.25, 3));
   EXPECT_EQ(error_of(write_points("spot.las", spot)),
             "point cloud 'spot.las' has all of its 200000 points in one spot of 0 m by 0 m, a "
-            "parcel is at least 2 m long; if its numbers are degrees, give their system by 'crs: "
-            "EPSG:4326'");
+            "parcel is at least 2 m long; if its numbers are degrees, give their system by --crs "
+            "EPSG:4326");
   // A parcel around it does not hide it.
   std::vector<Eigen::Vector3d> points = parcel(1000);
   points.insert(points.begin() + 500, spot.begin(), spot.begin() + 1500);
   EXPECT_EQ(error_of(write_points("most.ply", points)),
             "point cloud 'most.ply' has about 1500 of its 2500 points within one square "
             "centimetre, which no survey sees; leave the repeated points out; if its numbers are "
-            "degrees, give their system by 'crs: EPSG:4326'");
+            "degrees, give their system by --crs EPSG:4326");
   EXPECT_EQ(error_of(write("one.xyz", "500000 4649000 3\n")),
             "point cloud 'one.xyz' has all of its 1 points in one spot of 0 m by 0 m, a parcel is "
             "at least 2 m long");
@@ -358,7 +358,7 @@ TEST_F(ReadCloud, DegreesAreRefusedOrUnderstood) {
             std::string::npos)
       << error;
   EXPECT_NE(error.find("lies outside of the crs 'WGS 84'; give the system of its coordinates by "
-                       "'crs: EPSG:<code>', or 'crs: none' where they are metres of a local frame"),
+                       "--crs EPSG:<code>, or --crs none where they are metres of a local frame"),
             std::string::npos)
       << error;
 }
@@ -378,7 +378,7 @@ TEST_F(ReadCloud, OtherFaultsAreNamed) {
   options.memory_limit = 5'000;
   EXPECT_EQ(error_of(file, options),
             "point cloud 'a.ply' has 1000 points, which take 12000 bytes, more than the limit of "
-            "5000 bytes; keep one of 3 by 'thin: 3', or raise the limit");
+            "5000 bytes; keep one of 3 by --thin 3");
   options.thin = 3;
   EXPECT_EQ(error_of(file, options), "no error");
   options = {};
@@ -390,7 +390,7 @@ TEST_F(ReadCloud, OtherFaultsAreNamed) {
   EXPECT_EQ(error_of(file, options),
             "point cloud 'a.ply' cannot be brought to the local frame: crs = 'EPSG:nonsense' is "
             "not a coordinate reference system, must be like EPSG:32632; give the system of its "
-            "coordinates by 'crs: EPSG:<code>', or 'crs: none' where they are metres of a local "
+            "coordinates by --crs EPSG:<code>, or --crs none where they are metres of a local "
             "frame");
 
   EXPECT_EQ(error_of(write("nan.xyz", "nan nan nan\n1 inf 2\n")),

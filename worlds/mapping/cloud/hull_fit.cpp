@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeastSide_m = 0.005;
 constexpr double kStartShare = 0.01;
-constexpr double kDownPrice = 4.0;  // of points below: few see them, and the base must not rise
+constexpr double kDownPrice = 20.0;  // of points below: few see them, and the base must not rise
 
 float upper_level(std::vector<float>& values) {
   const auto above = static_cast<std::ptrdiff_t>(kStartShare * static_cast<double>(values.size()));

@@ -72,14 +72,11 @@ class RowWork {
     const double spare = (1.0 - options_.containment) * all;
     allowed_ = static_cast<std::int64_t>(std::max(0.97 * spare - static_cast<double>(lost()),
                                                   0.5 * (1.0 - options_.containment) * all));
-    const double per_point_m2 = area_m2 / static_cast<double>(points);
-    price_m3_ = kFirstPrice_m * per_point_m2;
+    per_point_m2_ = area_m2 / static_cast<double>(points);
+    price_m3_ = kFirstPrice_m * per_point_m2_;
     for (const double reach_m : kReach_m) {
       sweep(reach_m);
-      const auto outside = static_cast<double>(outside_of(count()));
-      const double ratio = (outside + 1.0) / (static_cast<double>(allowed_) + 1.0);
-      price_m3_ = std::clamp(price_m3_ * std::clamp(ratio, 0.3, 3.0), kLowPrice_m * per_point_m2,
-                             kHighPrice_m * per_point_m2);
+      adapt_price();
     }
   }
 
@@ -100,14 +97,11 @@ class RowWork {
     }
   }
 
-  void apply_removals(double most_m3) {
+  /// @param counts  of the removals of each stretch
+  void apply_removals(const std::vector<std::size_t>& counts) {
     for (std::size_t i = 0; i < fits_.size(); ++i) {
-      std::size_t count = 0;
-      while (count < removals_[i].size() && removals_[i][count].added_m3 <= most_m3) ++count;
-      fits_[i]->apply(removals_[i], count);
-      if (count > 0) {
-        worst_m3_ = std::max(worst_m3_, removals_[i][count - 1].added_m3);
-      }
+      fits_[i]->apply(removals_[i], counts[i]);
+      if (counts[i] > 0) worst_m3_ = std::max(worst_m3_, removals_[i][counts[i] - 1].added_m3);
     }
   }
 
@@ -124,7 +118,10 @@ class RowWork {
           row_.row, row_.points.size()));
       return hulls;
     }
-    for (int n = 0; n < 2; ++n) sweep(0.01);
+    for (int n = 0; n < 3; ++n) {
+      adapt_price();
+      sweep(0.01);
+    }
     settle(hulls);
     for (const auto& fit : fits_) {
       hulls.chains.push_back(fit->chain());
@@ -154,18 +151,18 @@ class RowWork {
     }
   }
 
+  /// So that as many points are outside as may be.
+  void adapt_price() {
+    const double ratio =
+        (static_cast<double>(exactly_outside()) + 1.0) / (static_cast<double>(allowed_) + 1.0);
+    price_m3_ = std::clamp(price_m3_ * std::clamp(ratio, 0.3, 3.0), kLowPrice_m * per_point_m2_,
+                           kHighPrice_m * per_point_m2_);
+  }
+
   ExcessCounts count() const {
     ExcessCounts counts(options_.corners);
     for (const auto& fit : fits_) fit->count_excess(counts);
     return counts;
-  }
-
-  std::int64_t outside_of(const ExcessCounts& counts) const {
-    const auto first =
-        static_cast<int>((options_.tolerance_m - ExcessCounts::kLow_m) / ExcessCounts::kStep_m);
-    std::int64_t sum = 0;
-    for (int i = std::max(0, first); i < ExcessCounts::kSteps; ++i) sum += counts.all[i];
-    return sum;
   }
 
   /// Of the points that the fit knows.
@@ -213,6 +210,20 @@ class RowWork {
     return shell;
   }
 
+  /// 1 sigma of the points across the sides: outwards of the middle the scatter is noise, inwards
+  /// it is the roundness of the canopy too.
+  double find_noise_m(const ExcessCounts& counts) const {
+    double sum = 0.0, weight = 0.0;
+    for (int k = 0; k < options_.corners; ++k) {
+      const auto points = static_cast<double>(counts.count(k));
+      const double above_m = counts.share_m(k, 0.9), middle_m = counts.share_m(k, 0.5);
+      if (!std::isfinite(above_m)) continue;
+      sum += points * (above_m - middle_m) / 1.2816;
+      weight += points;
+    }
+    return weight > 0.0 ? sum / weight : 0.0;
+  }
+
   /// Moves all sides so that just as many points are outside as may be, but never in so far that
   /// less volume is left than the canopy's own.
   void settle(RowHulls& hulls) {
@@ -224,7 +235,10 @@ class RowWork {
     }
     const double shell = shell_m3(counts);
     hulls.canopy_volume_m3 = volume - shell;
+    hulls.noise_m = find_noise_m(counts);
     const double own_m = -shell / area_m2;
+    // What this does not bring inside is not scatter.
+    const double most_m = std::max(0.01, 2.0 * hulls.noise_m);
     // The excess over a section tells more points outside than the distance from the surface does:
     // the share of them that truly are is learnt while the place is looked for.
     std::vector<std::vector<double>> begun;
@@ -243,7 +257,7 @@ class RowWork {
       if (n > 0 && std::isfinite(good_m) && !(out_m > bad_m && out_m < good_m)) {
         out_m = 0.5 * (bad_m + good_m);
       }
-      out_m = std::max(out_m, own_m);
+      out_m = std::max(std::min(out_m, most_m), own_m);
       place(out_m);
       const std::int64_t outside = exactly_outside();
       if (outside <= allowed_) {
@@ -256,17 +270,7 @@ class RowWork {
       const double ratio = static_cast<double>(allowed_ + 1) / static_cast<double>(outside + 1);
       by_excess *= 0.99 * std::clamp(ratio, 0.25, 4.0);
     }
-    place(std::isfinite(good_m) ? good_m : bad_m + 0.01);
-    // Upwards of the middle the scatter is noise; inwards it is the roundness of the canopy too.
-    double sum = 0.0, weight = 0.0;
-    for (int k = 0; k < options_.corners; ++k) {
-      const auto points = static_cast<double>(counts.count(k));
-      const double above_m = counts.share_m(k, 0.9), middle_m = counts.share_m(k, 0.5);
-      if (!std::isfinite(above_m)) continue;
-      sum += points * (above_m - middle_m) / 1.2816;
-      weight += points;
-    }
-    hulls.noise_m = weight > 0.0 ? sum / weight : 0.0;
+    place(std::isfinite(good_m) ? good_m : bad_m);
   }
 
   void fill_figures(RowHulls& hulls) const {
@@ -317,35 +321,39 @@ class RowWork {
   std::vector<std::vector<Removal>> removals_;
   std::vector<Eigen::Vector3d> line_W_;  // of the stretch at hand, at its first sections
   std::int64_t allowed_ = 0;             // points outside
-  double price_m3_ = 0.0, perimeter_m_ = 0.0, length_m_ = 0.0, worst_m3_ = 0.0;
+  double per_point_m2_ = 0.0, price_m3_ = 0.0, perimeter_m_ = 0.0, length_m_ = 0.0, worst_m3_ = 0.0;
 };
 
-/// The price at which removals of all rows bring the meshes into the budget.
-double find_threshold_m3(const std::vector<std::unique_ptr<RowWork>>& rows, double most_bytes,
-                         int corners) {
+/// How many removals of each stretch of each row bring the meshes into the budget.
+std::vector<std::vector<std::size_t>> count_removals(
+    const std::vector<std::unique_ptr<RowWork>>& rows, double most_bytes, int corners) {
   struct Entry {
     double added_m3;
     bool free;
+    std::size_t row, stretch;
   };
   std::vector<Entry> entries;
-  double bytes = 0.0, threshold_m3 = -1.0;
-  for (const auto& row : rows) {
-    bytes += static_cast<double>(row->bytes());
-    for (const auto& removals : row->removals()) {
-      for (const Removal& removal : removals) {
-        entries.push_back({removal.added_m3, removal.added_m3 <= row->free_m3()});
+  std::vector<std::vector<std::size_t>> counts;
+  double bytes = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    bytes += static_cast<double>(rows[i]->bytes());
+    counts.emplace_back(rows[i]->removals().size(), 0);
+    for (std::size_t k = 0; k < counts[i].size(); ++k) {
+      for (const Removal& removal : rows[i]->removals()[k]) {
+        entries.push_back({removal.added_m3, removal.added_m3 <= rows[i]->free_m3(), i, k});
       }
     }
   }
-  std::sort(entries.begin(), entries.end(),
-            [](const Entry& a, const Entry& b) { return a.added_m3 < b.added_m3; });
+  // Costs never fall within a stretch, so that its removals stay in their order.
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return a.added_m3 < b.added_m3; });
   const auto each = static_cast<double>(ply_bytes(corners, 3) - ply_bytes(corners, 2));
   for (const Entry& entry : entries) {
     if (!entry.free && bytes <= most_bytes) break;
     bytes -= each;
-    threshold_m3 = entry.added_m3;
+    ++counts[entry.row][entry.stretch];
   }
-  return threshold_m3;
+  return counts;
 }
 
 }  // namespace
@@ -374,10 +382,10 @@ std::vector<RowHulls> make_row_hulls(std::span<const RowCanopy> rows, const Grou
   }
   const double share = bytes > most_bytes ? most_bytes / bytes : 1.0;
   each([&](std::size_t i) { works[i]->find_removals(share); });
-  const double threshold_m3 = find_threshold_m3(works, most_bytes, options.corners);
+  const auto counts = count_removals(works, most_bytes, options.corners);
   std::vector<RowHulls> result(works.size());
   each([&](std::size_t i) {
-    works[i]->apply_removals(threshold_m3);
+    works[i]->apply_removals(counts[i]);
     result[i] = works[i]->finish();
   });
   return result;

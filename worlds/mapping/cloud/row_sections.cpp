@@ -8,8 +8,9 @@ namespace {
 
 // Farther out nothing belongs to a plant row; so a wild point costs no memory.
 constexpr float kBeyondEnds_m = 10.0f, kMostAcross_m = 4.0f, kLowest_m = -2.0f, kHighest_m = 8.0f;
-constexpr double kLocalShare = 0.1, kRowShare = 1.0 / 30.0;
-constexpr double kOccupied_m = 0.05;  // steps along the row in which gaps are looked for
+constexpr double kLocalShare = 0.03, kRowShare = 0.01;
+constexpr double kOccupied_m = 0.05;     // steps along the row in which gaps are looked for
+constexpr double kOccupiedShare = 0.05;  // of the median step's points that is canopy
 constexpr double kShortest_m = 0.25;  // shorter stretches are posts, or strays that stand together
 constexpr std::size_t kFewest = 24;   // points of a stretch
 constexpr double kPointsPerSlice = 60.0;
@@ -119,6 +120,14 @@ class CellFilter {
   std::vector<float> least_;                 // of each layer along the row
 };
 
+double median_of_positive(std::vector<std::uint32_t> counts) {
+  std::erase(counts, 0u);
+  if (counts.empty()) return 0.0;
+  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+  std::nth_element(counts.begin(), middle, counts.end());
+  return *middle;
+}
+
 /// Where the canopy of sorted or unsorted s ends: a share of those close to the end is noise.
 double robust_end(std::vector<float>& s_m, bool low) {
   const auto order = [low](float a, float b) { return low ? a < b : a > b; };
@@ -193,15 +202,17 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
   const auto step_of = [&](const Eigen::Vector3f& p) {
     return static_cast<std::size_t>((p.x() - low_m) / kOccupied_m);
   };
-  std::vector<char> occupied(static_cast<std::size_t>((high_m - low_m) / kOccupied_m) + 1, 0);
-  for (const Eigen::Vector3f& p : points) occupied[step_of(p)] = 1;
+  std::vector<std::uint32_t> counts(static_cast<std::size_t>((high_m - low_m) / kOccupied_m) + 1);
+  for (const Eigen::Vector3f& p : points) ++counts[step_of(p)];
+  const double least = kOccupiedShare * median_of_positive(counts);
   // Number of the stretch that each step belongs to.
-  std::vector<std::uint32_t> stretch_of(occupied.size());
+  std::vector<std::uint32_t> stretch_of(counts.size());
   const auto most_empty = static_cast<std::size_t>(options.gap_m / kOccupied_m);
   std::uint32_t stretches = 0;
   std::size_t empty = 0;
-  for (std::size_t i = 0; i < occupied.size(); ++i) {
-    empty = occupied[i] != 0 ? 0 : empty + 1;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const bool occupied = counts[i] > 0 && static_cast<double>(counts[i]) >= least;
+    empty = occupied ? 0 : empty + 1;
     if (empty == most_empty) ++stretches;
     stretch_of[i] = stretches;
   }

@@ -33,6 +33,17 @@ TEST(Surveyed, RiseholmeHasTheMeasuredFigures) {
   }
 }
 
+TEST(Surveyed, SurroundingsAreGroundAndNoParcel) {
+  const auto near = test::make_world("surveyed", riseholme());
+  ParameterSet parameters = riseholme();
+  parameters.set("surroundings_m", 106.0).set("terrain_cell_m", 1.0);
+  const auto wide = test::make_world("surveyed", parameters);
+  EXPECT_EQ(wide->rows.boundary_W, near->rows.boundary_W);
+  // 100 m more on both sides; a grid ends on whole cells, of 0.5 m and of 1 m.
+  EXPECT_NEAR(wide->terrain->width_m(), near->terrain->width_m() + 200.0, 1.0);
+  EXPECT_NEAR(wide->terrain->depth_m(), near->terrain->depth_m() + 200.0, 1.0);
+}
+
 TEST(Surveyed, MiddleLinesAgreeWithTheAuthorsMidRowLines) {
   VINEROW_OUTSIDE_DATA(file, "vineyard_detection/data/mid_row_lines.geojson");
   const auto world = test::make_world("surveyed", riseholme());

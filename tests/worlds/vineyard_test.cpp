@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/core/error.h"
 #include "engine/io/geo.h"
 #include "engine/math/angles.h"
 #include "tests/worlds/world_fixture.h"
@@ -25,6 +26,42 @@ TEST(Vineyard, DefaultIsParcelF) {
     EXPECT_NEAR((row.line_W.back() - row.line_W.front()).head<2>().norm(), 118.0, 1e-9);
   }
   for (const Alley& alley : map.alleys) EXPECT_NEAR(alley.width_m, 2.5, 1e-9);
+}
+
+TEST(Vineyard, BentRowsAreArcsAboutOneCentre) {
+  for (const double bend_deg : {40.0, -40.0}) {
+    ParameterSet parameters = test::world_parameters("vineyard");
+    parameters.set("row_count", std::int64_t{5}).set("row_length_m", 60.0);
+    parameters.set("row_bearing_deg", 0.0).set("row_bend_deg", bend_deg);
+    parameters.set("leaf_cards_per_m", 10.0);
+    const auto world = test::make_world("vineyard", parameters);
+    // Rows run north; those that turn left do so about a centre in the west.
+    const double radius_m = 60.0 / rad_from_deg(bend_deg);
+    const Eigen::Vector2d centre(71.4 - radius_m, 38.9);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const auto& line = world->rows.rows[i].line_W;
+      const double offset_m = 2.5 * (static_cast<double>(i) - 2.0);  // to the left, west
+      const double own_m = radius_m - offset_m;
+      for (const Eigen::Vector3d& p : line) {
+        EXPECT_NEAR((p.head<2>() - centre).norm(), std::abs(own_m), 1e-9);
+      }
+      const Eigen::Vector2d chord = (line.back() - line.front()).head<2>();
+      EXPECT_NEAR(chord.x(), 0.0, 1e-9);
+      EXPECT_NEAR(chord.y(), 2.0 * std::abs(own_m * std::sin(rad_from_deg(0.5 * bend_deg))), 1e-9);
+    }
+    // Chords of 1 m lie up to 1 / (8 * 81 m) = 1.5 mm inside their arcs.
+    for (const Alley& alley : world->rows.alleys) EXPECT_NEAR(alley.width_m, 2.5, 1.6e-3);
+  }
+  ParameterSet parameters = test::world_parameters("vineyard");
+  parameters.set("row_bend_deg", 180.0).set("row_length_m", 50.0);
+  try {
+    test::make_world("vineyard", parameters);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "row_bend_deg = 180 deg bends rows of 50 m about a centre 15.9 m beside the "
+                 "block's middle, and a row 16.2 m beside it does not fit");
+  }
 }
 
 TEST(Vineyard, ReliefUnderTheRowsIsThirtyMetres) {

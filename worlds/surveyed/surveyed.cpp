@@ -34,6 +34,8 @@ PartSpec surveyed_spec() {
                        "property `type` of the LineStrings that are rows; empty: found out"),
         positive_parameter("vine_spacing_m", "m", 1.4, "between vines where the survey has none"),
         number_parameter("headland_m", "m", 12, 8, 200, "free ground beyond the row ends"),
+        number_parameter("surroundings_m", "m", kGroundMargin_m, 0, 5000,
+                         "ground beyond the parcel's box, for what flies over it"),
         optional(number_parameter("origin_latitude_deg", "deg", 0, -90, 90,
                                   "WGS84 latitude of the world's origin; default: the rows' mean")),
         optional(
@@ -179,7 +181,8 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   const std::vector<Eigen::Vector2d> boundary =
       parcel_boundary(rows, parameters.number("headland_m"), 4.0);
   Eigen::AlignedBox2d box = box_around(boundary);
-  const Eigen::Vector2d margin(kGroundMargin_m, kGroundMargin_m);
+  const double margin_m = parameters.number("surroundings_m");
+  const Eigen::Vector2d margin(margin_m, margin_m);
   box =
       Eigen::AlignedBox2d(Eigen::Vector2d(box.min() - margin), Eigen::Vector2d(box.max() + margin));
   TerrainShape shape;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "worlds/mapping/map_parameters.h"
 #include "worlds/parts/common.h"
@@ -39,6 +40,9 @@ PartSpec vineyard_spec() {
         number_parameter("missing_vine_share", "", 0.01, 0, 0.9, "share of vines that are missing"),
         number_parameter("row_bearing_deg", "deg", 80, -360, 360,
                          "direction of the rows, from north clockwise"),
+        number_parameter("row_bend_deg", "deg", 0, -180, 180,
+                         "by which the rows turn to the left from end to end, as arcs about one "
+                         "centre; 0: straight"),
         number_parameter("headland_m", "m", 10, 8, 200, "free ground beyond the row ends"),
         // The middle of 44.6150 to 44.6157 deg north, 7.9244 to 7.9262 deg east, seen from the
         // corner.
@@ -71,16 +75,46 @@ PartSpec vineyard_spec() {
   return spec;
 }
 
+/// Arcs about one centre that turn by `bend_rad` to the left; their middles stand across `along`
+/// through `centre`, those to the left of it (offset > 0) on smaller radii where they turn left.
+/// @throws ConfigError where the centre lies within the block
+RowCurve lay_arc(const Eigen::Vector2d& centre, const Eigen::Vector2d& along, double offset_m,
+                 double length_m, double bend_rad) {
+  constexpr double kStep_m = 1.0;
+  const Eigen::Vector2d left(-along.y(), along.x());
+  const double radius_m = length_m / bend_rad;  // signed: the arcs' centre lies to the left
+  const double own_m = radius_m - offset_m;
+  if (own_m / radius_m < 0.05) {
+    throw ConfigError(
+        fmt::format("row_bend_deg = {:.4g} deg bends rows of {:.4g} m about a centre {:.1f} m "
+                    "beside the block's middle, and a row {:.1f} m beside it does not fit",
+                    deg_from_rad(bend_rad), length_m, std::abs(radius_m), std::abs(offset_m)));
+  }
+  const int steps = std::max(2, static_cast<int>(std::ceil(std::abs(own_m * bend_rad) / kStep_m)));
+  std::vector<Eigen::Vector2d> points;
+  for (int k = 0; k <= steps; ++k) {
+    const double turn_rad = bend_rad * (static_cast<double>(k) / steps - 0.5);
+    points.push_back(centre + radius_m * left +
+                     own_m * (std::sin(turn_rad) * along - std::cos(turn_rad) * left));
+  }
+  return RowCurve(std::move(points));
+}
+
 std::vector<RowCurve> lay_rows(const ParameterSet& parameters) {
   const Eigen::Vector2d along = bearing_direction(parameters.number("row_bearing_deg"));
   const Eigen::Vector2d across(-along.y(), along.x());
   const Eigen::Vector2d centre(parameters.number("centre_x_m"), parameters.number("centre_y_m"));
-  const double half_m = 0.5 * parameters.number("row_length_m");
+  const double length_m = parameters.number("row_length_m"), half_m = 0.5 * length_m;
+  const double bend_rad = rad_from_deg(parameters.number("row_bend_deg"));
   const auto count = parameters.integer("row_count");
   std::vector<RowCurve> rows;
   for (std::int64_t i = 0; i < count; ++i) {
     const double offset_m = (static_cast<double>(i) - 0.5 * static_cast<double>(count - 1)) *
                             parameters.number("pitch_m");
+    if (bend_rad != 0.0) {
+      rows.push_back(lay_arc(centre, along, offset_m, length_m, bend_rad));
+      continue;
+    }
     const Eigen::Vector2d middle = centre + offset_m * across;
     rows.emplace_back(
         std::vector<Eigen::Vector2d>{middle - half_m * along, middle + half_m * along});

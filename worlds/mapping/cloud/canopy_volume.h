@@ -1,0 +1,29 @@
+#pragma once
+/// The true canopy of a world as triangles, told apart by row, and the volume it encloses.
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "engine/api/world_model.h"
+
+namespace vinerow::worlds {
+
+using CanopyTriangle = std::array<Eigen::Vector3d, 3>;  ///< in W, counter-clockwise from outside
+
+/// The canopy that rays meet (class kCanopy, collides), by row of world.rows. A connected piece of
+/// a mesh belongs to the row whose line is nearest to the mean of its vertices, if that is at most
+/// `reach_m` away.
+/// @returns one list for every row, in their order
+std::vector<std::vector<CanopyTriangle>> canopy_by_row(const WorldModel& world,
+                                                       double reach_m = 3.0);
+
+/// Volume inside closed meshes, what several enclose counted once: by lines across the direction,
+/// one in the middle of each square of a grid in height and along it, and their lengths inside by
+/// winding number. Lines that an open mesh leaves without an end are left out.
+/// @param along_W  horizontal, unit: the direction the grid runs along, that of a row
+/// @param grid_m   > 0 (demanded)
+double enclosed_volume_m3(const std::vector<CanopyTriangle>& triangles,
+                          const Eigen::Vector2d& along_W, double grid_m);
+
+}  // namespace vinerow::worlds

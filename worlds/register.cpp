@@ -1,5 +1,6 @@
 #include "worlds/register.h"
 
+#include "worlds/mapping/cloud/cloud_map_type.h"
 #include "worlds/mapping/row_mesh_map.h"
 #include "worlds/mesh/mesh.h"
 #include "worlds/orchard/orchard.h"
@@ -14,6 +15,7 @@ void register_worlds(Registry& registry) {
   worlds::register_surveyed(registry);
   worlds::register_mesh(registry);
   worlds::register_row_mesh_map(registry);
+  worlds::register_cloud_map(registry);
 }
 
 }  // namespace vinerow

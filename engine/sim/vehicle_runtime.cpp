@@ -132,6 +132,7 @@ void VehicleRuntime::make_map() {
   map_context.world = &run_.world;
   map_context.scene = &run_.physics.scene();
   own_map_ = run_.registry.make_map(config_.map->type, config_.map->parameters, map_context);
+  if (own_map_->terrain) map_ground_.emplace(*own_map_->terrain);
   if (own_map_->meshes.empty()) return;
   map_edges_writer_ = Ports(run_.bus, config_.name, map_context.part).write<LineList>("map_edges");
   diagnostic_signals_.push_back(config_.name + "/map_edges");
@@ -200,7 +201,8 @@ void VehicleRuntime::add_planner() {
   auto planner_context = context<PlannerContext>(part, control_rate_Hz());
   planner_context.vehicle_description = &vehicle_->description();
   planner_context.map = &map();
-  planner_context.scene = &run_.physics.scene();
+  planner_context.scene =
+      map_ground_ ? static_cast<const SceneQuery*>(&*map_ground_) : &run_.physics.scene();
   planner_context.origin = run_.world.origin;
   planner_ = run_.registry.make_planner(config_.planner->type, config_.planner->parameters,
                                         planner_context);

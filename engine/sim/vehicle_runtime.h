@@ -12,6 +12,7 @@
 #include "engine/io/scenario.h"
 #include "engine/physics/physics_world.h"
 #include "engine/sim/crash.h"
+#include "engine/sim/map_ground.h"
 #include "engine/sim/scheduler.h"
 
 namespace vinerow {
@@ -92,7 +93,8 @@ class VehicleRuntime {
   RunContext run_;
   std::unique_ptr<Vehicle> vehicle_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
-  std::unique_ptr<RowMap> own_map_;  ///< null: the world's rows
+  std::unique_ptr<RowMap> own_map_;      ///< null: the world's rows
+  std::optional<MapGround> map_ground_;  ///< where that map has a terrain
   std::unique_ptr<Estimator> estimator_;
   std::vector<std::unique_ptr<Estimator>> observers_;
   std::unique_ptr<Planner> planner_;

@@ -79,6 +79,15 @@ void Canvas::outline(const std::vector<Vector2d>& polygon, double width_px, cons
   }
 }
 
+void Canvas::paste(const render::Image& picture, int left, int top) {
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const std::uint8_t* p = &picture.rgb[(static_cast<std::size_t>(y) * picture.width + x) * 3];
+      blend(left + x, top + y, {p[0], p[1], p[2]}, 1.0);
+    }
+  }
+}
+
 void Canvas::text(const std::string& text, int size_px, const Vector2d& at, const Rgb& colour,
                   double anchor) {
   const double left = anchor > 0.0 ? anchor * render::text_width(text, size_px) : 0.0;

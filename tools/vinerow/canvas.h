@@ -28,6 +28,9 @@ class Canvas {
   void text(const std::string& text, int size_px, const Eigen::Vector2d& at, const Rgb& colour,
             double anchor = 0.0);
 
+  /// Replaces what is there. What reaches beyond the canvas is left out.
+  void paste(const render::Image& picture, int left, int top);
+
   const render::Image& image() const { return image_; }
 
  private:

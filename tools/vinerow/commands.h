@@ -25,6 +25,7 @@ void add_trim_command(CLI::App& app, int& exit_status);
 void add_coverage_command(CLI::App& app, int& exit_status);
 void add_survey_command(CLI::App& app, int& exit_status);
 void add_cloud_command(CLI::App& app, int& exit_status);
+void add_map_command(CLI::App& app, int& exit_status);
 
 /// Options that every command which reads a scenario has.
 struct ScenarioArguments {

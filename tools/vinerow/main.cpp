@@ -1,5 +1,5 @@
 /// The command: `vinerow run | validate | list | schema | render | info | grid | trim | coverage |
-/// survey | cloud`.
+/// survey | cloud | map`.
 
 #include <fmt/format.h>
 
@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   vinerow::tools::add_coverage_command(app, exit_status);
   vinerow::tools::add_survey_command(app, exit_status);
   vinerow::tools::add_cloud_command(app, exit_status);
+  vinerow::tools::add_map_command(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

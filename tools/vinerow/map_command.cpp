@@ -1,0 +1,296 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+
+#include "controllers/planning/survey_area.h"
+#include "engine/core/error.h"
+#include "engine/math/angles.h"
+#include "engine/render/scene.h"
+#include "engine/sim/simulation.h"
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/map_html.h"
+#include "tools/vinerow/map_pictures.h"
+#include "tools/vinerow/map_truth.h"
+#include "worlds/mapping/cloud/make_cloud_map.h"
+#include "worlds/mapping/cloud/map_folder.h"
+#include "worlds/mapping/cloud/read_cloud.h"
+
+namespace vinerow::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  fs::path cloud, out, scenario, boundary, truth;
+  std::vector<fs::path> plugins;
+  std::string crs, title, first_wall = "auto";
+  std::vector<double> origin, spacing;
+  std::uint64_t thin = 1;
+  bool no_virtual_walls = false, no_pictures = false;
+  worlds::CloudMapOptions options;
+};
+
+/// Wall time and peak memory, phase by phase.
+class Stopwatch {
+ public:
+  void end_phase(const std::string& name) {
+    const auto now = std::chrono::steady_clock::now();
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    phases_.push_back({name, std::chrono::duration<double>(now - last_).count(),
+                       static_cast<double>(usage.ru_maxrss) * 1024.0 * 1e-6});
+    last_ = now;
+  }
+  const std::vector<worlds::MapPhase>& phases() const { return phases_; }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::vector<worlds::MapPhase> phases_;
+};
+
+std::optional<GeoOrigin> find_origin(const Arguments& arguments) {
+  if (!arguments.origin.empty() && !arguments.scenario.empty()) {
+    throw ConfigError("map: give --origin or --scenario, one of them");
+  }
+  if (!arguments.scenario.empty()) {
+    ScenarioArguments of_scenario;
+    of_scenario.file = arguments.scenario;
+    of_scenario.plugins = arguments.plugins;
+    Registry registry;
+    return build_world(load(of_scenario, registry), registry)->origin;
+  }
+  if (arguments.origin.empty()) return std::nullopt;
+  const std::vector<double>& given = arguments.origin;
+  if (given.size() < 2 || given.size() > 3) {
+    throw ConfigError("--origin: must be latitude,longitude in degrees, or with an altitude in m");
+  }
+  if (!(std::abs(given[0]) <= 90.0) || !(std::abs(given[1]) <= 180.0)) {
+    throw ConfigError(fmt::format(
+        "--origin: {:g},{:g} must be latitude within +-90 and longitude within +-180 degrees",
+        given[0], given[1]));
+  }
+  return GeoOrigin{rad_from_deg(given[0]), rad_from_deg(given[1]),
+                   given.size() > 2 ? given[2] : 0.0};
+}
+
+std::vector<Eigen::Vector2d> read_boundary(const fs::path& file, const GeoOrigin& origin,
+                                           bool has_origin) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    throw ConfigError(fmt::format("--boundary: '{}' does not exist", file.string()));
+  }
+  if (file.extension() != ".csv" && !has_origin) {
+    throw ConfigError(fmt::format(
+        "--boundary: '{}' is in degrees, but the cloud has no place on Earth: give --crs with or "
+        "without --origin, or the boundary as CSV in metres",
+        file.string()));
+  }
+  Polygon2 polygon = clean_polygon(read_survey_area(file.string(), origin));
+  if (const auto fault = find_polygon_fault(polygon)) {
+    throw ConfigError(fmt::format("--boundary: '{}': {}", file.string(), *fault));
+  }
+  if (polygon_area_m2(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw ConfigError(
+        fmt::format("--out: folder '{}' cannot be made: {}", folder.string(), error.message()));
+  }
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
+}
+
+/// What the reader told, into the map's report.
+void add_reading(const worlds::CloudReadReport& read, worlds::CloudMap& map) {
+  worlds::CloudMapReport& report = map.report;
+  report.file = fs::path(read.file).filename().string();
+  report.format = read.format;
+  report.crs = read.crs;
+  report.cloud_bytes = static_cast<std::int64_t>(read.file_bytes);
+  report.not_finite = static_cast<std::int64_t>(read.not_finite);
+  report.reduction = report.cloud_bytes > 0 ? 1.0 - static_cast<double>(report.mesh_bytes) /
+                                                        static_cast<double>(report.cloud_bytes)
+                                            : 0.0;
+  report.notes.insert(report.notes.begin(), read.sentences.begin(), read.sentences.end());
+  map.has_origin = read.has_origin;
+  map.origin = read.origin;
+}
+
+std::vector<ReportPicture> write_pictures(const worlds::CloudMap& map,
+                                          const worlds::ParcelCloud& cloud,
+                                          const Arguments& arguments, const std::string& title) {
+  make_folder(arguments.out / "pictures");
+  std::vector<ReportPicture> pictures;
+  const auto add = [&](const std::string& name, const render::Image& image,
+                       const std::string& caption) {
+    render::write_png((arguments.out / "pictures" / name).string(), image);
+    pictures.push_back({"pictures/" + name, caption});
+  };
+  add("top.png", draw_top(map, cloud, title + ": rows from above"),
+      "Canopy from above with the rows that were found, their numbers and ends.");
+  add("classes.png", draw_classes(map, cloud, title + ": point cloud"),
+      "The point cloud, coloured by what its points belong to.");
+  add("mesh.png", draw_meshes(map, cloud, title + ": row meshes"),
+      "The low-complexity meshes of the rows over the ground, and a stretch of them beside its "
+      "points.");
+  if (!map.map.occupancy.empty()) {
+    add("grid.png", draw_map_grid(map, arguments.options.occupancy, title + ": occupancy grid"),
+        arguments.options.occupancy.virtual_walls
+            ? "The occupancy grid with virtual walls that leave the serpentine as the only way."
+            : "The occupancy grid.");
+  }
+  return pictures;
+}
+
+std::string timing_json(const std::vector<worlds::MapPhase>& phases) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  double total_s = 0.0, peak_MB = 0.0;
+  for (const worlds::MapPhase& phase : phases) {
+    list.push_back(
+        {{"name", phase.name}, {"wall_s", phase.wall_s}, {"peak_memory_MB", phase.peak_memory_MB}});
+    total_s += phase.wall_s;
+    peak_MB = std::max(peak_MB, phase.peak_memory_MB);
+  }
+  nlohmann::ordered_json json;
+  json["phases"] = list;
+  json["total_s"] = total_s;
+  json["peak_memory_MB"] = peak_MB;
+  return json.dump(2) + "\n";
+}
+
+void print_phases(const std::vector<worlds::MapPhase>& phases) {
+  double total_s = 0.0;
+  std::string line;
+  for (const worlds::MapPhase& phase : phases) {
+    total_s += phase.wall_s;
+    line += fmt::format("{}{} {:.2f}", line.empty() ? "" : ", ", phase.name, phase.wall_s);
+  }
+  fmt::print("time           {:.2f} s: {}\n", total_s, line);
+  fmt::print("memory         {:.0f} MB at most\n",
+             phases.empty() ? 0.0 : phases.back().peak_memory_MB);
+}
+
+void make_map(Arguments& arguments) {
+  Stopwatch watch;
+  // Faults that can be seen before the long work are told before it.
+  std::optional<worlds::CloudTruth> truth;
+  if (!arguments.truth.empty()) truth = worlds::read_cloud_truth(arguments.truth);
+  worlds::CloudReadOptions read_options;
+  read_options.crs = arguments.crs;
+  read_options.origin = find_origin(arguments);
+  read_options.thin = arguments.thin;
+  make_folder(arguments.out);
+  if (!arguments.scenario.empty()) watch.end_phase("scenario");
+
+  worlds::CloudReadReport read;
+  worlds::ParcelCloud cloud = worlds::read_parcel_cloud(arguments.cloud, read_options, read);
+  watch.end_phase("read");
+  worlds::CloudMapOptions& options = arguments.options;
+  options.occupancy.virtual_walls = !arguments.no_virtual_walls;
+  if (arguments.first_wall != "auto") {
+    options.occupancy.first_wall =
+        arguments.first_wall == "first" ? worlds::RowEnd::kFirst : worlds::RowEnd::kLast;
+  }
+  if (!arguments.spacing.empty()) {
+    if (arguments.spacing.size() != 2) {
+      throw ConfigError("--spacing: must be two numbers, the least and the largest in m");
+    }
+    options.spacing_low_m = arguments.spacing[0];
+    options.spacing_high_m = arguments.spacing[1];
+  }
+  if (!arguments.boundary.empty()) {
+    options.boundary_W = read_boundary(arguments.boundary, read.origin, read.has_origin);
+  }
+  worlds::CloudMap map = worlds::make_cloud_map(
+      cloud, options, [&](const std::string& phase) { watch.end_phase(phase); });
+  add_reading(read, map);
+  worlds::save_map(map, arguments.out);
+  watch.end_phase("files");
+
+  const std::string title =
+      arguments.title.empty() ? arguments.cloud.stem().string() : arguments.title;
+  std::vector<ReportPicture> pictures;
+  if (!arguments.no_pictures) {
+    pictures = write_pictures(map, cloud, arguments, title);
+    watch.end_phase("pictures");
+  }
+  write_text(arguments.out / "report.html", map_report_html(map, pictures, title));
+  write_text(arguments.out / "timing.json", timing_json(watch.phases()));
+  fmt::print("{}", map_report_text(map));
+  if (truth) fmt::print("{}", comparison_text(compare_with_truth(map, *truth), map, *truth));
+  print_phases(watch.phases());
+  fmt::print("map            {}\nreport         {}\n", (arguments.out / "map.json").string(),
+             (arguments.out / "report.html").string());
+}
+
+}  // namespace
+
+void add_map_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<Arguments>();
+  Arguments& a = *arguments;
+  CLI::App* command = app.add_subcommand(
+      "map", "turn a point cloud of a vineyard into a low-complexity map: rows, meshes, grid");
+  command->add_option("cloud", a.cloud, "point cloud: LAS, PLY, PCD, XYZ or CSV")->required();
+  command->add_option("--out", a.out, "folder of the map (default: maps/<name of the cloud>)");
+  command->add_option("--title", a.title, "of the report (default: the name of the cloud)");
+  command->add_option("--crs", a.crs,
+                      "of the cloud's numbers, like EPSG:32632; none: metres of a local frame "
+                      "(default: as the file says)");
+  command
+      ->add_option("--origin", a.origin,
+                   "latitude,longitude[,altitude] of the map's x = y = z = 0 (default: the middle "
+                   "of the cloud)")
+      ->delimiter(',');
+  command->add_option("--scenario", a.scenario, "takes the origin of this scenario's world");
+  command->add_option("--plugin", a.plugins, "load a plug-in for the scenario")
+      ->allow_extra_args(false);
+  command->add_option("--boundary", a.boundary,
+                      "the parcel: GeoJSON, or CSV with x,y in metres of the map");
+  command->add_option("--thin", a.thin, "take every n-th point");
+  command->add_option("--truth", a.truth,
+                      "compare with the truth that `vinerow cloud` kept (.truth.json)");
+  const auto option = [&](const char* name, auto& value, const char* description) {
+    command->add_option(name, value, description)->capture_default_str()->group("Method");
+  };
+  option("--corners", a.options.corners, "corners of a cross-section");
+  option("--slice", a.options.slice_m, "m between cross-sections, before any is left out");
+  option("--gap", a.options.gap_m, "m without canopy that split a row's mesh");
+  option("--budget", a.options.budget_MB, "MB that all row meshes may take");
+  option("--canopy-cut", a.options.canopy_cut_m, "m above the ground where canopy may begin");
+  option("--row-length", a.options.row_length_low_m, "m that a row is long at least");
+  option("--terrain-cell", a.options.terrain_cell_m, "m between heights of the ground");
+  option("--headland", a.options.headland_m,
+         "m of ground beyond the rows, where no boundary is given");
+  command
+      ->add_option("--spacing", a.spacing,
+                   "least,largest distance of rows that are looked for, m (default: 1,6)")
+      ->delimiter(',')
+      ->group("Method");
+  option("--cell", a.options.occupancy.cell_m, "m, cell of the occupancy grid");
+  option("--first-wall", a.first_wall,
+         "end of row 0 that is walled: auto, first or last; the others alternate");
+  command->get_option("--first-wall")->check(CLI::IsMember({"auto", "first", "last"}));
+  command->add_flag("--no-virtual-walls", a.no_virtual_walls, "the grid has rows and boundary only")
+      ->group("Method");
+  command->add_flag("--no-pictures", a.no_pictures, "draw no pictures");
+  command->callback([arguments, &exit_status] {
+    if (arguments->out.empty()) arguments->out = fs::path("maps") / arguments->cloud.stem();
+    make_map(*arguments);
+    exit_status = 0;
+  });
+}
+
+}  // namespace vinerow::tools

@@ -57,6 +57,21 @@ CanopyRaster make_canopy_raster(const ParcelCloud& cloud, const HeightAbove& hei
   return raster;
 }
 
+double body_height_m(const ParcelCloud& cloud, const HeightAbove& height_above, double cut_m,
+                     double high_m) {
+  constexpr double kBody = 0.6, kHighest_m = 1.1;
+  const std::size_t step = std::max<std::size_t>(1, cloud.points.size() / 2'000'000);
+  std::vector<float> heights;
+  for (std::size_t k = 0; k < cloud.points.size(); k += step) {
+    const float height_m = height_above(cloud.points[k]);
+    if (height_m > cut_m && height_m < high_m) heights.push_back(height_m);
+  }
+  if (heights.empty()) return cut_m;
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  return std::clamp(kBody * *middle, cut_m, std::max(cut_m, kHighest_m));
+}
+
 CanopyRaster coarsen(const CanopyRaster& raster, int factor) {
   CanopyRaster coarse;
   coarse.cell_m = raster.cell_m * factor;

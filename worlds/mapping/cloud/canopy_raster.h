@@ -32,6 +32,11 @@ struct CanopyRaster {
 CanopyRaster make_canopy_raster(const ParcelCloud& cloud, const HeightAbove& height_above,
                                 double cell_m, double low_m, double high_m);
 
+/// Height above the ground that canopy reaches and weeds hardly do: three fifths of the middle
+/// height of what is higher than `cut_m`, from `cut_m` to 1.1 m.
+double body_height_m(const ParcelCloud& cloud, const HeightAbove& height_above, double cut_m,
+                     double high_m);
+
 /// The same with squares `factor` times as large: means.
 CanopyRaster coarsen(const CanopyRaster& raster, int factor);
 

@@ -71,8 +71,11 @@ std::pair<float, float> height_range(const ParcelCloud& cloud) {
   return {heights[cut] - 2.0f, heights[heights.size() - 1 - cut] + 2.0f};
 }
 
-/// Mean of 3 x 3 samples that have a height, again and again until all have one.
+/// Mean of 3 x 3 samples that have a height, again and again until all have one; 0 where none has.
 void fill_in(std::vector<float>& heights, int columns, int rows) {
+  if (std::all_of(heights.begin(), heights.end(), [](float h) { return std::isnan(h); })) {
+    std::fill(heights.begin(), heights.end(), 0.0f);
+  }
   std::vector<float> next;
   for (bool is_done = false; !is_done;) {
     is_done = true;

@@ -172,11 +172,11 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
   if (sorted.empty()) return std::nullopt;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                    sorted.end());
-  const double least = 0.25 * sorted[sorted.size() / 2];
-  // Canopy of 0.4 m in one piece counts; a hole of one bin does not break it.
+  const double least = 0.45 * sorted[sorted.size() / 2];
+  // Canopy of 0.6 m in one piece counts: a vine, and not a post or the stay behind the last one.
   std::vector<bool> is_canopy(weights.size());
   for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = weights[k] >= least;
-  constexpr int kRun = 4;
+  constexpr int kRun = 6;
   int first = -1, last = -1;
   const int middle = bins / 2;
   const auto run_at = [&](int from) {

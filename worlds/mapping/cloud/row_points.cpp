@@ -18,7 +18,7 @@ void count_up(std::uint32_t& counter) {
   std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
 }
 
-/// Half the width that 95 % of a row's high points lie within.
+/// Half the width that 95 % of the points of a row's body lie within.
 std::vector<float> half_widths(const ParcelCloud& cloud, const HeightAbove& above,
                                const RowLocator& locator, std::size_t rows,
                                const RowPointOptions& options) {
@@ -29,7 +29,7 @@ std::vector<float> half_widths(const ParcelCloud& cloud, const HeightAbove& abov
     for (std::size_t k = begin; k < end; ++k) {
       const Eigen::Vector3f& p = cloud.points[k];
       const float height_m = above(p);
-      if (!(height_m > options.canopy_cut_m && height_m < kHighest_m)) continue;
+      if (!(height_m > options.body_cut_m && height_m < kHighest_m)) continue;
       const RowPlace place = locator.locate(p.x(), p.y());
       if (place.row < 0) continue;
       const int bin = std::min(kBins - 1, static_cast<int>(std::abs(place.y_m) / bin_m));
@@ -141,6 +141,7 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
   std::vector<std::size_t> starts(chunks * rows, 0);
   cloud.classes.resize(cloud.points.size());
   const float cut_m = static_cast<float>(options.canopy_cut_m);
+  [[maybe_unused]] const float body_m = static_cast<float>(options.body_cut_m);
   const float ground_m = static_cast<float>(options.ground_m);
   constexpr float kMargin_m = 0.15f;
   for_chunks(cloud.points.size(), kChunk,

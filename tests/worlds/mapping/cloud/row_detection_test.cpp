@@ -25,8 +25,9 @@ struct Found {
   std::vector<RowCurve> lines;
 
   explicit Found(ParcelCloud points) : cloud(std::move(points)), terrain(fit_terrain(cloud, 1.0)) {
+    const HeightAbove above(terrain.field, cloud.origin_W);
     const CanopyRaster raster =
-        make_canopy_raster(cloud, HeightAbove(terrain.field, cloud.origin_W), 0.1, 0.55, 6.0);
+        make_canopy_raster(cloud, above, 0.1, body_height_m(cloud, above, 0.55, 6.0), 6.0);
     const auto patches = agreeing_patches(find_row_patches(coarsen(raster, 2), {}), {});
     if (patches.empty()) return;
     spacing_m = median_spacing_m(patches);

@@ -1,0 +1,231 @@
+/// From points to a map in one call: what a vehicle gets, and the sentences for clouds that are no
+/// vineyard.
+
+#include "worlds/mapping/cloud/make_cloud_map.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "engine/core/error.h"
+#include "tests/worlds/mapping/cloud/synthetic_parcel.h"
+#include "worlds/mapping/virtual_walls.h"
+
+namespace vinerow::worlds {
+namespace {
+
+using test::SyntheticParcel;
+
+SyntheticParcel small_parcel() {
+  SyntheticParcel parcel;
+  parcel.rows = 5;
+  parcel.length_m = 40.0;
+  parcel.slope_y = 0.12;
+  parcel.density_per_m2 = 600.0;
+  parcel.noise_m = 0.01;
+  return parcel;
+}
+
+std::string refusal(ParcelCloud cloud, const CloudMapOptions& options = {}) {
+  try {
+    make_cloud_map(cloud, options);
+    return "no error";
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+}
+
+TEST(MakeCloudMap, GivesAVehicleEverythingThatAWorldWould) {
+  const SyntheticParcel parcel = small_parcel();
+  ParcelCloud cloud = test::make_synthetic_cloud(parcel).cloud;
+  CloudMapOptions options;
+  options.occupancy.cell_m = 0.1;
+  std::vector<std::string> phases;
+  const CloudMap made =
+      make_cloud_map(cloud, options, [&](const std::string& name) { phases.push_back(name); });
+  EXPECT_EQ(phases, (std::vector<std::string>{"terrain", "rows", "points", "meshes", "grid"}));
+
+  const RowMap& map = made.map;
+  ASSERT_EQ(map.rows.size(), 5u);
+  ASSERT_EQ(map.alleys.size(), 4u);
+  for (const PlantRow& row : map.rows) {
+    EXPECT_NEAR((row.line_W.back() - row.line_W.front()).head<2>().norm(), 40.0, 0.3);
+    for (const Eigen::Vector3d& p : row.line_W) {
+      EXPECT_NEAR(p.z(), parcel.ground_m(p.x(), p.y()), 0.03);
+    }
+    // The ellipse is 0.6 m wide and reaches from 0.5 m (not seen below 0.72 m) to 2.0 m.
+    // An octagon around an ellipse is up to 1 / cos(pi / 8) times as wide.
+    EXPECT_GT(row.canopy_width_m, 0.58);
+    EXPECT_LT(row.canopy_width_m, 0.6 / std::cos(M_PI / 8.0) + 0.04);
+    EXPECT_NEAR(row.canopy_top_m, 2.0, 0.1);
+    EXPECT_LT(row.canopy_base_m, 0.9);
+  }
+  for (const Alley& alley : map.alleys) EXPECT_NEAR(alley.width_m, 2.5, 0.02);
+  EXPECT_EQ(map.boundary_W.size(), 4u);
+  ASSERT_TRUE(map.terrain);
+  EXPECT_NEAR(map.terrain->height_m(parcel.middle_W.x(), parcel.middle_W.y()), parcel.middle_W.z(),
+              0.03);
+  EXPECT_GT(map.accuracy.surface_std_m, 0.0);
+  EXPECT_LT(map.accuracy.surface_std_m, 0.1);
+
+  ASSERT_FALSE(map.occupancy.empty());
+  // A row is taken, an alley free, and of every row one end is walled.
+  const auto is_taken = [&](const Eigen::Vector2d& p) {
+    const Eigen::Vector2d cell = (p - map.occupancy.corner_W) / map.occupancy.cell_m;
+    return map.occupancy.occupied(static_cast<int>(cell.x()), static_cast<int>(cell.y()));
+  };
+  int walled = 0;
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_TRUE(is_taken(parcel.place_W(k, 20.0, 0.0)));
+    if (k < 4) {
+      EXPECT_FALSE(is_taken(parcel.place_W(k, 20.0, 1.25)));
+    }
+    const auto wall_at = [&](double s_m) {
+      int hits = 0;
+      for (double y_m = -0.2; y_m <= 0.2; y_m += 0.05) {
+        hits += is_taken(parcel.place_W(k, s_m, y_m)) ? 1 : 0;
+      }
+      return hits > 0;
+    };
+    EXPECT_NE(wall_at(-2.0), wall_at(42.0)) << "row " << k;
+    walled += wall_at(-2.0) || wall_at(42.0) ? 1 : 0;
+  }
+  EXPECT_EQ(walled, 5);
+}
+
+TEST(MakeCloudMap, MeshesAreClosedAndHoldTheCanopy) {
+  const SyntheticParcel parcel = small_parcel();
+  ParcelCloud cloud = test::make_synthetic_cloud(parcel).cloud;
+  const CloudMap made = make_cloud_map(cloud, {});
+  ASSERT_EQ(made.map.meshes.size(), 5u);
+  double volume_m3 = 0.0;
+  for (const RowMesh& mesh : made.map.meshes) {
+    // Every edge is used once in each direction.
+    std::map<std::pair<int, int>, int> edges;
+    double six_volumes = 0.0;
+    const Eigen::Vector3d middle = parcel.middle_W;
+    for (const auto& t : mesh.mesh_W.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        ++edges[{static_cast<int>(t[k]), static_cast<int>(t[(k + 1) % 3])}];
+      }
+      const auto at = [&](int k) -> Eigen::Vector3d {
+        return mesh.mesh_W.vertices[static_cast<std::size_t>(t[k])].cast<double>() - middle;
+      };
+      six_volumes += at(0).dot(at(1).cross(at(2)));
+    }
+    for (const auto& [edge, count] : edges) {
+      ASSERT_EQ(count, 1);
+      ASSERT_EQ(edges.count({edge.second, edge.first}), 1u);
+    }
+    EXPECT_GT(six_volumes, 0.0) << "outward";
+    volume_m3 += six_volumes / 6.0;
+  }
+  EXPECT_NEAR(volume_m3, made.report.volume_m3, 1e-3 * volume_m3);
+  // The upper part of the ellipse, from where it is seen: 0.5 (1 + cos) of height at 225 degrees.
+  const double a = 0.3, b = 0.75, low = -b * std::sin(0.25 * M_PI);
+  double area_m2 = 0.0;
+  for (double z = low; z < b; z += 1e-4)
+    area_m2 += 2.0 * a * std::sqrt(1.0 - z * z / (b * b)) * 1e-4;
+  const double truth_m3 = 5 * 40.0 * area_m2;
+  EXPECT_NEAR(volume_m3, truth_m3, 0.1 * truth_m3);
+  EXPECT_GE(made.report.containment, 0.98);
+  EXPECT_LE(made.report.mesh_bytes, 1'300 * 5 * 41);
+}
+
+TEST(MakeCloudMap, TellsWhatItFound) {
+  SyntheticParcel parcel = small_parcel();
+  parcel.angle_deg = 30.0;
+  ParcelCloud cloud = test::make_synthetic_cloud(parcel).cloud;
+  const CloudMapReport report = make_cloud_map(cloud, {}).report;
+  EXPECT_EQ(report.points, static_cast<std::int64_t>(cloud.points.size()));
+  EXPECT_EQ(report.ground_points + report.low_points + report.canopy_points + report.other_points,
+            report.points);
+  EXPECT_NEAR(report.bearing_deg, 60.0, 0.1);
+  EXPECT_NEAR(report.spacing_m, 2.5, 0.01);
+  EXPECT_LT(report.spacing_std_m, 0.05);
+  EXPECT_NEAR(report.noise_m, 0.01, 0.01);
+  ASSERT_EQ(report.rows.size(), 5u);
+  EXPECT_EQ(report.rows[0].spacing_m > 0.0, true);
+  EXPECT_EQ(report.rows[4].spacing_m, 0.0);
+  for (const MappedRowFigures& row : report.rows) {
+    EXPECT_NEAR(row.bearing_deg, 60.0, 0.1);
+    EXPECT_NEAR(row.length_m, 40.0, 0.3);
+  }
+}
+
+TEST(MakeCloudMap, BudgetIsKept) {
+  ParcelCloud cloud = test::make_synthetic_cloud(small_parcel()).cloud;
+  CloudMapOptions options;
+  options.budget_MB = 0.02;
+  const CloudMap made = make_cloud_map(cloud, options);
+  EXPECT_LE(made.report.mesh_bytes, 20'000);
+  EXPECT_GT(made.report.mesh_bytes, 5'000);
+}
+
+TEST(MakeCloudMap, GivesTheSameBitsTwice) {
+  ParcelCloud a = test::make_synthetic_cloud(small_parcel()).cloud, b = a;
+  const CloudMap one = make_cloud_map(a, {}), two = make_cloud_map(b, {});
+  ASSERT_EQ(one.map.meshes.size(), two.map.meshes.size());
+  for (std::size_t k = 0; k < one.map.meshes.size(); ++k) {
+    EXPECT_EQ(one.map.meshes[k].mesh_W.vertices, two.map.meshes[k].mesh_W.vertices);
+    EXPECT_EQ(one.map.meshes[k].mesh_W.triangles, two.map.meshes[k].mesh_W.triangles);
+  }
+  EXPECT_EQ(one.map.occupancy.cells, two.map.occupancy.cells);
+  EXPECT_EQ(a.classes, b.classes);
+}
+
+TEST(MakeCloudMap, SaysWhatStandsThereWhereThereAreNoRows) {
+  SyntheticParcel parcel = small_parcel();
+  parcel.rows = 2;
+  ParcelCloud bare = test::make_synthetic_cloud(parcel).cloud;
+  std::erase_if(bare.points, [&](const Eigen::Vector3f& p) {
+    return p.z() + bare.origin_W.z() >
+           parcel.ground_m(p.x() + bare.origin_W.x(), p.y() + bare.origin_W.y()) + 0.3;
+  });
+  EXPECT_EQ(refusal(bare), "no rows found: nothing stands more than 0.55 m above the ground");
+  RandomStream random(5, "", "bushes");
+  for (int bush = 0; bush < 30; ++bush) {
+    const Eigen::Vector2d middle =
+        parcel.place_W(0, random.uniform(0.0, 40.0), random.uniform(-6.0, 9.0));
+    for (int n = 0; n < 600; ++n) {
+      const Eigen::Vector3d p(middle.x() + 0.4 * random.normal(),
+                              middle.y() + 0.4 * random.normal(),
+                              parcel.ground_m(middle.x(), middle.y()) + random.uniform(0.2, 1.8));
+      bare.points.push_back((p - bare.origin_W).cast<float>());
+    }
+  }
+  EXPECT_NE(refusal(bare).find("m2 are higher than"), std::string::npos) << refusal(bare);
+  EXPECT_EQ(refusal(bare).find("no rows found: "), 0u) << refusal(bare);
+  EXPECT_EQ(refusal(ParcelCloud{}), "no rows found: the cloud has no points");
+}
+
+TEST(MakeCloudMap, SurvivesPointsThatAreNoParcel) {
+  ParcelCloud one_spot;
+  one_spot.points.assign(10'000, Eigen::Vector3f(1.0f, 2.0f, 3.0f));
+  EXPECT_EQ(refusal(one_spot).find("no rows found: "), 0u);
+  ParcelCloud three;
+  three.points = {{0, 0, 0}, {100, 0, 0}, {0, 100, 50}};
+  EXPECT_EQ(refusal(three).find("no rows found: "), 0u);
+  ParcelCloud far;
+  far.points = {{0, 0, 0}, {1e6f, 0, 0}, {0, 1e6f, 0}};
+  EXPECT_EQ(refusal(far),
+            "the cloud is 1000000 m x 1000000 m, too large for a terrain of 1 m cells; cut it into "
+            "parcels");
+}
+
+TEST(MakeCloudMap, RefusesOptionsThatDoNotFit) {
+  const ParcelCloud cloud = test::make_synthetic_cloud(small_parcel()).cloud;
+  CloudMapOptions options;
+  options.spacing_low_m = 3.0;
+  options.spacing_high_m = 2.0;
+  EXPECT_EQ(refusal(cloud, options), "least row spacing = 3 m, must be < the largest, 2 m");
+  options = {};
+  options.terrain_cell_m = 0.0;
+  EXPECT_EQ(refusal(cloud, options), "terrain cell = 0, must be > 0");
+  options = {};
+  options.canopy_cut_m = -1.0;
+  EXPECT_EQ(refusal(cloud, options), "canopy cut = -1, must be > 0");
+}
+
+}  // namespace
+}  // namespace vinerow::worlds

@@ -218,7 +218,8 @@ TEST_F(MapCommand, TakesABoundaryAndLeavesWallsOut) {
                 b.x(), b.y(), b.x(), a.y());
   const fs::path folder = folder_->path() / "bounded";
   const auto result =
-      run_vinerow("map " + cloud_ + " --no-pictures --no-virtual-walls --cell 0.2 --scenario " +
+      run_vinerow("map " + cloud_ +
+                  " --no-pictures --no-virtual-walls --cell 0.2 --export obj,glb,ply --scenario " +
                   (folder_->path() / "world.yaml").string() + " --boundary " +
                   folder_->file("boundary.csv", text) + " --out " + folder.string());
   ASSERT_EQ(result.status, 0) << result.output;
@@ -237,6 +238,19 @@ TEST_F(MapCommand, TakesABoundaryAndLeavesWallsOut) {
                              return note.find("no boundary was given") != std::string::npos;
                            }));
   EXPECT_FALSE(fs::exists(folder / "pictures"));
+  // Every mesh is an object of its own in the files for other programs.
+  const std::string obj = test::read_text(folder / "rows.obj");
+  std::size_t objects = 0, faces = 0, triangles = 0;
+  for (std::size_t at = 0; (at = obj.find('\n', at)) != std::string::npos; ++at) {
+    objects += obj.compare(at + 1, 2, "o ") == 0;
+    faces += obj.compare(at + 1, 2, "f ") == 0;
+  }
+  for (const RowMesh& mesh : bounded.map.meshes) triangles += mesh.mesh_W.triangles.size();
+  EXPECT_EQ(objects, bounded.map.meshes.size());
+  EXPECT_EQ(faces, triangles);
+  EXPECT_EQ(test::read_text(folder / "rows.glb").substr(0, 4), "glTF");
+  EXPECT_NE(test::read_text(folder / "rows.ply").find("element face " + std::to_string(triangles)),
+            std::string::npos);
   EXPECT_EQ(bounded.map.occupancy.cell_m, 0.2);
 }
 

@@ -3,6 +3,9 @@
 /// buffer.
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/render/scene.h"

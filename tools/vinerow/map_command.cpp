@@ -3,12 +3,15 @@
 
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 
 #include "controllers/planning/survey_area.h"
 #include "engine/core/error.h"
+#include "engine/io/mesh_scene_writer.h"
+#include "engine/io/mesh_writer.h"
 #include "engine/math/angles.h"
 #include "engine/render/scene.h"
 #include "engine/sim/simulation.h"
@@ -30,6 +33,7 @@ struct Arguments {
   std::vector<fs::path> plugins;
   std::string crs, title, first_wall = "auto";
   std::vector<double> origin, spacing;
+  std::vector<std::string> exports;  ///< "obj", "glb", "ply"
   std::uint64_t thin = 1;
   bool no_virtual_walls = false, no_pictures = false;
   worlds::CloudMapOptions options;
@@ -129,6 +133,27 @@ void add_reading(const worlds::CloudReadReport& read, worlds::CloudMap& map) {
   map.origin = read.origin;
 }
 
+/// All row meshes in one file of each kind, for other programs.
+void export_meshes(const std::vector<RowMesh>& meshes, const std::vector<std::string>& kinds,
+                   const fs::path& folder) {
+  std::vector<io::NamedMesh> named;
+  std::map<int, int> hulls;
+  for (const RowMesh& mesh : meshes) {
+    named.push_back(
+        {fmt::format("row_{:02}_hull_{:02}", mesh.row, hulls[mesh.row]++), &mesh.mesh_W});
+  }
+  for (const char* file : {"rows.obj", "rows.glb", "rows.ply"}) {
+    std::error_code error;
+    fs::remove(folder / file, error);
+  }
+  for (const std::string& kind : kinds) {
+    const fs::path file = folder / ("rows." + kind);
+    if (kind == "obj") io::write_obj(named, file);
+    if (kind == "glb") io::write_glb(named, file, io::canopy_material());
+    if (kind == "ply") io::write_ply(io::join_meshes(named), file);
+  }
+}
+
 std::vector<ReportPicture> write_pictures(const worlds::CloudMap& map,
                                           const worlds::ParcelCloud& cloud,
                                           const Arguments& arguments, const std::string& title) {
@@ -218,6 +243,7 @@ void make_map(Arguments& arguments) {
       cloud, options, [&](const std::string& phase) { watch.end_phase(phase); });
   add_reading(read, map);
   worlds::save_map(map, arguments.out);
+  export_meshes(map.map.meshes, arguments.exports, arguments.out);
   watch.end_phase("files");
 
   const std::string title =
@@ -262,6 +288,11 @@ void add_map_command(CLI::App& app, int& exit_status) {
   command->add_option("--thin", a.thin, "take every n-th point");
   command->add_option("--truth", a.truth,
                       "compare with the truth that `vinerow cloud` kept (.truth.json)");
+  command
+      ->add_option("--export", a.exports,
+                   "all row meshes in one file, too: rows.obj, rows.glb, rows.ply")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"obj", "glb", "ply"}));
   const auto option = [&](const char* name, auto& value, const char* description) {
     command->add_option(name, value, description)->capture_default_str()->group("Method");
   };

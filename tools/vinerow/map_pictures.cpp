@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/render/caption.h"
 #include "tools/vinerow/cloud_view.h"
@@ -120,6 +121,32 @@ render::Camera parcel_camera(const RowMap& map, double aspect) {
   return camera_around(frame_points(map), std::atan2(ahead.y(), ahead.x()), kElevation_rad, aspect);
 }
 
+/// The map's ground under the rows, where leaves hid it from the cloud; a little lower than the
+/// points, so that those are seen.
+void draw_ground_below_rows(const Scene& scene, CloudView& view) {
+  constexpr double kLower_m = 0.06, kBeside_m = 0.35, kStep_m = 0.5;
+  if (!scene.map().map.terrain) return;
+  const HeightField& terrain = *scene.map().map.terrain;
+  for (const PlantRow& row : scene.map().map.rows) {
+    const double half_m = 0.5 * row.canopy_width_m + kBeside_m;
+    for (std::size_t k = 0; k + 1 < row.line_W.size(); ++k) {
+      const Vector2d a = row.line_W[k].head<2>(), d = row.line_W[k + 1].head<2>() - a;
+      const Vector2d side = half_m * Vector2d(-d.y(), d.x()).normalized();
+      const int steps = std::max(1, static_cast<int>(std::ceil(d.norm() / kStep_m)));
+      const auto place = [&](int step, double to_left) {
+        const Vector2d p = a + d * step / steps + to_left * side;
+        return Vector3d(p.x(), p.y(), terrain.height_m(p.x(), p.y()) - kLower_m);
+      };
+      for (int step = 0; step < steps; ++step) {
+        const Vector3d left = place(step, 1.0), right = place(step, -1.0);
+        const Vector3d next_left = place(step + 1, 1.0), next_right = place(step + 1, -1.0);
+        view.triangle(left, right, next_right, kGround);
+        view.triangle(left, next_right, next_left, kGround);
+      }
+    }
+  }
+}
+
 void splat_cloud(const Scene& scene, CloudView& view, bool with_canopy, std::size_t most) {
   const worlds::ParcelCloud& cloud = scene.cloud();
   const std::size_t stride = stride_of(cloud, most);
@@ -186,6 +213,8 @@ void draw_row_numbers(Canvas& canvas, const CloudView& view, const RowMap& map,
                       const render::Camera& camera) {
   constexpr double kBefore_m = 1.8;
   constexpr int kSize_px = 14;
+  constexpr double kApart_px = 15.0;  // nearer ones are left out: they could not be read
+  std::optional<Vector2d> drawn;
   const auto& middle = map.rows[map.rows.size() / 2].line_W;
   const auto way_m = [&](const Vector3d& p) { return (p - camera.X_WC.p).norm(); };
   const bool last = way_m(middle.back()) < way_m(middle.front());
@@ -194,7 +223,8 @@ void draw_row_numbers(Canvas& canvas, const CloudView& view, const RowMap& map,
     const Vector3d& end = last ? row.line_W[n - 1] : row.line_W[0];
     const Vector3d& before = last ? row.line_W[n - 2] : row.line_W[1];
     const auto at = view.pixel_of(end + kBefore_m * (end - before).normalized());
-    if (!at) continue;
+    if (!at || (drawn && (*at - *drawn).norm() < kApart_px)) continue;
+    drawn = at;
     const Vector2d foot = *at + Vector2d(0.0, 0.36 * kSize_px);
     const std::string number = std::to_string(row.id);
     for (const Vector2d& off :
@@ -230,6 +260,7 @@ render::Image draw_classes(const worlds::CloudMap& map, const worlds::ParcelClou
   const Scene scene(map, cloud);
   const render::Camera camera = parcel_camera(map.map, static_cast<double>(kWidth) / kHeight);
   CloudView view(camera, kWidth, kHeight);
+  draw_ground_below_rows(scene, view);
   splat_cloud(scene, view, true, kMostSplats);
   Canvas canvas = framed(view.finish(kPaper), kStrip);
   draw_row_numbers(canvas, view, map.map, camera);
@@ -252,6 +283,7 @@ render::Image draw_meshes(const worlds::CloudMap& map, const worlds::ParcelCloud
   const Scene scene(map, cloud);
   const render::Camera whole_camera = parcel_camera(map.map, static_cast<double>(kWidth) / kHeight);
   CloudView whole(whole_camera, kWidth, kHeight);
+  draw_ground_below_rows(scene, whole);
   splat_cloud(scene, whole, false, kMostSplats / 2);
   draw_row_meshes(map.map, whole, false);
 
@@ -284,6 +316,7 @@ render::Image draw_meshes(const worlds::CloudMap& map, const worlds::ParcelCloud
     if (cloud.classes[k] != PointClass::kCanopy) meshes.splat(p, size_m, colour);
   }
   draw_row_meshes(map.map, meshes, true);
+  for (CloudView* view : {&points, &meshes}) draw_ground_below_rows(scene, *view);
 
   Canvas canvas(kWidth, kHeight + kGap + kDetailHeight + kStrip, kPaper);
   canvas.paste(whole.finish(kPaper), 0, 0);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/render/caption.h"
 #include "tools/vinerow/colour_scale.h"
@@ -146,6 +147,8 @@ void draw_disc(Canvas& canvas, const Vector2d& at, double radius_px, const Rgb& 
 }
 
 void draw_rows(Canvas& canvas, const View& view, const worlds::CloudMap& map) {
+  constexpr double kApart_px = 15.0;  // numbers nearer than that could not be read
+  std::optional<Vector2d> drawn[2];   // of either end
   for (std::size_t k = 0; k < map.map.rows.size(); ++k) {
     const PlantRow& row = map.map.rows[k];
     std::vector<Vector2d> line_W;
@@ -166,6 +169,9 @@ void draw_rows(Canvas& canvas, const View& view, const worlds::CloudMap& map) {
       draw_disc(canvas, at, 3.0, kEnd);
       Vector2d out = curve.direction_W(s_m) * (last ? 1.0 : -1.0);
       out.y() = -out.y();
+      std::optional<Vector2d>& before = drawn[last ? 1 : 0];
+      if (before && (at - *before).norm() < kApart_px) continue;
+      before = at;
       canvas.text(std::to_string(row.id), 14, at + 16.0 * out + Vector2d(0.0, 5.0), kInk, 0.5);
     }
   }

@@ -2,6 +2,7 @@
 /// Which plant row stands at a place, for pictures.
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <vector>
 
 #include "engine/api/map.h"

@@ -283,6 +283,33 @@ void HullFit::count_excess(ExcessCounts& counts) const {
   }
 }
 
+void HullFit::find_above(double excess_m, std::vector<Eigen::Vector3f>& points) const {
+  std::array<float, 16> ny{}, nz{}, at{}, rise{};
+  for (int k = 0; k < c_; ++k) {
+    ny[k] = static_cast<float>(directions_.normal(k).x());
+    nz[k] = static_cast<float>(directions_.normal(k).y());
+  }
+  const auto from_m = static_cast<float>(stretch_.from_m);
+  const auto to_m = static_cast<float>(stretch_.to_m - stretch_.from_m);
+  for (int a = 0, b = next_[0]; b >= 0; a = b, b = next_[b]) {
+    for (int k = 0; k < c_; ++k) {
+      rise[k] = static_cast<float>((h(b)[k] - h(a)[k]) / (knots_[b] - knots_[a]));
+      at[k] = static_cast<float>(h(a)[k] + excess_m) - rise[k] * static_cast<float>(knots_[a]);
+    }
+    for (std::size_t p = stretch_.first[a]; p < stretch_.first[b]; ++p) {
+      const Eigen::Vector3f& point = stretch_.points[p];
+      // Those beyond an end may be too far from it.
+      const float beyond = point.x() - from_m;
+      const float s = std::clamp(beyond, 0.0f, to_m);
+      bool above = s != beyond;
+      for (int k = 0; k < c_; ++k) {
+        above |= ny[k] * point.y() + nz[k] * point.z() > at[k] + rise[k] * s;
+      }
+      if (above) points.push_back(point);
+    }
+  }
+}
+
 std::int64_t HullFit::outside(int a, int b, double tolerance_m) const {
   std::int64_t count = 0;
   const double per_m = 1.0 / (knots_[b] - knots_[a]);

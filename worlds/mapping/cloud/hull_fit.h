@@ -63,6 +63,8 @@ class HullFit {
   /// Every side of every section once. @param most_m  farthest that one moves
   void sweep(double price_m3, double tolerance_m, double most_m);
   void count_excess(ExcessCounts& counts) const;
+  /// Appends the points whose excess is more than that.
+  void find_above(double excess_m, std::vector<Eigen::Vector3f>& points) const;
   /// All sides out, or in.
   void offset(double out_m);
   const std::vector<double>& offsets() const { return h_; }

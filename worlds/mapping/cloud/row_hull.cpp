@@ -167,15 +167,16 @@ class RowWork {
 
   /// Of the points that the fit knows.
   std::int64_t exactly_outside() const {
+    // At a corner of 90 degrees the distance is 1.41 times the excess.
+    constexpr double kSurelyInside = 0.7;
     std::vector<HullChain> chains;
-    for (const auto& fit : fits_) chains.push_back(fit->chain());
-    const HullContainment containment(chains, options_.tolerance_m);
-    std::int64_t outside = 0;
-    for (const RowStretch& stretch : stretches_.stretches) {
-      outside +=
-          static_cast<std::int64_t>(stretch.points.size()) - containment.count(stretch.points);
+    std::vector<Eigen::Vector3f> doubtful;
+    for (const auto& fit : fits_) {
+      chains.push_back(fit->chain());
+      fit->find_above(kSurelyInside * options_.tolerance_m, doubtful);
     }
-    return outside;
+    const HullContainment containment(chains, options_.tolerance_m);
+    return static_cast<std::int64_t>(doubtful.size()) - containment.count(doubtful);
   }
 
   bool is_straight(const RowStretch& stretch, double from_m, double to_m) const {

@@ -9,6 +9,8 @@ namespace {
 // Farther out nothing belongs to a plant row; so a wild point costs no memory.
 constexpr float kBeyondEnds_m = 10.0f, kMostAcross_m = 4.0f, kLowest_m = -2.0f, kHighest_m = 8.0f;
 constexpr double kLocalShare = 0.03, kRowShare = 0.01;
+constexpr float kStray = 2.5f;  // one or two points alone, unless the whole row is as sparse
+constexpr double kStrayShare = 0.15;
 constexpr double kOccupied_m = 0.05;     // steps along the row in which gaps are looked for
 constexpr double kOccupiedShare = 0.05;  // of the median step's points that is canopy
 constexpr double kShortest_m = 0.25;  // shorter stretches are posts, or strays that stand together
@@ -109,8 +111,9 @@ class CellFilter {
         std::nth_element(near.begin(), middle, near.end());
         local = *middle;
       }
-      least_[i] = std::max(static_cast<float>(kLocalShare) * local,
-                           static_cast<float>(kRowShare) * row_median);
+      least_[i] = std::max({static_cast<float>(kLocalShare) * local,
+                            static_cast<float>(kRowShare) * row_median,
+                            std::min(kStray, static_cast<float>(kStrayShare) * row_median)});
     }
   }
 
@@ -142,11 +145,16 @@ double robust_end(std::vector<float>& s_m, bool low) {
   return near[static_cast<std::size_t>(left_out)];
 }
 
-RowStretch make_stretch(const std::vector<Eigen::Vector3f>& points, double slice_m) {
+/// @param low_m,high_m  where canopy is dense enough to end
+RowStretch make_stretch(const std::vector<Eigen::Vector3f>& points, double low_m, double high_m,
+                        double slice_m) {
   RowStretch stretch;
   std::vector<float> s_m;
   s_m.reserve(points.size());
-  for (const Eigen::Vector3f& p : points) s_m.push_back(p.x());
+  for (const Eigen::Vector3f& p : points) {
+    if (p.x() >= low_m && p.x() <= high_m) s_m.push_back(p.x());
+  }
+  if (s_m.empty()) return stretch;
   stretch.from_m = robust_end(s_m, true);
   stretch.to_m = robust_end(s_m, false);
   const double length_m = stretch.to_m - stretch.from_m;
@@ -210,20 +218,30 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
   const auto most_empty = static_cast<std::size_t>(options.gap_m / kOccupied_m);
   std::uint32_t stretches = 0;
   std::size_t empty = 0;
+  std::vector<std::pair<double, double>> occupied_m;  // from and to, of each stretch
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const bool occupied = counts[i] > 0 && static_cast<double>(counts[i]) >= least;
     empty = occupied ? 0 : empty + 1;
     if (empty == most_empty) ++stretches;
     stretch_of[i] = stretches;
+    occupied_m.resize(stretches + 1, {1.0, 0.0});
+    if (!occupied) continue;
+    const double begins_m = low_m + static_cast<double>(i) * kOccupied_m;
+    auto& [from_m, to_m] = occupied_m[stretches];
+    if (from_m > to_m) from_m = begins_m;
+    to_m = begins_m + kOccupied_m;
   }
   std::vector<std::vector<Eigen::Vector3f>> parts(stretches + 1);
   std::vector<std::size_t> sizes(parts.size());
   for (const Eigen::Vector3f& p : points) ++sizes[stretch_of[step_of(p)]];
   for (std::size_t i = 0; i < parts.size(); ++i) parts[i].reserve(sizes[i]);
   for (const Eigen::Vector3f& p : points) parts[stretch_of[step_of(p)]].push_back(p);
-  for (std::vector<Eigen::Vector3f>& part : parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::vector<Eigen::Vector3f>& part = parts[i];
     RowStretch stretch;
-    if (part.size() >= kFewest) stretch = make_stretch(part, options.slice_m);
+    if (part.size() >= kFewest) {
+      stretch = make_stretch(part, occupied_m[i].first, occupied_m[i].second, options.slice_m);
+    }
     if (stretch.first.empty()) {
       result.lone += static_cast<std::int64_t>(part.size());
       continue;

@@ -39,9 +39,10 @@ struct RowStretches {
 
 /// Sparse is a cell of cell_m x cell_m x slice_m whose neighbourhood of 3 x 3 x 3 cells holds less
 /// than 3 % of the points that it does for the median point within 1 m along the row, or 1 % of the
-/// whole row's median: the low parts of canopy that pictures hardly see are sparse too, and what
-/// strays is left outside by the fit. So it is the same share at 200 and at 1500 points/m2.
-/// Slices are made longer where they would hold fewer than 60 points on average.
+/// whole row's median, or no more than two points in a row that is denser: the low parts of canopy
+/// that pictures hardly see are sparse too, and what strays is left outside by the fit. So it is
+/// the same share at 200 and at 1500 points/m2. Slices are made longer where they would hold fewer
+/// than 60 points on average.
 RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options);
 
 }  // namespace vinerow::worlds

@@ -120,7 +120,9 @@ std::string cards(const worlds::CloudMap& map) {
   out += card(fmt::format("{:.2f}", r.canopy_width_m), "m", "canopy width");
   out += card(fmt::format("{:.0f}", r.volume_m3),
               area_ha > 0.0 ? fmt::format("m³, {:.0f} m³/ha", r.volume_m3 / area_ha) : "m³",
-              "canopy volume");
+              "volume inside the meshes");
+  out += card(fmt::format("{:.0f}", r.seen_volume_m3), "m³",
+              "canopy that was seen, without what noise adds");
   out +=
       card(fmt::format("{:.0f}", all_gaps_m(r)),
            fmt::format("m, {:.1f} %",
@@ -278,8 +280,10 @@ std::string map_report_text(const worlds::CloudMap& map) {
                      r.rows.size(), total_length_m(r), all_gaps_m(r));
   out += fmt::format("direction      {:.2f} deg from north\n", r.bearing_deg);
   out += fmt::format("spacing        {:.3f} m +- {:.3f} m\n", r.spacing_m, r.spacing_std_m);
-  out += fmt::format("canopy         {:.2f} m high, {:.2f} m wide, {:.1f} m3\n", r.canopy_top_m,
-                     r.canopy_width_m, r.volume_m3);
+  out += fmt::format("canopy         {:.2f} m high, {:.2f} m wide\n", r.canopy_top_m,
+                     r.canopy_width_m);
+  out += fmt::format("volume         {:.1f} m3 inside the meshes, {:.1f} m3 of canopy seen\n",
+                     r.volume_m3, r.seen_volume_m3);
   out += fmt::format("meshes         {} triangles, {}, {:.2f} % less than the cloud\n", r.triangles,
                      megabytes(r.mesh_bytes), 100.0 * r.reduction);
   out +=

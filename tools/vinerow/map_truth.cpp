@@ -119,6 +119,8 @@ MapComparison compare_with_truth(const worlds::CloudMap& given, const worlds::Cl
   comparison.spacing_m = map.report.spacing_m - truth.spacing_m;
   comparison.volume_share =
       truth.volume_m3 > 0.0 ? map.report.volume_m3 / truth.volume_m3 - 1.0 : 0.0;
+  comparison.seen_volume_share =
+      truth.volume_m3 > 0.0 ? map.report.seen_volume_m3 / truth.volume_m3 - 1.0 : 0.0;
   return comparison;
 }
 
@@ -135,8 +137,8 @@ std::string comparison_text(const MapComparison& c, const worlds::CloudMap& map,
   out += fmt::format("  spacing        {:+.4f} m of {:.4f} m\n", c.spacing_m, truth.spacing_m);
   out += fmt::format("  row ends       {:.3f} m off in the mean, {:.3f} m at worst\n",
                      c.mean_end_m(), c.worst_end_m());
-  out += fmt::format("  volume         {:+.2f} % of {:.2f} m3\n", 100.0 * c.volume_share,
-                     truth.volume_m3);
+  out += fmt::format("  volume         {:+.2f} % of {:.2f} m3; of the canopy seen {:+.2f} %\n",
+                     100.0 * c.volume_share, truth.volume_m3, 100.0 * c.seen_volume_share);
   out += fmt::format("  containment    {:.2f} % within 1 cm\n", 100.0 * map.report.containment);
   out += fmt::format("  {:>4} {:>6} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>8} {:>9}\n", "row",
                      "mapped", "bearing", "first", "last", "length", "base", "top", "width",

@@ -24,6 +24,7 @@ struct MapComparison {
   std::vector<RowComparison> rows;  ///< one per true row that has canopy
   std::vector<int> extra_rows;      ///< of the map, where no true row is
   double bearing_deg = 0.0, spacing_m = 0.0, volume_share = 0.0;
+  double seen_volume_share = 0.0;  ///< the estimate without noise, of the true volume
 
   int found() const;
   double worst_end_m() const;

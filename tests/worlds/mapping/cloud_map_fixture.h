@@ -32,9 +32,9 @@ inline const worlds::CloudMap& map_of_world(const std::string& type) {
                               &report.other_points, &report.triangles, &report.mesh_bytes}) {
     *count = static_cast<std::int64_t>(1e9 * (next += 0.7));
   }
-  for (double* number :
-       {&report.density_per_m2, &report.noise_m, &report.bearing_deg, &report.spacing_m,
-        &report.spacing_std_m, &report.canopy_top_m, &report.canopy_width_m, &report.volume_m3}) {
+  for (double* number : {&report.density_per_m2, &report.noise_m, &report.bearing_deg,
+                         &report.spacing_m, &report.spacing_std_m, &report.canopy_top_m,
+                         &report.canopy_width_m, &report.volume_m3, &report.seen_volume_m3}) {
     *number = next += 1.0 / 3.0;
   }
   report.containment = 0.987654321;
@@ -45,9 +45,9 @@ inline const worlds::CloudMap& map_of_world(const std::string& type) {
     figures.row = row.id;
     figures.first_W = row.line_W.front();
     figures.last_W = row.line_W.back();
-    for (double* number :
-         {&figures.length_m, &figures.bearing_deg, &figures.spacing_m, &figures.canopy_base_m,
-          &figures.canopy_top_m, &figures.canopy_width_m, &figures.volume_m3}) {
+    for (double* number : {&figures.length_m, &figures.bearing_deg, &figures.spacing_m,
+                           &figures.canopy_base_m, &figures.canopy_top_m, &figures.canopy_width_m,
+                           &figures.volume_m3, &figures.seen_volume_m3}) {
       *number = next += 1.0 / 7.0;
     }
     figures.containment = 0.98 + 0.001 * row.id;

@@ -60,6 +60,7 @@ void expect_same(const MappedRowFigures& a, const MappedRowFigures& b) {
   EXPECT_EQ(a.canopy_top_m, b.canopy_top_m);
   EXPECT_EQ(a.canopy_width_m, b.canopy_width_m);
   EXPECT_EQ(a.volume_m3, b.volume_m3);
+  EXPECT_EQ(a.seen_volume_m3, b.seen_volume_m3);
   EXPECT_EQ(a.containment, b.containment);
   EXPECT_EQ(a.points, b.points);
   EXPECT_EQ(a.triangles, b.triangles);
@@ -85,6 +86,7 @@ void expect_same(const CloudMapReport& a, const CloudMapReport& b) {
   EXPECT_EQ(a.canopy_top_m, b.canopy_top_m);
   EXPECT_EQ(a.canopy_width_m, b.canopy_width_m);
   EXPECT_EQ(a.volume_m3, b.volume_m3);
+  EXPECT_EQ(a.seen_volume_m3, b.seen_volume_m3);
   EXPECT_EQ(a.containment, b.containment);
   EXPECT_EQ(a.triangles, b.triangles);
   EXPECT_EQ(a.mesh_bytes, b.mesh_bytes);

@@ -26,8 +26,10 @@ struct MappedRowFigures {
   double canopy_top_m = 0.0;    ///< the same
   double canopy_width_m = 0.0;  ///< the same
   double volume_m3 = 0.0;       ///< inside its meshes
-  double containment = 0.0;     ///< share of its points within 1 cm of the inside of its meshes
-  std::int64_t points = 0;      ///< of canopy
+  double seen_volume_m3 =
+      0.0;                   ///< estimate of the canopy that was seen, which noise does not swell
+  double containment = 0.0;  ///< share of its points within 1 cm of the inside of its meshes
+  std::int64_t points = 0;   ///< of canopy
   std::int64_t triangles = 0;
   std::vector<std::pair<double, double>> gaps_m;  ///< without canopy, from and to along the line
 };
@@ -50,6 +52,7 @@ struct CloudMapReport {
   double bearing_deg = 0.0;                     ///< mean of the rows, [0, 180)
   double spacing_m = 0.0, spacing_std_m = 0.0;  ///< between neighbouring rows
   double canopy_top_m = 0.0, canopy_width_m = 0.0, volume_m3 = 0.0;  ///< means, sum
+  double seen_volume_m3 = 0.0;                                       ///< sum
   double containment = 0.0;  ///< share of all canopy points within 1 cm of their row's meshes
   std::int64_t triangles = 0;
   std::int64_t mesh_bytes = 0;  ///< of the row meshes as binary PLY

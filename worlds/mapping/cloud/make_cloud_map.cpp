@@ -138,6 +138,7 @@ void report_rows(const std::vector<RowHulls>& hulls, const std::vector<RowCanopy
   double metres = 0.0, contained = 0.0, points = 0.0;
   for (std::size_t r = 0; r < hulls.size(); ++r) {
     MappedRowFigures figures = hulls[r].figures;
+    figures.seen_volume_m3 = hulls[r].canopy_volume_m3;
     const RowCurve& line = canopies[r].line;
     const auto on_ground = [&](const Eigen::Vector2d& p) {
       return Eigen::Vector3d(p.x(), p.y(), ground(p.x(), p.y()));
@@ -157,6 +158,7 @@ void report_rows(const std::vector<RowHulls>& hulls, const std::vector<RowCanopy
     report.canopy_top_m += figures.length_m * figures.canopy_top_m;
     report.canopy_width_m += figures.length_m * figures.canopy_width_m;
     report.volume_m3 += figures.volume_m3;
+    report.seen_volume_m3 += figures.seen_volume_m3;
     report.triangles += figures.triangles;
     report.mesh_bytes += hulls[r].mesh_bytes;
     metres += figures.length_m;

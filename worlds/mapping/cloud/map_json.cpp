@@ -55,6 +55,7 @@ json figures_json(const MappedRowFigures& f) {
           {"canopy_top_m", f.canopy_top_m},
           {"canopy_width_m", f.canopy_width_m},
           {"volume_m3", f.volume_m3},
+          {"seen_volume_m3", f.seen_volume_m3},
           {"containment", f.containment},
           {"points", f.points},
           {"triangles", f.triangles},
@@ -73,6 +74,7 @@ MappedRowFigures read_figures(const JsonReader& in) {
   f.canopy_top_m = in.at("canopy_top_m").number();
   f.canopy_width_m = in.at("canopy_width_m").number();
   f.volume_m3 = in.at("volume_m3").number();
+  f.seen_volume_m3 = in.at("seen_volume_m3").number();
   f.containment = in.at("containment").number();
   f.points = in.at("points").whole(0);
   f.triangles = in.at("triangles").whole(0);
@@ -107,7 +109,8 @@ json report_json(const CloudMapReport& r) {
             {"spacing_std_m", r.spacing_std_m},
             {"canopy_top_m", r.canopy_top_m},
             {"canopy_width_m", r.canopy_width_m},
-            {"volume_m3", r.volume_m3}}},
+            {"volume_m3", r.volume_m3},
+            {"seen_volume_m3", r.seen_volume_m3}}},
           {"meshes",
            {{"triangles", r.triangles},
             {"bytes", r.mesh_bytes},
@@ -138,6 +141,7 @@ CloudMapReport read_report(const JsonReader& in) {
   r.canopy_top_m = vineyard.at("canopy_top_m").number();
   r.canopy_width_m = vineyard.at("canopy_width_m").number();
   r.volume_m3 = vineyard.at("volume_m3").number();
+  r.seen_volume_m3 = vineyard.at("seen_volume_m3").number();
   r.triangles = meshes.at("triangles").whole(0);
   r.mesh_bytes = meshes.at("bytes").whole(0);
   r.reduction = meshes.at("reduction").number();

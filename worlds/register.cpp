@@ -1,6 +1,6 @@
 #include "worlds/register.h"
 
-#include "worlds/mapping/cloud/cloud_map_type.h"
+#include "worlds/mapping/cloud/folder/cloud_map_type.h"
 #include "worlds/mapping/row_mesh_map.h"
 #include "worlds/mesh/mesh.h"
 #include "worlds/orchard/orchard.h"

@@ -15,7 +15,7 @@
 #include "engine/io/cloud_output.h"
 #include "engine/io/point_cloud.h"
 #include "engine/io/point_cloud_writer.h"
-#include "worlds/mapping/cloud/read_cloud.h"
+#include "worlds/mapping/cloud/reading/read_cloud.h"
 
 namespace vinerow {
 namespace {

@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "tests/worlds/mapping/cloud/synthetic_canopy.h"
-#include "worlds/mapping/cloud/row_hull.h"
+#include "worlds/mapping/cloud/hulls/row_hull.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "engine/io/point_cloud.h"
 #include "engine/io/point_cloud_crs.h"
 #include "tests/scenarios/command.h"
-#include "worlds/mapping/cloud/cloud_truth.h"
+#include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
 namespace vinerow::test {
 namespace {

@@ -6,7 +6,7 @@
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/small_vineyard_map.h"
 #include "vinerow/testing.h"
-#include "worlds/mapping/cloud/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_folder.h"
 
 namespace vinerow {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "tests/scenarios/command.h"
-#include "worlds/mapping/cloud/cloud_truth.h"
-#include "worlds/mapping/cloud/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
 namespace vinerow {
 namespace {
@@ -97,9 +97,8 @@ TEST(CloudToMap, ParcelFAtFullDensity) {
 }
 
 TEST(CloudToMap, CurvedThinNoisyAmongWeedsWithAQuarterOfTheVinesMissing) {
-  const Mapped mapped = map_of(
-      "curved", scenario_file("map_curved") +
-                    " --uniform 200 --noise 0.05 --weeds 0.5");
+  const Mapped mapped =
+      map_of("curved", scenario_file("map_curved") + " --uniform 200 --noise 0.05 --weeds 0.5");
   expect_every_row_once(mapped);
   EXPECT_LE(mapped.worst_end_m, 0.3);
   EXPECT_LE(std::abs(mapped.map.report.spacing_m - mapped.truth.spacing_m), 0.02);

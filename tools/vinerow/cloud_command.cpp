@@ -13,9 +13,9 @@
 #include "tools/vinerow/cloud_file.h"
 #include "tools/vinerow/cloud_poses.h"
 #include "tools/vinerow/commands.h"
-#include "worlds/mapping/cloud/cloud_truth.h"
-#include "worlds/mapping/cloud/photogrammetry.h"
-#include "worlds/mapping/cloud/uniform_cloud.h"
+#include "worlds/mapping/cloud/sampling/cloud_truth.h"
+#include "worlds/mapping/cloud/sampling/photogrammetry.h"
+#include "worlds/mapping/cloud/sampling/uniform_cloud.h"
 
 namespace vinerow::tools {
 namespace {

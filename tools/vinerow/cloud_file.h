@@ -11,7 +11,7 @@
 #include "engine/api/world_model.h"
 #include "engine/io/local_to_crs.h"
 #include "engine/io/point_cloud_writer.h"
-#include "worlds/mapping/cloud/sampled_point.h"
+#include "worlds/mapping/cloud/sampling/sampled_point.h"
 
 namespace vinerow::tools {
 

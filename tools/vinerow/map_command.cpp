@@ -19,9 +19,9 @@
 #include "tools/vinerow/map_html.h"
 #include "tools/vinerow/map_pictures.h"
 #include "tools/vinerow/map_truth.h"
+#include "worlds/mapping/cloud/folder/map_folder.h"
 #include "worlds/mapping/cloud/make_cloud_map.h"
-#include "worlds/mapping/cloud/map_folder.h"
-#include "worlds/mapping/cloud/read_cloud.h"
+#include "worlds/mapping/cloud/reading/read_cloud.h"
 
 namespace vinerow::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "worlds/mapping/cloud/map_frame.h"
+#include "worlds/mapping/cloud/folder/map_frame.h"
 #include "worlds/parts/row_curve.h"
 
 namespace vinerow::tools {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "worlds/mapping/cloud/cloud_map.h"
-#include "worlds/mapping/cloud/cloud_truth.h"
+#include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
 namespace vinerow::tools {
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "tools/vinerow/commands.h"
-#include "worlds/mapping/cloud/map_json.h"
+#include "worlds/mapping/cloud/folder/map_json.h"
 
 namespace vinerow::tools {
 

@@ -1,4 +1,4 @@
-#include "worlds/mapping/cloud/canopy_volume.h"
+#include "worlds/mapping/cloud/sampling/canopy_volume.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "worlds/mapping/cloud/cloud_sample.h"
+#include "worlds/mapping/cloud/reading/cloud_sample.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "worlds/mapping/cloud/repeated_places.h"
+#include "worlds/mapping/cloud/reading/repeated_places.h"
 
 namespace vinerow::worlds {
 namespace {

@@ -9,7 +9,7 @@
 #include "engine/api/world_model.h"
 #include "engine/math/polygon.h"
 #include "engine/physics/world_scene.h"
-#include "worlds/mapping/cloud/sampled_point.h"
+#include "worlds/mapping/cloud/sampling/sampled_point.h"
 
 namespace vinerow::test {
 

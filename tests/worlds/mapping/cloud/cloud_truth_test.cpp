@@ -1,4 +1,4 @@
-#include "worlds/mapping/cloud/cloud_truth.h"
+#include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "worlds/mapping/cloud/photogrammetry.h"
+#include "worlds/mapping/cloud/sampling/photogrammetry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "worlds/mapping/cloud/read_cloud.h"
+#include "worlds/mapping/cloud/reading/read_cloud.h"
 
 #include <gtest/gtest.h>
 

@@ -4,12 +4,12 @@
 
 #include "engine/math/angles.h"
 #include "tests/worlds/mapping/cloud/synthetic_parcel.h"
-#include "worlds/mapping/cloud/canopy_raster.h"
-#include "worlds/mapping/cloud/cloud_terrain.h"
-#include "worlds/mapping/cloud/row_direction.h"
-#include "worlds/mapping/cloud/row_lines.h"
-#include "worlds/mapping/cloud/row_points.h"
-#include "worlds/mapping/cloud/row_tracking.h"
+#include "worlds/mapping/cloud/rows/canopy_raster.h"
+#include "worlds/mapping/cloud/rows/cloud_terrain.h"
+#include "worlds/mapping/cloud/rows/row_direction.h"
+#include "worlds/mapping/cloud/rows/row_lines.h"
+#include "worlds/mapping/cloud/rows/row_points.h"
+#include "worlds/mapping/cloud/rows/row_tracking.h"
 
 namespace vinerow::worlds {
 namespace {

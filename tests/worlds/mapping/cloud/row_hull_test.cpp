@@ -1,4 +1,4 @@
-#include "worlds/mapping/cloud/row_hull.h"
+#include "worlds/mapping/cloud/hulls/row_hull.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 
 #include "engine/core/error.h"
 #include "tests/worlds/mapping/cloud/synthetic_canopy.h"
-#include "worlds/mapping/cloud/hull_fit.h"
-#include "worlds/mapping/cloud/row_sections.h"
+#include "worlds/mapping/cloud/hulls/hull_fit.h"
+#include "worlds/mapping/cloud/hulls/row_sections.h"
 #include "worlds/mapping/enclosing_polygon.h"
 
 namespace vinerow::worlds {

@@ -1,6 +1,6 @@
 /// Against the nearest point of every line, looked for one by one.
 
-#include "worlds/mapping/cloud/row_locator.h"
+#include "worlds/mapping/cloud/rows/row_locator.h"
 
 #include <gtest/gtest.h>
 

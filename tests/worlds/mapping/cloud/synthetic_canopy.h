@@ -5,8 +5,8 @@
 
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
-#include "worlds/mapping/cloud/hull_figures.h"
-#include "worlds/mapping/cloud/row_canopy.h"
+#include "worlds/mapping/cloud/hulls/hull_figures.h"
+#include "worlds/mapping/cloud/rows/row_canopy.h"
 #include "worlds/parts/canopy.h"
 
 namespace vinerow::test {

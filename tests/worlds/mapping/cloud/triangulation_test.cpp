@@ -1,4 +1,4 @@
-#include "worlds/mapping/cloud/triangulation.h"
+#include "worlds/mapping/cloud/sampling/triangulation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "worlds/mapping/cloud/uniform_cloud.h"
+#include "worlds/mapping/cloud/sampling/uniform_cloud.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,158 @@
+#include "worlds/mapping/cloud/folder/cloud_map_type.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/core/log.h"
+#include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_frame.h"
+#include "worlds/mapping/cloud/folder/map_numbering.h"
+#include "worlds/mapping/map_parameters.h"
+
+namespace vinerow::worlds {
+namespace {
+
+constexpr double kElsewhere_m = 50.0;  ///< a map so far beside the world's rows is of others
+constexpr double kHigh_m = 2.0;        ///< so far off the ground two height systems were mixed
+
+std::vector<ParameterSpec> cloud_map_parameters() {
+  ParameterSpec stated = number_parameter(
+      "stated_surface_std_m", "m", 0.0, 0.0, 1.0,
+      "1 sigma of the meshes' surface that estimators are told; 0: what the map says");
+  ParameterSpec offset = number_list_parameter(
+      "offset_std_m", "m", {0, 0, 0},
+      "1 sigma of a shift of the whole map, east, north, up, that estimators are told; default: "
+      "what the map says",
+      3);
+  offset.min = 0.0;
+  ParameterSpec cell = number_parameter(
+      "occupancy_cell_m", "m", 0.05, 0.005, 10,
+      "draws the occupancy grid anew of the map's rows and boundary with cells of this size; "
+      "default: the map's own grid");
+  return {required(path_parameter("folder", "folder that `vinerow map` wrote")),
+          choice_parameter("numbering", "world", {"world", "map"},
+                           "rows and alleys are counted from the side, and run the way, that the "
+                           "world's do; or as the folder has them"),
+          stated,
+          optional(offset),
+          optional(cell),
+          optional(boolean_parameter("virtual_walls", true,
+                                     "draws the grid anew with or without walls from row ends to "
+                                     "the boundary")),
+          optional(choice_parameter("first_wall", "auto", {"auto", "first", "last"},
+                                    "draws the grid anew; point of row 0 that is walled"))};
+}
+
+/// "1.24 km", "63 m".
+std::string shown_way(double way_m) {
+  return way_m < 1000.0 ? fmt::format("{:.0f} m", way_m) : fmt::format("{:.2f} km", way_m / 1000.0);
+}
+
+/// Worlds that nobody gave a place stand at 0 deg north, 0 deg east.
+bool has_place(const WorldModel& world) {
+  return world.origin.latitude_rad != 0.0 || world.origin.longitude_rad != 0.0;
+}
+
+/// To the world's rows; to its terrain where it has no rows.
+double way_to_m(const RowMap& map, const WorldModel& world) {
+  if (!world.rows.rows.empty()) return distance_between_m(map.rows, world.rows.rows);
+  if (!world.terrain) return 0.0;
+  const HeightField& t = *world.terrain;
+  const Eigen::Vector2d end = t.corner_W + Eigen::Vector2d(t.width_m(), t.depth_m());
+  PlantRow diagonal;
+  diagonal.line_W = {{t.corner_W.x(), t.corner_W.y(), 0.0}, {end.x(), end.y(), 0.0}};
+  return distance_between_m(map.rows, {diagonal});
+}
+
+void refuse_elsewhere(const CloudMap& map, bool moved, const WorldModel& world,
+                      const std::string& folder) {
+  const double apart_m = way_to_m(map.map, world);
+  if (apart_m <= kElsewhere_m) return;
+  throw ConfigError(fmt::format(
+      "map cloud_map: the rows of map '{}' lie {} from world '{}', must be within {:g} m: {}",
+      folder, shown_way(apart_m), world.name, kElsewhere_m,
+      moved ? "it is of another place, or one of the two origins is wrong"
+            : "its x and y are taken for the world's, as one of the two has no origin"));
+}
+
+/// Two height systems (ellipsoid and geoid) are tens of metres apart and easily mixed.
+void note_heights(const RowMap& map, const MapContext& context, const std::string& folder) {
+  double sum_m = 0.0;
+  int count = 0;
+  for (const PlantRow& row : map.rows) {
+    for (const Eigen::Vector3d& p : row.line_W) {
+      const auto ground_m = context.scene->ground_height_m(p.x(), p.y(), 1e5);
+      if (!ground_m) continue;
+      sum_m += p.z() - *ground_m;
+      ++count;
+    }
+  }
+  if (count == 0 || std::abs(sum_m / count) <= kHigh_m) return;
+  log_note(fmt::format(
+      "map of {}: the rows of map '{}' lie {:.1f} m {} the world's ground: is the altitude of its "
+      "origin in another height system?",
+      context.vehicle, folder, std::abs(sum_m / count), sum_m > 0.0 ? "above" : "below"));
+}
+
+void draw_grid_anew(const ParameterSet& parameters, RowMap& map) {
+  OccupancyOptions options;
+  options.cell_m = parameters.has("occupancy_cell_m") ? parameters.number("occupancy_cell_m")
+                   : map.occupancy.empty()            ? options.cell_m
+                                                      : map.occupancy.cell_m;
+  if (parameters.has("virtual_walls")) options.virtual_walls = parameters.boolean("virtual_walls");
+  if (parameters.has("first_wall") && parameters.text("first_wall") != "auto") {
+    options.first_wall = parameters.text("first_wall") == "first" ? RowEnd::kFirst : RowEnd::kLast;
+  }
+  map.occupancy = make_occupancy_grid(map, options);
+}
+
+}  // namespace
+
+std::unique_ptr<RowMap> make_map_of_folder(const ParameterSet& parameters,
+                                           const MapContext& context) {
+  VINEROW_DEMAND(context.world != nullptr && context.scene != nullptr);
+  const std::string& folder = parameters.text("folder");
+  CloudMap map = load_map(folder);
+  const bool moves = map.has_origin && has_place(*context.world);
+  if (moves) {
+    move_map(context.world->origin, map);
+  } else {
+    log_note(
+        fmt::format("map of {}: {} has no origin, the map's x, y and z are taken for the world's",
+                    context.vehicle,
+                    map.has_origin ? fmt::format("world '{}'", context.world->name)
+                                   : fmt::format("map '{}'", folder)));
+  }
+  refuse_elsewhere(map, moves, *context.world, folder);
+  if (parameters.text("numbering") == "world" && !context.world->rows.rows.empty()) {
+    number_like(context.world->rows, map.map);
+  }
+  note_heights(map.map, context, folder);
+  const bool anew = parameters.has("occupancy_cell_m") || parameters.has("virtual_walls") ||
+                    parameters.has("first_wall");
+  if (anew) draw_grid_anew(parameters, map.map);
+  if (parameters.number("stated_surface_std_m") > 0.0) {
+    map.map.accuracy.surface_std_m = parameters.number("stated_surface_std_m");
+  }
+  if (parameters.has("offset_std_m")) {
+    const std::vector<double>& offset = parameters.numbers("offset_std_m");
+    map.map.accuracy.offset_std_m = {offset[0], offset[1], offset[2]};
+  }
+  return std::make_unique<RowMap>(std::move(map.map));
+}
+
+void register_cloud_map(Registry& registry) {
+  PartSpec spec;
+  spec.name = "cloud_map";
+  spec.description =
+      "a map that `vinerow map` made of a point cloud: rows, alleys, parcel, ground, row meshes "
+      "and "
+      "occupancy grid, after paper A, section 3";
+  spec.parameters = cloud_map_parameters();
+  registry.add_map(std::move(spec), make_map_of_folder);
+}
+
+}  // namespace vinerow::worlds

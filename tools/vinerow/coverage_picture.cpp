@@ -9,6 +9,7 @@
 
 #include "tools/vinerow/canvas.h"
 #include "tools/vinerow/colour_scale.h"
+#include "tools/vinerow/scale_bar.h"
 
 namespace vinerow::tools {
 namespace {
@@ -219,25 +220,6 @@ void draw_overlaps(Canvas& canvas, const Panel& panel, const SurveyCoverage& cov
   draw_patch(canvas, panel.left + panel.width, top, kNone, "no such pair");
 }
 
-/// A length of 1, 2 or 5 times a power of ten that is about a fifth of a map, and north.
-void draw_scale(Canvas& canvas, const Panel& panel, double y) {
-  const double wanted_m = 0.2 * panel.width / panel.px_per_m;
-  double length_m = std::pow(10.0, std::floor(std::log10(wanted_m)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * length_m <= wanted_m) {
-      length_m *= factor;
-      break;
-    }
-  }
-  const double right = kWidth - kMargin, left = right - length_m * panel.px_per_m;
-  canvas.line({left, y}, {right, y}, 3.0, kInk);
-  for (const double x : {left, right}) canvas.line({x, y - 6}, {x, y + 6}, 2.0, kInk);
-  canvas.text(fmt::format("{:g} m", length_m), 17, {0.5 * (left + right), y - 10}, kInk, 0.5);
-  const double x = left - 40.0;
-  canvas.fill({{x, y - 26}, {x + 8, y + 6}, {x, y - 1}, {x - 8, y + 6}}, kInk);
-  canvas.text("N", 15, {x, y - 31}, kInk, 0.5);
-}
-
 std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "not measured";
 }
@@ -290,7 +272,9 @@ render::Image draw_coverage(const SurveyCoverage& coverage) {
   draw_counts(canvas, layout.panels[0], coverage);
   draw_overlaps(canvas, layout.panels[1], coverage);
   draw_numbers(canvas, layout, coverage);
-  draw_scale(canvas, layout.panels[0], layout.numbers_top + kNumbers - 30);
+  draw_scale_bar(canvas, {kWidth - kMargin, layout.numbers_top + kNumbers - 30},
+                 0.2 * layout.panels[0].width / layout.panels[0].px_per_m,
+                 layout.panels[0].px_per_m, kInk);
   return canvas.image();
 }
 

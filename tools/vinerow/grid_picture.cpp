@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/vinerow/canvas.h"
+#include "tools/vinerow/scale_bar.h"
 
 namespace vinerow::tools {
 namespace {
@@ -131,26 +132,6 @@ void draw_alley_numbers(Canvas& canvas, const View& view, const RowMap& map) {
   }
 }
 
-/// A length of 1, 2 or 5 times a power of ten that is about an eighth of the picture.
-void draw_scale(Canvas& canvas, const View& view, double y) {
-  const double wanted_m = 0.125 * view.width / view.px_per_m;
-  double length_m = std::pow(10.0, std::floor(std::log10(wanted_m)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * length_m <= wanted_m) {
-      length_m *= factor;
-      break;
-    }
-  }
-  const double right = view.width - view.margin, left = right - length_m * view.px_per_m;
-  canvas.line({left, y}, {right, y}, 3.0, kInk);
-  for (const double x : {left, right}) canvas.line({x, y - 6}, {x, y + 6}, 2.0, kInk);
-  canvas.text(fmt::format("{:g} m", length_m), 17, {0.5 * (left + right), y - 10}, kInk, 0.5);
-  // North.
-  const double x = left - 40.0;
-  canvas.fill({{x, y - 26}, {x + 8, y + 6}, {x, y - 1}, {x - 8, y + 6}}, kInk);
-  canvas.text("N", 15, {x, y - 31}, kInk, 0.5);
-}
-
 }  // namespace
 
 render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& report,
@@ -193,7 +174,8 @@ render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& 
   legend({246, 219, 139}, "turning area", !report.turning_areas.empty());
   legend(kOutside, "outside the parcel", true);
   legend(kObstacle, "box that the map does not have", unknown > 0);
-  draw_scale(canvas, view, top + 44.0);
+  draw_scale_bar(canvas, {view.width - view.margin, top + 44.0}, 0.125 * view.width / view.px_per_m,
+                 view.px_per_m, kInk);
   return canvas.image();
 }
 

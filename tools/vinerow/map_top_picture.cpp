@@ -8,6 +8,7 @@
 #include "engine/render/caption.h"
 #include "tools/vinerow/colour_scale.h"
 #include "tools/vinerow/map_pictures.h"
+#include "tools/vinerow/scale_bar.h"
 #include "worlds/parts/row_curve.h"
 
 namespace vinerow::tools {
@@ -177,25 +178,6 @@ void draw_rows(Canvas& canvas, const View& view, const worlds::CloudMap& map) {
   }
 }
 
-/// A length of 1, 2 or 5 times a power of ten, and north.
-void draw_scale(Canvas& canvas, const View& view, double y) {
-  const double wanted_m = 0.125 * kWidth / view.px_per_m;
-  double length_m = std::pow(10.0, std::floor(std::log10(wanted_m)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * length_m <= wanted_m) {
-      length_m *= factor;
-      break;
-    }
-  }
-  const double right = kWidth - kMargin, left = right - length_m * view.px_per_m;
-  canvas.line({left, y}, {right, y}, 3.0, kInk);
-  for (const double x : {left, right}) canvas.line({x, y - 6}, {x, y + 6}, 2.0, kInk);
-  canvas.text(fmt::format("{:g} m", length_m), 17, {0.5 * (left + right), y - 10}, kInk, 0.5);
-  const double x = left - 40.0;
-  canvas.fill({{x, y - 26}, {x + 8, y + 6}, {x, y - 1}, {x - 8, y + 6}}, kInk);
-  canvas.text("N", 15, {x, y - 31}, kInk, 0.5);
-}
-
 void draw_legend(Canvas& canvas, double y, double low_m, double high_m, bool has_gaps,
                  double contour_m) {
   double x = kMargin;
@@ -265,7 +247,8 @@ render::Image draw_top(const worlds::CloudMap& map, const worlds::ParcelCloud& c
                           r.rows.size(), length_m, r.spacing_m, r.bearing_deg),
               16, {kMargin, top + 52.0}, kFaint);
   draw_legend(canvas, top + 82.0, low_m, high_m, has_gaps, contour_m);
-  draw_scale(canvas, view, top + 84.0);
+  draw_scale_bar(canvas, {kWidth - kMargin, top + 84.0}, 0.125 * kWidth / view.px_per_m,
+                 view.px_per_m, kInk);
   return canvas.image();
 }
 

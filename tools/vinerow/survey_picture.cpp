@@ -10,6 +10,7 @@
 #include "engine/math/angles.h"
 #include "tools/vinerow/canvas.h"
 #include "tools/vinerow/colour_scale.h"
+#include "tools/vinerow/scale_bar.h"
 
 namespace vinerow::tools {
 namespace {
@@ -199,24 +200,6 @@ void draw_waypoints(Canvas& canvas, const View& view, const SurveyPlan& plan) {
   }
 }
 
-/// A length of 1, 2 or 5 times a power of ten, and north.
-void draw_scale(Canvas& canvas, const View& view, double y) {
-  const double wanted_m = 0.125 * kWidth / view.px_per_m;
-  double length_m = std::pow(10.0, std::floor(std::log10(wanted_m)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * length_m > wanted_m) continue;
-    length_m *= factor;
-    break;
-  }
-  const double right = kWidth - kMargin, left = right - length_m * view.px_per_m;
-  canvas.line({left, y}, {right, y}, 3.0, kInk);
-  for (const double x : {left, right}) canvas.line({x, y - 6}, {x, y + 6}, 2.0, kInk);
-  canvas.text(fmt::format("{:g} m", length_m), 17, {0.5 * (left + right), y - 10}, kInk, 0.5);
-  const double x = left - 40.0;
-  canvas.fill({{x, y - 26}, {x + 8, y + 6}, {x, y - 1}, {x - 8, y + 6}}, kInk);
-  canvas.text("N", 15, {x, y - 31}, kInk, 0.5);
-}
-
 void draw_legend(Canvas& canvas, double y, const SurveyPlan& plan, double contour_m, bool is_flat) {
   double x = kMargin;
   const auto words = [&](const std::string& text) {
@@ -288,7 +271,8 @@ render::Image draw_survey(const SurveyRequest& request, const SurveyPlan& plan,
                   1e-3 * number("length_m"), number("flight_time_s") / 60.0),
       16, {kMargin, top + 57.0}, kFaint);
   draw_legend(canvas, top + 90.0, plan, contour_m, relief.is_flat());
-  draw_scale(canvas, view, top + 96.0);
+  draw_scale_bar(canvas, {kWidth - kMargin, top + 96.0}, 0.125 * kWidth / view.px_per_m,
+                 view.px_per_m, kInk);
   return canvas.image();
 }
 

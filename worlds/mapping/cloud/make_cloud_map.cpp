@@ -32,6 +32,11 @@ void check_options(const CloudMapOptions& options) {
   positive(options.spacing_low_m, "least row spacing");
   positive(options.row_length_low_m, "least row length");
   positive(options.headland_m, "headland");
+  const auto not_negative = [](double value, const char* name) {
+    if (!(value >= 0.0)) throw ConfigError(fmt::format("{} = {:g}, must be >= 0", name, value));
+  };
+  not_negative(options.budget_MB, "budget");
+  not_negative(options.occupancy.cell_m, "grid cell");
   if (!(options.spacing_low_m < options.spacing_high_m)) {
     throw ConfigError(fmt::format("least row spacing = {:g} m, must be < the largest, {:g} m",
                                   options.spacing_low_m, options.spacing_high_m));
@@ -255,6 +260,10 @@ CloudMap make_cloud_map(ParcelCloud& cloud, const CloudMapOptions& options,
   made.map.accuracy.surface_std_m = std::max(0.01, std::sqrt(squares / metres));
   made.map.terrain = std::move(terrain.field);
   OccupancyOptions grid_options = options.occupancy;
+  if (grid_options.cell_m == 0.0) {
+    end_phase("grid");
+    return made;
+  }
   constexpr std::int64_t kMostCells = 30'000'000;
   grid_options.cell_m = cell_that_fits_m(made.map.boundary_W, grid_options.cell_m, kMostCells);
   const OccupancyReport walls = plan_occupancy(made.map, grid_options);

@@ -28,8 +28,8 @@ struct CloudMapOptions {
   int corners = 8;                          ///< of a cross-section
   double slice_m = 0.14;                    ///< between cross-sections, before any is left out
   double gap_m = 0.5;                       ///< a longer stretch without canopy splits a row's mesh
-  double budget_MB = 0.0;  ///< of all row meshes as binary PLY; 0: 1.3 kB per metre of row
-  OccupancyOptions occupancy;
+  double budget_MB = 0.0;      ///< of all row meshes as binary PLY; 0: 1.3 kB per metre of row
+  OccupancyOptions occupancy;  ///< cell_m = 0: no grid
 };
 
 /// @param cloud     gets a class for every point

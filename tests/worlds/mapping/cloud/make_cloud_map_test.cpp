@@ -225,6 +225,19 @@ TEST(MakeCloudMap, RefusesOptionsThatDoNotFit) {
   options = {};
   options.canopy_cut_m = -1.0;
   EXPECT_EQ(refusal(cloud, options), "canopy cut = -1, must be > 0");
+  options = {};
+  options.budget_MB = -1.0;
+  EXPECT_EQ(refusal(cloud, options), "budget = -1, must be >= 0");
+  options = {};
+  options.occupancy.cell_m = -0.05;
+  EXPECT_EQ(refusal(cloud, options), "grid cell = -0.05, must be >= 0");
+  options = {};
+  options.corners = 3;
+  EXPECT_EQ(refusal(cloud, options), "row meshes: corners = 3, must be 5 to 16");
+  options.corners = 8;
+  options.occupancy.cell_m = 0.0;
+  ParcelCloud points = cloud;
+  EXPECT_TRUE(make_cloud_map(points, options).map.occupancy.empty());
 }
 
 }  // namespace

@@ -263,6 +263,24 @@ TEST(RowHull, GapsSplitWhereTheyAreLongEnough) {
   EXPECT_EQ(hulls_of(row, short_gaps).chains.size(), 3u);
 }
 
+TEST(RowHull, PostInAGapIsNoCanopy) {
+  RowCanopy row{0, straight(20.0), {}};
+  RandomStream random(5, "test", "canopy");
+  for (const auto& [from_m, to_m] : {std::pair(0.0, 9.0), std::pair(9.9, 20.0)}) {
+    test::sample(test::surface_of(test::box(0.6, 0.6, 2.0), from_m, to_m, 0.1), {.noise_m = 0.01},
+                 random, row.points);
+  }
+  const RowHulls without = hulls_of(row);
+  test::sample(test::surface_of(test::box(0.1, 0.0, 2.1), 9.4, 9.5, 0.1), {.noise_m = 0.01}, random,
+               row.points);
+  const RowHulls hulls = hulls_of(row);
+  ASSERT_EQ(hulls.chains.size(), 2u);
+  ASSERT_EQ(hulls.figures.gaps_m.size(), 1u);
+  EXPECT_NEAR(hulls.figures.gaps_m[0].first, 9.0, 0.03);
+  EXPECT_NEAR(hulls.figures.gaps_m[0].second, 9.9, 0.03);
+  EXPECT_NEAR(hulls.figures.volume_m3 / without.figures.volume_m3, 1.0, 0.01);
+}
+
 TEST(RowHull, StrayPointsMoveNothing) {
   for (const double per_m2 : {1500.0, 200.0}) {
     SCOPED_TRACE(per_m2);

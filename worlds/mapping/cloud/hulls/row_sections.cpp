@@ -131,6 +131,35 @@ double median_of_positive(std::vector<std::uint32_t> counts) {
   return *middle;
 }
 
+/// Which steps along the row hold canopy: enough points, and not just those of a post that stands
+/// where vines are missing.
+std::vector<std::uint8_t> occupied_steps(const std::vector<std::uint32_t>& counts) {
+  constexpr std::size_t kPost = 6;   // steps that it takes up at most, with the points' noise
+  constexpr std::size_t kApart = 2;  // empty ones on both sides
+  const double least = kOccupiedShare * median_of_positive(counts);
+  std::vector<std::uint8_t> occupied(counts.size());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    occupied[i] = counts[i] > 0 && static_cast<double>(counts[i]) >= least ? 1 : 0;
+  }
+  std::vector<std::uint8_t> canopy = occupied;
+  const auto is_empty = [&](std::size_t from, std::size_t to) {
+    return std::none_of(occupied.begin() + static_cast<std::ptrdiff_t>(from),
+                        occupied.begin() + static_cast<std::ptrdiff_t>(to),
+                        [](std::uint8_t step) { return step != 0; });
+  };
+  for (std::size_t i = kApart; i < occupied.size(); ++i) {
+    if (occupied[i] == 0 || occupied[i - 1] != 0) continue;
+    std::size_t end = i;
+    while (end < occupied.size() && occupied[end] != 0) ++end;
+    if (end - i > kPost || end + kApart > occupied.size()) continue;
+    if (is_empty(i - kApart, i) && is_empty(end, end + kApart)) {
+      std::fill(canopy.begin() + static_cast<std::ptrdiff_t>(i),
+                canopy.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t{0});
+    }
+  }
+  return canopy;
+}
+
 /// Where the canopy of sorted or unsorted s ends: a share of those close to the end is noise.
 double robust_end(std::vector<float>& s_m, bool low) {
   const auto order = [low](float a, float b) { return low ? a < b : a > b; };
@@ -212,7 +241,20 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
   };
   std::vector<std::uint32_t> counts(static_cast<std::size_t>((high_m - low_m) / kOccupied_m) + 1);
   for (const Eigen::Vector3f& p : points) ++counts[step_of(p)];
-  const double least = kOccupiedShare * median_of_positive(counts);
+  const std::vector<std::uint8_t> canopy = occupied_steps(counts);
+  // What stands where no canopy is, and not at its rim, would widen the stretch's last section.
+  const auto is_off_canopy = [&](const Eigen::Vector3f& p) {
+    constexpr std::size_t kRim = 2;
+    const std::size_t step = step_of(p);
+    const std::size_t end = std::min(canopy.size(), step + kRim + 1);
+    for (std::size_t i = step > kRim ? step - kRim : 0; i < end; ++i) {
+      if (canopy[i] != 0) return false;
+    }
+    return true;
+  };
+  const auto on_canopy = std::remove_if(points.begin(), points.end(), is_off_canopy);
+  result.sparse += points.end() - on_canopy;
+  points.erase(on_canopy, points.end());
   // Number of the stretch that each step belongs to.
   std::vector<std::uint32_t> stretch_of(counts.size());
   const auto most_empty = static_cast<std::size_t>(options.gap_m / kOccupied_m);
@@ -220,7 +262,7 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
   std::size_t empty = 0;
   std::vector<std::pair<double, double>> occupied_m;  // from and to, of each stretch
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const bool occupied = counts[i] > 0 && static_cast<double>(counts[i]) >= least;
+    const bool occupied = canopy[i] != 0;
     empty = occupied ? 0 : empty + 1;
     if (empty == most_empty) ++stretches;
     stretch_of[i] = stretches;

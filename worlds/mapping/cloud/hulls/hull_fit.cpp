@@ -241,6 +241,42 @@ void HullFit::sweep(double price_m3, double tolerance_m, double most_m) {
   }
 }
 
+void HullFit::even_the_foot() {
+  constexpr double kReach_m = 0.4, kBand_m = 0.1, kFew_per_m = 50.0;
+  int k = 0;
+  for (int other = 1; other < c_; ++other) {
+    if (directions_.normal(other).y() < directions_.normal(k).y()) k = other;
+  }
+  const std::vector<double> before = h_;
+  const auto level_m = [&](int j) { return before[static_cast<std::size_t>(j) * c_ + k]; };
+  const Eigen::Vector2f n = directions_.normal(k).cast<float>();
+  const int reach = std::max(1, static_cast<int>(std::lround(kReach_m / stretch_.slice_m())));
+  const auto few_were_seen = [&](int j) {
+    const int from = std::max(0, j - reach), to = std::min(stretch_.slices(), j + reach);
+    const double least_m = level_m(j) - kBand_m;
+    std::int64_t seen = 0;
+    for (std::size_t p = stretch_.first[from]; p < stretch_.first[to]; ++p) {
+      const Eigen::Vector3f& point = stretch_.points[p];
+      seen += n.x() * point.y() + n.y() * point.z() > least_m ? 1 : 0;
+    }
+    return static_cast<double>(seen) <= kFew_per_m * (to - from) * stretch_.slice_m();
+  };
+  for (int j = 0; j >= 0; j = next_[j]) {
+    if (!few_were_seen(j)) continue;
+    double lowest_m = level_m(j);
+    for (int i = prev_[j]; i >= 0 && knots_[j] - knots_[i] <= kReach_m; i = prev_[i]) {
+      lowest_m = std::max(lowest_m, level_m(i));
+    }
+    for (int i = next_[j]; i >= 0 && knots_[i] - knots_[j] <= kReach_m; i = next_[i]) {
+      lowest_m = std::max(lowest_m, level_m(i));
+    }
+    const double room_m = directions_.side_m(h(j), k) - kLeastSide_m;
+    const double shrink = directions_.shrink(k);
+    const double most_m = shrink > 1e-9 ? std::max(0.0, room_m) / shrink : lowest_m - level_m(j);
+    h(j)[k] += std::min(lowest_m - level_m(j), most_m);
+  }
+}
+
 void HullFit::offset(double out_m) {
   for (int j = 0; j >= 0; j = next_[j]) {
     for (int k = 0; k < c_; ++k) h(j)[k] += out_m;

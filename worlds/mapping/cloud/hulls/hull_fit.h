@@ -65,6 +65,11 @@ class HullFit {
   void count_excess(ExcessCounts& counts) const;
   /// Appends the points whose excess is more than that.
   void find_above(double excess_m, std::vector<Eigen::Vector3f>& points) const;
+  /// Where few low points were seen (50 in a metre of row at most within 0.1 m of it) the side that
+  /// looks down goes out to where it lies farthest out within 0.4 m along the row, as far as the
+  /// section stays convex: pictures from above do not see the lowest leaves of every slice, and the
+  /// underside is even over some slices all the same.
+  void even_the_foot();
   /// All sides out, or in.
   void offset(double out_m);
   const std::vector<double>& offsets() const { return h_; }

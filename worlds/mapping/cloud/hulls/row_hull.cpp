@@ -122,6 +122,7 @@ class RowWork {
       adapt_price();
       sweep(0.01);
     }
+    for (const auto& fit : fits_) fit->even_the_foot();
     settle(hulls);
     for (const auto& fit : fits_) {
       hulls.chains.push_back(fit->chain());

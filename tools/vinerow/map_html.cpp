@@ -287,6 +287,9 @@ std::string map_report_text(const worlds::CloudMap& map) {
   out += fmt::format("meshes         {} triangles, {}, {:.2f} % less than the cloud\n", r.triangles,
                      megabytes(r.mesh_bytes), 100.0 * r.reduction);
   out +=
+      fmt::format("sections       {:.1f} % larger than the smallest polygons of as many corners\n",
+                  100.0 * r.section_excess);
+  out +=
       fmt::format("containment    {:.2f} % of canopy points within 1 cm\n", 100.0 * r.containment);
   if (!map.map.occupancy.empty()) {
     const OccupancyGrid& grid = map.map.occupancy;

@@ -32,9 +32,10 @@ inline const worlds::CloudMap& map_of_world(const std::string& type) {
                               &report.other_points, &report.triangles, &report.mesh_bytes}) {
     *count = static_cast<std::int64_t>(1e9 * (next += 0.7));
   }
-  for (double* number : {&report.density_per_m2, &report.noise_m, &report.bearing_deg,
-                         &report.spacing_m, &report.spacing_std_m, &report.canopy_top_m,
-                         &report.canopy_width_m, &report.volume_m3, &report.seen_volume_m3}) {
+  for (double* number :
+       {&report.density_per_m2, &report.noise_m, &report.bearing_deg, &report.spacing_m,
+        &report.spacing_std_m, &report.canopy_top_m, &report.canopy_width_m, &report.volume_m3,
+        &report.seen_volume_m3, &report.section_excess}) {
     *number = next += 1.0 / 3.0;
   }
   report.containment = 0.987654321;

@@ -166,6 +166,7 @@ void report_rows(const std::vector<RowHulls>& hulls, const std::vector<RowCanopy
     report.seen_volume_m3 += figures.seen_volume_m3;
     report.triangles += figures.triangles;
     report.mesh_bytes += hulls[r].mesh_bytes;
+    report.section_excess += figures.length_m * hulls[r].section_excess;
     metres += figures.length_m;
     contained += figures.containment * static_cast<double>(figures.points);
     points += static_cast<double>(figures.points);
@@ -174,6 +175,7 @@ void report_rows(const std::vector<RowHulls>& hulls, const std::vector<RowCanopy
   }
   report.canopy_top_m /= metres;
   report.canopy_width_m /= metres;
+  report.section_excess /= metres;
   report.containment = points > 0.0 ? contained / points : 0.0;
   if (distances.empty()) return;
   for (const double d : distances) report.spacing_m += d;

@@ -115,7 +115,8 @@ json report_json(const CloudMapReport& r) {
            {{"triangles", r.triangles},
             {"bytes", r.mesh_bytes},
             {"reduction", r.reduction},
-            {"containment", r.containment}}},
+            {"containment", r.containment},
+            {"section_excess", r.section_excess}}},
           {"rows", rows},
           {"notes", notes}};
 }
@@ -146,6 +147,7 @@ CloudMapReport read_report(const JsonReader& in) {
   r.mesh_bytes = meshes.at("bytes").whole(0);
   r.reduction = meshes.at("reduction").number();
   r.containment = meshes.at("containment").number();
+  r.section_excess = meshes.at("section_excess").number();
   for (const JsonReader& row : in.at("rows").items()) r.rows.push_back(read_figures(row));
   for (const JsonReader& note : in.at("notes").items()) r.notes.push_back(note.text());
   return r;

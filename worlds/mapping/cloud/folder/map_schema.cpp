@@ -107,7 +107,9 @@ json report_properties() {
        object({{"triangles", whole("of all row meshes")},
                {"bytes", whole("of all row meshes as binary PLY")},
                {"reduction", number("1 - mesh bytes / cloud bytes")},
-               {"containment", share("of all canopy points within 1 cm of their row's meshes")}},
+               {"containment", share("of all canopy points within 1 cm of their row's meshes")},
+               {"section_excess",
+                number("cross-sections' area over the least of as many corners, - 1")}},
               "the low-complexity meshes")},
       {"rows", list(row_figures(), 0, "row by row")},
       {"notes", list(text("a sentence"), 0, "what the user should know")}};

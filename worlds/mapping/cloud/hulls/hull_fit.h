@@ -116,6 +116,10 @@ class HullFit {
 
 /// The `corners` of 32 directions whose polygons around the slices of all stretches have the least
 /// area in sum, found by taking away what adds least, again and again.
-HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners);
+/// @param excess  if not null: how much larger these polygons are, in sum, than the smallest ones
+/// of as many corners around the same slices (enclosing_polygon.h); what it costs that all slices
+/// share their directions. 0 where there are no slices to tell.
+HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners,
+                                 double* excess = nullptr);
 
 }  // namespace vinerow::worlds

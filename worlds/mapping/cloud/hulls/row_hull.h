@@ -48,7 +48,10 @@ struct RowHulls {
   /// The meshes' volume less what lies between them and the middle of the points' scatter: an
   /// estimate of the canopy's volume that noise does not swell.
   double canopy_volume_m3 = 0.0;
-  double noise_m = 0.0;         ///< 1 sigma of the points across the side faces
+  double noise_m = 0.0;  ///< 1 sigma of the points across the side faces
+  /// How much larger sections are than the smallest polygons of as many corners, before points are
+  /// left outside: what shared directions cost.
+  double section_excess = 0.0;
   double simplify_error_m = 0;  ///< most that leaving out one section has moved the surface, mean
   std::int64_t dropped = 0;     ///< points in sparse cells, still counted in the containment
   std::int64_t mesh_bytes = 0;  ///< as binary PLY without headers

@@ -1,6 +1,8 @@
 #pragma once
 /// Runs the command `vinerow` as a user would, in a process of its own.
 
+#include <unistd.h>
+
 #include <sys/wait.h>
 
 #include <array>
@@ -33,11 +35,13 @@ inline CommandResult run_vinerow(const std::string& arguments,
   return result;
 }
 
-/// A folder that is empty at the start and gone at the end of the test.
+/// A folder that is empty at the start and gone at the end of the test, of this process alone:
+/// tests of one suite run side by side in processes of their own.
 class ScratchFolder {
  public:
   explicit ScratchFolder(const std::string& name)
-      : path_(std::filesystem::path(VINEROW_BINARY_DIR) / "scratch" / name) {
+      : path_(std::filesystem::path(VINEROW_BINARY_DIR) / "scratch" /
+              (name + "_" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

@@ -65,7 +65,7 @@ TEST(CloudTruth, ARowWithoutCanopyHasNone) {
   WorldModel world = two_rows();
   world.meshes.resize(1);
   const physics::WorldScene scene(world);
-  const RowTruth& bare = measure_truth(scene, world).rows[1];
+  const RowTruth bare = measure_truth(scene, world).rows[1];
   EXPECT_EQ(bare.length_m, 0.0);
   EXPECT_EQ(bare.volume_m3, 0.0);
   EXPECT_EQ(bare.canopy_top_m, 0.0);

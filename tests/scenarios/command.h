@@ -1,15 +1,15 @@
 #pragma once
 /// Runs the command `vinerow` as a user would, in a process of its own.
 
-#include <unistd.h>
-
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
 #include "tests/support/paths.h"
 
 namespace vinerow::test {

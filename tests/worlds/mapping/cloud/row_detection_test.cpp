@@ -349,5 +349,34 @@ TEST(RowPoints, TellsGroundWeedsAndCanopyApart) {
   }
 }
 
+TEST(RowPoints, TallWeedsBesideARowAreNotItsCanopy) {
+  SyntheticParcel parcel;
+  parcel.rows = 4;
+  parcel.length_m = 40.0;
+  parcel.angle_deg = 0.0;
+  parcel.weeds_m = 0.75;
+  parcel.noise_m = 0.01;
+  Found found = find(parcel);
+  ASSERT_EQ(found.lines.size(), 4u);
+  RowPointOptions options;
+  options.spacing_m = found.spacing_m;
+  options.body_cut_m =
+      body_height_m(found.cloud, HeightAbove(found.terrain.field, found.cloud.origin_W), 0.55, 6.0);
+  EXPECT_GT(options.body_cut_m, 0.7);
+  gather_row_canopies(found.cloud, found.terrain.field, found.lines, options);
+  std::size_t weeds = 0, taken = 0;
+  for (std::size_t k = 0; k < found.cloud.points.size(); ++k) {
+    const Eigen::Vector3d p = found.cloud.point_W(k);
+    const double across = (p.y() - parcel.middle_W.y()) / parcel.spacing_m + 1.5;
+    const double off_m = std::abs(across - std::round(across)) * parcel.spacing_m;
+    const double height_m = p.z() - parcel.ground_m(p.x(), p.y());
+    if (off_m < 0.6 || across < -0.4 || across > 3.4 || height_m < 0.6) continue;
+    ++weeds;
+    taken += found.cloud.classes[k] == PointClass::kCanopy ? 1 : 0;
+  }
+  EXPECT_GT(weeds, 1000u);
+  EXPECT_LT(taken, weeds / 100);
+}
+
 }  // namespace
 }  // namespace vinerow::worlds

@@ -141,7 +141,7 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
   std::vector<std::size_t> starts(chunks * rows, 0);
   cloud.classes.resize(cloud.points.size());
   const float cut_m = static_cast<float>(options.canopy_cut_m);
-  [[maybe_unused]] const float body_m = static_cast<float>(options.body_cut_m);
+  const float body_m = static_cast<float>(options.body_cut_m);
   const float ground_m = static_cast<float>(options.ground_m);
   constexpr float kMargin_m = 0.15f;
   for_chunks(cloud.points.size(), kChunk,
@@ -167,9 +167,11 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
                  const int last = static_cast<int>(base.height_m.size()) - 1;
                  const float base_m = base.height_m[static_cast<std::size_t>(
                      std::clamp(static_cast<int>(place.s_m / base.stretch_m), 0, last))];
-                 const bool is_low = height_m <= cut_m;
-                 if (is_low && (height_m < base_m || std::abs(place.y_m) > widths[r] + kMargin_m))
+                 const bool is_beside = std::abs(place.y_m) > widths[r] + kMargin_m;
+                 if (height_m < base_m || (height_m <= body_m && is_beside)) {
+                   of = PointClass::kLowVegetation;
                    continue;
+                 }
                  of = PointClass::kCanopy;
                  ++starts[chunk * rows + r];
                }

@@ -264,6 +264,13 @@ TEST(RowDetection, MeadowBareGroundAndOneHedgeHaveNoRows) {
     }
   }
   EXPECT_TRUE(Found(meadow).lines.empty());
+  ParcelCloud hedge = bare;
+  for (int n = 0; n < 20'000; ++n) {
+    hedge.points.emplace_back(static_cast<float>(random.uniform(-30.0, 30.0)),
+                              static_cast<float>(random.uniform(-0.4, 0.4)),
+                              static_cast<float>(random.uniform(0.3, 1.8)));
+  }
+  EXPECT_TRUE(Found(hedge).lines.empty());
 }
 
 TEST(CloudTerrain, FollowsTheGroundBelowCanopyAndWeeds) {

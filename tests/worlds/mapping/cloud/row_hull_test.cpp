@@ -8,6 +8,7 @@
 #include "tests/worlds/mapping/cloud/synthetic_canopy.h"
 #include "worlds/mapping/cloud/hulls/hull_fit.h"
 #include "worlds/mapping/cloud/hulls/row_sections.h"
+#include "worlds/mapping/cloud/hulls/section_directions.h"
 #include "worlds/mapping/enclosing_polygon.h"
 
 namespace vinerow::worlds {

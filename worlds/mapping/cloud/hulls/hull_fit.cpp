@@ -7,68 +7,37 @@
 #include <queue>
 
 #include "engine/core/check.h"
-#include "engine/math/angles.h"
-#include "engine/math/polygon.h"
-#include "worlds/mapping/enclosing_polygon.h"
+#include "worlds/mapping/cloud/hulls/section_directions.h"
 
 namespace vinerow::worlds {
 namespace {
 
 constexpr double kLeastSide_m = 0.005;
-constexpr double kStartShare = 0.01;
 constexpr double kDownPrice = 20.0;  // of points below: few see them, and the base must not rise
 
-float upper_level(std::vector<float>& values) {
-  const auto above = static_cast<std::ptrdiff_t>(kStartShare * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), values.begin() + above, values.end(), std::greater<>());
-  return values[static_cast<std::size_t>(above)];
-}
+/// The sides of the hull between two sections as functions of s, in the points' precision.
+struct SideLines {
+  std::array<float, 16> ny{}, nz{}, at{}, rise{};
+
+  explicit SideLines(const HullDirections& directions) {
+    for (int k = 0; k < directions.count(); ++k) {
+      ny[k] = static_cast<float>(directions.normal(k).x());
+      nz[k] = static_cast<float>(directions.normal(k).y());
+    }
+  }
+  /// @param h_a,h_b  sides of the sections at a_m and b_m  @param out_m  how far all are moved out
+  void span(const double* h_a, const double* h_b, double a_m, double b_m, int sides, double out_m) {
+    for (int k = 0; k < sides; ++k) {
+      rise[k] = static_cast<float>((h_b[k] - h_a[k]) / (b_m - a_m));
+      at[k] = static_cast<float>(h_a[k] + out_m) - rise[k] * static_cast<float>(a_m);
+    }
+  }
+  /// n_k . (y, z), and where the side lies at s.
+  float value(int k, const Eigen::Vector3f& p) const { return ny[k] * p.y() + nz[k] * p.z(); }
+  float level(int k, float s) const { return at[k] + rise[k] * s; }
+};
 
 }  // namespace
-
-void ExcessCounts::add(const ExcessCounts& other) {
-  for (int i = 0; i < kSteps; ++i) all[i] += other.all[i];
-  for (std::size_t k = 0; k < by_side.size(); ++k) {
-    for (int i = 0; i < kSteps; ++i) by_side[k][i] += other.by_side[k][i];
-  }
-}
-
-double ExcessCounts::level_m(std::int64_t outside) const {
-  std::int64_t passed = 0;
-  for (int i = kSteps - 1; i >= 0; --i) {
-    passed += all[i];
-    if (passed > outside) return kLow_m + (i + 1) * kStep_m;
-  }
-  return kLow_m;
-}
-
-std::int64_t ExcessCounts::count(int k) const {
-  std::int64_t sum = 0;
-  for (const std::int64_t n : by_side[k]) sum += n;
-  return sum;
-}
-
-double ExcessCounts::share_m(int k, double share) const {
-  const double wanted = share * static_cast<double>(count(k));
-  std::int64_t passed = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    passed += by_side[k][i];
-    if (passed > 0 && static_cast<double>(passed) >= wanted) return kLow_m + (i + 0.5) * kStep_m;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-double ExcessCounts::middle_m(int k) const {
-  const double low_m = share_m(k, 0.05), high_m = share_m(k, 0.95);
-  double sum = 0.0, weight = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double excess_m = kLow_m + (i + 0.5) * kStep_m;
-    if (!(excess_m >= low_m && excess_m <= high_m)) continue;
-    sum += static_cast<double>(by_side[k][i]) * excess_m;
-    weight += static_cast<double>(by_side[k][i]);
-  }
-  return sum / weight;
-}
 
 HullFit::HullFit(const RowStretch& stretch, const HullDirections& directions)
     : stretch_(stretch), directions_(directions), c_(directions.count()) {
@@ -139,28 +108,21 @@ void HullFit::collect(double reach_m) {
   candidates_.clear();
   begins_.assign(static_cast<std::size_t>(slices) * c_ + 1, 0);
   std::vector<std::vector<Candidate>> found(c_);
-  std::array<float, 16> ny{}, nz{}, at{}, rise{};
-  for (int k = 0; k < c_; ++k) {
-    ny[k] = static_cast<float>(directions_.normal(k).x());
-    nz[k] = static_cast<float>(directions_.normal(k).y());
-  }
+  SideLines sides(directions_);
   const auto from_m = static_cast<float>(stretch_.from_m);
   const auto to_m = static_cast<float>(stretch_.to_m - stretch_.from_m);
   int a = 0;
   for (int i = 0; i < slices; ++i) {
     if (next_[a] <= i) a = next_[a];
     const int b = next_[a];
-    for (int k = 0; k < c_; ++k) {
-      rise[k] = static_cast<float>((h(b)[k] - h(a)[k]) / (knots_[b] - knots_[a]));
-      at[k] = static_cast<float>(h(a)[k] - reach_m) - rise[k] * static_cast<float>(knots_[a]);
-      found[k].clear();
-    }
+    sides.span(h(a), h(b), knots_[a], knots_[b], c_, -reach_m);
+    for (auto& list : found) list.clear();
     for (std::size_t p = stretch_.first[i]; p < stretch_.first[i + 1]; ++p) {
       const Eigen::Vector3f& point = stretch_.points[p];
       const float s = std::clamp(point.x() - from_m, 0.0f, to_m);
       for (int k = 0; k < c_; ++k) {
-        const float v = ny[k] * point.y() + nz[k] * point.z();
-        if (v > at[k] + rise[k] * s) found[k].push_back({s, v});
+        const float v = sides.value(k, point);
+        if (v > sides.level(k, s)) found[k].push_back({s, v});
       }
     }
     for (int k = 0; k < c_; ++k) {
@@ -287,25 +249,18 @@ void HullFit::offset(double out_m) {
 }
 
 void HullFit::count_excess(ExcessCounts& counts) const {
-  std::array<float, 16> ny{}, nz{}, at{}, rise{};
-  for (int k = 0; k < c_; ++k) {
-    ny[k] = static_cast<float>(directions_.normal(k).x());
-    nz[k] = static_cast<float>(directions_.normal(k).y());
-  }
+  SideLines sides(directions_);
   const auto from_m = static_cast<float>(stretch_.from_m);
   const auto to_m = static_cast<float>(stretch_.to_m - stretch_.from_m);
   for (int a = 0, b = next_[0]; b >= 0; a = b, b = next_[b]) {
-    for (int k = 0; k < c_; ++k) {
-      rise[k] = static_cast<float>((h(b)[k] - h(a)[k]) / (knots_[b] - knots_[a]));
-      at[k] = static_cast<float>(h(a)[k]) - rise[k] * static_cast<float>(knots_[a]);
-    }
+    sides.span(h(a), h(b), knots_[a], knots_[b], c_, 0.0);
     for (std::size_t p = stretch_.first[a]; p < stretch_.first[b]; ++p) {
       const Eigen::Vector3f& point = stretch_.points[p];
       const float s = std::clamp(point.x() - from_m, 0.0f, to_m);
       float most = -1e9f;
       int side = 0;
       for (int k = 0; k < c_; ++k) {
-        const float excess = ny[k] * point.y() + nz[k] * point.z() - at[k] - rise[k] * s;
+        const float excess = sides.value(k, point) - sides.at[k] - sides.rise[k] * s;
         if (excess > most) {
           most = excess;
           side = k;
@@ -322,18 +277,11 @@ void HullFit::count_excess(ExcessCounts& counts) const {
 }
 
 void HullFit::find_above(double excess_m, std::vector<Eigen::Vector3f>& points) const {
-  std::array<float, 16> ny{}, nz{}, at{}, rise{};
-  for (int k = 0; k < c_; ++k) {
-    ny[k] = static_cast<float>(directions_.normal(k).x());
-    nz[k] = static_cast<float>(directions_.normal(k).y());
-  }
+  SideLines sides(directions_);
   const auto from_m = static_cast<float>(stretch_.from_m);
   const auto to_m = static_cast<float>(stretch_.to_m - stretch_.from_m);
   for (int a = 0, b = next_[0]; b >= 0; a = b, b = next_[b]) {
-    for (int k = 0; k < c_; ++k) {
-      rise[k] = static_cast<float>((h(b)[k] - h(a)[k]) / (knots_[b] - knots_[a]));
-      at[k] = static_cast<float>(h(a)[k] + excess_m) - rise[k] * static_cast<float>(knots_[a]);
-    }
+    sides.span(h(a), h(b), knots_[a], knots_[b], c_, excess_m);
     for (std::size_t p = stretch_.first[a]; p < stretch_.first[b]; ++p) {
       const Eigen::Vector3f& point = stretch_.points[p];
       // Those beyond an end may be too far from it.
@@ -341,7 +289,7 @@ void HullFit::find_above(double excess_m, std::vector<Eigen::Vector3f>& points) 
       const float s = std::clamp(beyond, 0.0f, to_m);
       bool above = s != beyond;
       for (int k = 0; k < c_; ++k) {
-        above |= ny[k] * point.y() + nz[k] * point.z() > at[k] + rise[k] * s;
+        above |= sides.value(k, point) > sides.level(k, s);
       }
       if (above) points.push_back(point);
     }
@@ -484,99 +432,6 @@ HullChain HullFit::chain() const {
     result.h_m.insert(result.h_m.end(), h(j), h(j) + c_);
   }
   return result;
-}
-
-namespace {
-
-/// @param supports  of each slice in each direction of `fine`
-double excess_of(const std::vector<double>& supports, const HullDirections& fine,
-                 const HullDirections& chosen, int corners) {
-  double own_m2 = 0.0, least_m2 = 0.0;
-  const auto count = static_cast<std::size_t>(fine.count());
-  std::vector<double> h(static_cast<std::size_t>(chosen.count()));
-  for (std::size_t row = 0; row < supports.size(); row += count) {
-    Polygon outline;
-    for (int k = 0; k < fine.count(); ++k) {
-      outline.push_back(fine.corner(supports.data() + row, k));
-    }
-    const auto smallest = smallest_enclosing_polygon(outline, corners);
-    if (!smallest) continue;
-    for (int k = 0; k < chosen.count(); ++k) {
-      double& level = h[static_cast<std::size_t>(k)];
-      level = -std::numeric_limits<double>::infinity();
-      for (const Eigen::Vector2d& p : outline) level = std::max(level, chosen.normal(k).dot(p));
-    }
-    own_m2 += chosen.area_m2(h.data());
-    least_m2 += signed_area_m2(*smallest);
-  }
-  return least_m2 > 0.0 ? own_m2 / least_m2 - 1.0 : 0.0;
-}
-
-}  // namespace
-
-HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners,
-                                 double* excess) {
-  constexpr int kFine = 32;
-  constexpr int kSlices = 64;  // looked at
-  std::vector<double> angles;
-  for (int k = 0; k < kFine; ++k) angles.push_back(2.0 * kPi * k / kFine - kPi);
-  const HullDirections fine(angles);
-  std::size_t slices = 0;
-  for (const RowStretch& stretch : stretches) slices += static_cast<std::size_t>(stretch.slices());
-  const std::size_t every = std::max<std::size_t>(1, slices / kSlices);
-  std::vector<double> supports;  // of each slice looked at in each direction
-  std::size_t at = 0;
-  std::vector<float> values;
-  for (const RowStretch& stretch : stretches) {
-    for (int i = 0; i < stretch.slices(); ++i, ++at) {
-      const std::size_t begin = stretch.first[i], end = stretch.first[i + 1];
-      if (at % every != 0 || end - begin < 8) continue;
-      const std::size_t row = supports.size();
-      for (int k = 0; k < kFine; ++k) {
-        const Eigen::Vector2f n = fine.normal(k).cast<float>();
-        values.clear();
-        for (std::size_t p = begin; p < end; ++p) {
-          values.push_back(n.x() * stretch.points[p].y() + n.y() * stretch.points[p].z());
-        }
-        supports.push_back(upper_level(values));
-      }
-      fine.repair(supports.data() + row, 1e-4);
-    }
-  }
-  std::vector<int> kept(kFine);
-  for (int k = 0; k < kFine; ++k) kept[k] = k;
-  while (static_cast<int>(kept.size()) > corners) {
-    double least_m2 = std::numeric_limits<double>::infinity();
-    std::size_t out = 0;
-    const std::size_t n = kept.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const int before = kept[(k + n - 1) % n], own = kept[k], behind = kept[(k + 1) % n];
-      const double step = 2.0 * kPi / kFine;
-      const double a = step * ((own - before + kFine) % kFine);
-      const double b = step * ((behind - own + kFine) % kFine);
-      if (a + b > 0.9 * kPi) continue;  // sides that meet at a sharp angle reach far out
-      // The triangle over the side that is taken away.
-      const double per_m2 = std::sin(a) * std::sin(b) / (2.0 * std::sin(a + b));
-      double added_m2 = 0.0;
-      for (std::size_t row = 0; row < supports.size(); row += kFine) {
-        const double* h = supports.data() + row;
-        const double side_m = std::max(0.0, h[before] / std::sin(a) + h[behind] / std::sin(b) -
-                                                h[own] * (1.0 / std::tan(a) + 1.0 / std::tan(b)));
-        added_m2 += side_m * side_m * per_m2;
-      }
-      if (added_m2 < least_m2) {
-        least_m2 = added_m2;
-        out = k;
-      }
-    }
-    if (least_m2 == std::numeric_limits<double>::infinity()) break;
-    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(out));
-  }
-  std::vector<double> chosen;
-  for (const int k : kept) chosen.push_back(angles[k]);
-  const HullDirections directions(std::move(chosen));
-  if (excess != nullptr) *excess = excess_of(supports, fine, directions, corners);
-  return directions;
 }
 
 }  // namespace vinerow::worlds

@@ -10,31 +10,11 @@
 #include <functional>
 #include <vector>
 
+#include "worlds/mapping/cloud/hulls/excess_counts.h"
 #include "worlds/mapping/cloud/hulls/hull_chain.h"
 #include "worlds/mapping/cloud/hulls/row_sections.h"
 
 namespace vinerow::worlds {
-
-/// How far the points of a row lie outside their hull's sections: max over k of n_k . (y, z) - h_k,
-/// m, negative inside.
-struct ExcessCounts {
-  static constexpr double kLow_m = -0.3, kHigh_m = 0.6, kStep_m = 0.0005;
-  static constexpr int kSteps = 1800;
-  std::vector<std::int64_t> all;                   ///< by steps of kStep_m from kLow_m
-  std::vector<std::vector<std::int64_t>> by_side;  ///< the same by the side that is nearest
-
-  explicit ExcessCounts(int sides)
-      : all(kSteps, 0), by_side(sides, std::vector<std::int64_t>(kSteps, 0)) {}
-  void add(const ExcessCounts& other);
-  /// Excess that `outside` points have more than.
-  double level_m(std::int64_t outside) const;
-  /// Of the points nearest to side k, by their share in order. NaN where there are none.
-  double share_m(int k, double share) const;
-  /// Mean of the points nearest to side k without the outermost twentieth at both ends. NaN where
-  /// there are none.
-  double middle_m(int k) const;
-  std::int64_t count(int k) const;
-};
 
 /// Leaving out of one section.
 struct Removal {
@@ -113,13 +93,5 @@ class HullFit {
   std::vector<std::uint32_t> begins_;
   std::vector<double> breaks_;
 };
-
-/// The `corners` of 32 directions whose polygons around the slices of all stretches have the least
-/// area in sum, found by taking away what adds least, again and again.
-/// @param excess  if not null: how much larger these polygons are, in sum, than the smallest ones
-/// of as many corners around the same slices (enclosing_polygon.h); what it costs that all slices
-/// share their directions. 0 where there are no slices to tell.
-HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners,
-                                 double* excess = nullptr);
 
 }  // namespace vinerow::worlds

@@ -14,6 +14,7 @@
 #include "worlds/mapping/cloud/hulls/hull_figures.h"
 #include "worlds/mapping/cloud/hulls/hull_fit.h"
 #include "worlds/mapping/cloud/hulls/row_sections.h"
+#include "worlds/mapping/cloud/hulls/section_directions.h"
 
 namespace vinerow::worlds {
 namespace {

@@ -81,6 +81,29 @@ HeightFieldRay::HeightFieldRay(const HeightField& field)
       highest_m_ = std::max<double>(highest_m_, range.high_m);
     }
   }
+  double steepest2_m2 = 0.0;  // square of the rise per cell
+  for (int j = 0; j + 1 < field.rows; ++j) {
+    for (int i = 0; i + 1 < field.columns; ++i) {
+      const float* row = field.heights_m.data() + static_cast<std::size_t>(j) * field.columns + i;
+      const double h00 = row[0], h10 = row[1];
+      const double h01 = row[field.columns], h11 = row[field.columns + 1];
+      const auto square = [](double along_x, double along_y) {
+        return along_x * along_x + along_y * along_y;
+      };
+      steepest2_m2 =
+          std::max({steepest2_m2, square(h10 - h00, h11 - h10), square(h11 - h01, h01 - h00)});
+    }
+  }
+  steepest_ = std::sqrt(steepest2_m2) * inverse_cell_per_m_;
+}
+
+bool HeightFieldRay::rises_above(const Vector3d& p_W, const Vector3d& dir_W) const {
+  constexpr double kRounding = 1e-9, kRounding_m = 1e-6;
+  const double level2 = dir_W.x() * dir_W.x() + dir_W.y() * dir_W.y();
+  return dir_W.z() > 0.0 &&
+         dir_W.z() * dir_W.z() > (1.0 + kRounding) * steepest_ * steepest_ * level2 &&
+         field_.contains(p_W.x(), p_W.y()) &&
+         p_W.z() > field_.height_m(p_W.x(), p_W.y()) + kRounding_m;
 }
 
 /// Looks for the crossing inside one cell. @returns true if found
@@ -164,6 +187,7 @@ std::optional<HeightFieldRay::Hit> HeightFieldRay::cast(const Vector3d& p_W, con
         std::abs(walk.z) < kFarAway && dir_W.squaredNorm() < 2.0 && max_distance_m >= 0.0)) {
     return std::nullopt;
   }
+  if (rises_above(p_W, dir_W)) return std::nullopt;
 
   // The part of the ray over the grid.
   double t0 = 0.0;

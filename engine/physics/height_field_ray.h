@@ -3,8 +3,9 @@
 ///
 /// Along a ray the height above the surface, D(t) = z(t) - h(x(t), y(t)), is continuous and, cell
 /// by cell, linear on either side of the diagonal. The ray walks the cells it crosses and stops
-/// where D changes sign. Blocks of cells whose height range the ray does not meet are skipped.
-/// The surface is seen from both sides; it ends at the grid's edge.
+/// where D changes sign. Blocks of cells whose height range the ray does not meet are skipped. A
+/// ray that starts above the surface and rises more steeply than it does anywhere is not walked at
+/// all: D only grows. The surface is seen from both sides; it ends at the grid's edge.
 
 #include <Eigen/Core>
 #include <optional>
@@ -34,6 +35,7 @@ class HeightFieldRay {
     float low_m, high_m;
   };
   struct Walk;
+  bool rises_above(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W) const;
   bool cross_cell(Walk& walk, int i, int j, double t0, double t1) const;
   bool cross_block(Walk& walk, int bi, int bj, double t0, double t1) const;
 
@@ -42,6 +44,7 @@ class HeightFieldRay {
   int block_columns_, block_rows_;
   std::vector<Range> blocks_;  ///< heights of kBlockCells x kBlockCells cells, x fastest
   double lowest_m_, highest_m_;
+  double steepest_ = 0.0;  ///< rise per metre of plan, of all triangles
 };
 
 }  // namespace vinerow::physics

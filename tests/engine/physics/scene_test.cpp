@@ -87,6 +87,36 @@ TEST(Scene, SlantedRaysAgreeBetweenTheHeightFieldAndItsMesh) {
   EXPECT_LE(different, 4);
 }
 
+TEST(Scene, RaysThatRiseFromTheGroundMeetItWhereItsMeshIsMet) {
+  WorldModel field_world;
+  field_world.terrain = test::make_hills(129, 0.25);
+  WorldModel mesh_world;
+  mesh_world.meshes = {test::make_instance("hills", test::make_mesh_of(*field_world.terrain),
+                                           Vector3d::Zero(), SurfaceClass::kTerrain)};
+  const PhysicsWorld field_physics({}, field_world);
+  const PhysicsWorld mesh_physics({}, mesh_world);
+  RandomStream random(4, "", "rising");
+  int hits = 0, different = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    const double x = random.uniform(-15, 15), y = random.uniform(-15, 15);
+    // From above and from below, so that both steep and gentle rays cross the surface.
+    const double off_m = random.uniform(-0.5, 0.5);
+    if (std::abs(off_m) < 1e-3) continue;
+    const Vector3d p(x, y, field_world.terrain->height_m(x, y) + off_m);
+    Vector3d dir = random_direction(random);
+    dir.z() = std::abs(dir.z());
+    const auto own = field_physics.scene().cast_ray(p, dir, 60.0);
+    const auto embree = mesh_physics.scene().cast_ray(p, dir, 60.0);
+    if (own) ++hits;
+    if (own.has_value() != embree.has_value() ||
+        (own && std::abs(own->distance_m - embree->distance_m) > 1e-4)) {
+      ++different;  // rays that graze a ridge or the rim
+    }
+  }
+  EXPECT_GT(hits, 5000);
+  EXPECT_LE(different, 10);
+}
+
 TEST(Scene, RaysAlongGridLinesAndCornersFindTheGround) {
   const HeightField field = test::make_hills();
   const HeightFieldRay rays(field);

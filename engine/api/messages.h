@@ -274,6 +274,20 @@ struct PlannedPath {
   }
 };
 
+/// How far a vehicle may go along its plan: what whoever shares the alleys out grants it. Without
+/// one it may go to the end. ROS 2: vinerow_msgs/msg/MovementAuthority.
+struct MovementAuthority {
+  static constexpr const char* kType = "MovementAuthority";
+  double stop_at_m = 0.0;     ///< distance along the plan at which to stand still; +infinity: none
+  std::int32_t alley = -1;    ///< waited for; -1: none
+  std::string holder;         ///< vehicle that has it; "" where nobody is waited for
+
+  template <class F>
+  void fields(F&& f) {
+    f(stop_at_m), f(alley), f(holder);
+  }
+};
+
 /// How a follower sees itself on its path (from its estimate, not from truth).
 struct FollowerState {
   static constexpr const char* kType = "FollowerState";
@@ -446,6 +460,7 @@ void for_each_message_type(F&& f) {
   f(static_cast<LinkPoses*>(nullptr));
   f(static_cast<PlannedPath*>(nullptr));
   f(static_cast<FollowerState*>(nullptr));
+  f(static_cast<MovementAuthority*>(nullptr));
   f(static_cast<ReferenceTrajectory*>(nullptr));
   f(static_cast<AirReference*>(nullptr));
   f(static_cast<AirData*>(nullptr));

@@ -2,10 +2,12 @@
 /// What every exchangeable part has in common: its spec, and how it is built.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/api/parameters.h"
+#include "engine/api/product.h"
 #include "engine/api/signal.h"
 #include "engine/core/random.h"
 #include "engine/core/time.h"
@@ -21,6 +23,8 @@ struct PartSpec {
   std::vector<std::string> reads;  ///< local signal names, for documentation
   std::vector<std::string> writes;
   std::string version = "1";
+  std::vector<ProductPort> takes;    ///< of jobs
+  std::optional<ProductKind> gives;  ///< of jobs, and pictures of cameras that survey
 };
 
 struct WorldModel;
@@ -42,7 +46,7 @@ struct PartContext {
 };
 
 /// A part that runs at its own rate between physics steps: estimator, guidance, controller, sensor,
-/// metric.
+/// payload, metric.
 class SteppedPart {
  public:
   virtual ~SteppedPart() = default;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 
@@ -25,8 +26,12 @@ const char* to_string(PartKind kind) {
       return "guidance";
     case PartKind::kController:
       return "controller";
+    case PartKind::kPayload:
+      return "payload";
     case PartKind::kMetric:
       return "metric";
+    case PartKind::kJob:
+      return "job";
   }
   return "?";
 }
@@ -62,6 +67,10 @@ auto Registry::visit(PartKind kind, Visitor&& visitor) const {
       return visitor(guidances_);
     case PartKind::kController:
       return visitor(controllers_);
+    case PartKind::kPayload:
+      return visitor(payloads_);
+    case PartKind::kJob:
+      return visitor(jobs_);
     case PartKind::kMetric:
       break;
   }
@@ -103,8 +112,15 @@ void Registry::add_guidance(PartSpec spec, PartFactory<Guidance, ControllerConte
 void Registry::add_controller(PartSpec spec, PartFactory<Controller, ControllerContext> make) {
   add(PartKind::kController, controllers_, std::move(spec), std::move(make));
 }
+void Registry::add_payload(PartSpec spec, PartFactory<Payload, PayloadContext> make) {
+  add(PartKind::kPayload, payloads_, std::move(spec), std::move(make));
+}
 void Registry::add_metric(PartSpec spec, PartFactory<Metric, MetricContext> make) {
   add(PartKind::kMetric, metrics_, std::move(spec), std::move(make));
+}
+void Registry::add_job(PartSpec spec, PartFactory<Job, JobContext> make) {
+  VINEROW_DEMAND(spec.gives.has_value());
+  add(PartKind::kJob, jobs_, std::move(spec), std::move(make));
 }
 
 std::vector<std::string> Registry::names(PartKind kind) const {
@@ -161,6 +177,15 @@ std::unique_ptr<Controller> Registry::make_controller(const std::string& name,
                                                       const ParameterSet& parameters,
                                                       const ControllerContext& context) const {
   return find(PartKind::kController, controllers_, name).make(parameters, context);
+}
+std::unique_ptr<Payload> Registry::make_payload(const std::string& name,
+                                                const ParameterSet& parameters,
+                                                const PayloadContext& context) const {
+  return find(PartKind::kPayload, payloads_, name).make(parameters, context);
+}
+std::unique_ptr<Job> Registry::make_job(const std::string& name, const ParameterSet& parameters,
+                                        const JobContext& context) const {
+  return find(PartKind::kJob, jobs_, name).make(parameters, context);
 }
 std::unique_ptr<Metric> Registry::make_metric(const std::string& name,
                                               const ParameterSet& parameters,

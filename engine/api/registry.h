@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/job.h"
+#include "engine/api/payload.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {
@@ -22,12 +24,14 @@ enum class PartKind {
   kPlanner,
   kGuidance,
   kController,
-  kMetric
+  kPayload,
+  kMetric,
+  kJob
 };
 constexpr PartKind kAllPartKinds[] = {
-    PartKind::kWorld,    PartKind::kVehicle,    PartKind::kMap,
-    PartKind::kSensor,   PartKind::kEstimator,  PartKind::kPlanner,
-    PartKind::kGuidance, PartKind::kController, PartKind::kMetric};
+    PartKind::kWorld,     PartKind::kVehicle, PartKind::kMap,      PartKind::kSensor,
+    PartKind::kEstimator, PartKind::kPlanner, PartKind::kGuidance, PartKind::kController,
+    PartKind::kPayload,   PartKind::kMetric,  PartKind::kJob};
 const char* to_string(PartKind kind);
 
 template <class Product, class Context>
@@ -47,7 +51,10 @@ class Registry {
   void add_planner(PartSpec spec, PartFactory<Planner, PlannerContext> make);
   void add_guidance(PartSpec spec, PartFactory<Guidance, ControllerContext> make);
   void add_controller(PartSpec spec, PartFactory<Controller, ControllerContext> make);
+  void add_payload(PartSpec spec, PartFactory<Payload, PayloadContext> make);
   void add_metric(PartSpec spec, PartFactory<Metric, MetricContext> make);
+  /// @pre the spec tells what it gives
+  void add_job(PartSpec spec, PartFactory<Job, JobContext> make);
 
   /// Names of a kind, sorted.
   std::vector<std::string> names(PartKind kind) const;
@@ -74,8 +81,12 @@ class Registry {
                                           const ControllerContext&) const;
   std::unique_ptr<Controller> make_controller(const std::string& name, const ParameterSet&,
                                               const ControllerContext&) const;
+  std::unique_ptr<Payload> make_payload(const std::string& name, const ParameterSet&,
+                                        const PayloadContext&) const;
   std::unique_ptr<Metric> make_metric(const std::string& name, const ParameterSet&,
                                       const MetricContext&) const;
+  std::unique_ptr<Job> make_job(const std::string& name, const ParameterSet&,
+                                const JobContext&) const;
 
   /// Parts added from now on are said to come from here. Used by the plug-in loader.
   void set_origin(std::string origin) { current_origin_ = std::move(origin); }
@@ -107,7 +118,9 @@ class Registry {
   Table<Planner, PlannerContext> planners_;
   Table<Guidance, ControllerContext> guidances_;
   Table<Controller, ControllerContext> controllers_;
+  Table<Payload, PayloadContext> payloads_;
   Table<Metric, MetricContext> metrics_;
+  Table<Job, JobContext> jobs_;
   std::string current_origin_ = "built-in";
 };
 

@@ -90,6 +90,7 @@ template class Signal<NamedValues>;
 template class Signal<LinkPoses>;
 template class Signal<PlannedPath>;
 template class Signal<FollowerState>;
+template class Signal<MovementAuthority>;
 template class Signal<ReferenceTrajectory>;
 template class Signal<AirReference>;
 template class Signal<AirData>;
@@ -109,6 +110,15 @@ SignalBase& SignalBus::slot(const std::string& name, const char* type, const std
   signals_.push_back(make(name));
   by_name_.emplace(name, signals_.back().get());
   return *signals_.back();
+}
+
+void SignalBus::release(std::string_view part) {
+  const std::string below = std::string(part) + ".";
+  for (const auto& signal : signals_) {
+    if (!signal->writer_.starts_with(below)) continue;
+    signal->writer_.clear();
+    signal->forgotten_ = signal->sequence_;
+  }
 }
 
 void SignalBus::set_writer(SignalBase& signal, const std::string& writer) {

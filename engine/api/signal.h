@@ -31,6 +31,8 @@ class SignalBase {
   Time stamp() const { return stamp_; }
   /// Number of writes so far; 0 = never written.
   std::uint64_t sequence() const { return sequence_; }
+  /// How many of them readers do not see any more (SignalBus::release()).
+  std::uint64_t forgotten() const { return forgotten_; }
   const std::string& writer() const { return writer_; }
   const std::string& first_reader() const { return first_reader_; }
 
@@ -45,6 +47,7 @@ class SignalBase {
   const char* type_;
   Time stamp_;
   std::uint64_t sequence_ = 0;
+  std::uint64_t forgotten_ = 0;
   std::string writer_;
   std::string first_reader_;
 };
@@ -75,13 +78,16 @@ class SignalReader {
   SignalReader() = default;
   explicit SignalReader(const Signal<T>* signal) : signal_(signal) {}
   bool connected() const { return signal_ != nullptr; }
-  bool has_value() const { return signal_ != nullptr && signal_->sequence() > 0; }
+  bool has_value() const { return sequence() > 0; }
   const T& value() const {
     VINEROW_ASSERT(has_value());
     return signal_->value();
   }
   Time stamp() const { return signal_->stamp(); }
-  std::uint64_t sequence() const { return signal_ ? signal_->sequence() : 0; }
+  /// Number of writes by the present writer.
+  std::uint64_t sequence() const {
+    return signal_ ? signal_->sequence() - signal_->forgotten() : 0;
+  }
   /// True once per write when called regularly: "is there something newer than I saw?"
   bool is_newer_than(std::uint64_t& seen) const {
     if (sequence() == seen) return false;
@@ -127,6 +133,10 @@ class SignalBus {
   /// @throws ConfigError "rover.controller reads 'rover/estimat' which nobody writes; did you mean
   /// ...?"
   void check_connected() const;
+
+  /// Lets others write what the parts below `part` ("rover": "rover.controller", "rover.sensors.gps")
+  /// have written so far. Readers see nothing until they do.
+  void release(std::string_view part);
 
   /// In order of creation, which is the same in every run.
   const std::vector<std::unique_ptr<SignalBase>>& signals() const { return signals_; }

@@ -8,9 +8,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/io/scenario_criterion.h"
 #include "engine/io/scenario_keys.h"
 #include "engine/io/scenario_override.h"
 #include "engine/io/scenario_part.h"
+#include "engine/io/scenario_phases.h"
 #include "engine/io/yaml_include.h"
 
 namespace vinerow::io {
@@ -41,11 +43,14 @@ class ScenarioReader {
     scenario_.world = std::move(world.config);
     resolved_.put("world", std::move(world.resolved));
     read_vehicles();
+    read_mission();
     read_metrics();
-    read_criteria();
+    read_limits();
     read_record();
     YamlNode pictures = yaml_mapping();
     scenario_.pictures = read_pictures(root_.find_entry("pictures"), vehicle_names_, pictures);
+    scenario_.pictures.moments = read_moments(scenario_.pictures.moment_texts,
+                                              mark_of("pictures", "moments"), scenario_.phases);
     check_shot_cameras(scenario_.pictures, scenario_.vehicles);
     resolved_.put("pictures", std::move(pictures));
     scenario_.resolved_yaml =
@@ -187,58 +192,24 @@ class ScenarioReader {
     resolved_.put("metrics", std::move(written));
   }
 
-  Criterion read_criterion(const YamlNode& node, const std::string& path, YamlNode& written) {
-    require_mapping(node, path, "{metric: rover.cross_track_rms_m, max: 0.05}");
-    check_keys(node, path, names_of(criterion_fields()), "", nullptr);
-    ReadParameters read = read_parameters(node, node.mark, path, criterion_fields(), "criteria");
-    Criterion criterion;
-    criterion.where = node.mark;
-    criterion.metric = read.values.text("metric");
-    if (read.values.has("min")) criterion.min = read.values.number("min");
-    if (read.values.has("max")) criterion.max = read.values.number("max");
-    const std::size_t dot = criterion.metric.find('.');
-    const SourceMark metric_mark = node.find("metric")->mark;
-    if (dot == std::string::npos || dot == 0 || dot + 1 == criterion.metric.size()) {
-      fail_at(metric_mark, fmt::format("{}.metric = '{}', must be <vehicle>.<metric>, e.g. "
-                                       "{}.cross_track_rms_m",
-                                       path, criterion.metric,
-                                       vehicle_names_.empty() ? "rover" : vehicle_names_.front()));
-    }
-    check_vehicle(criterion.metric.substr(0, dot), vehicle_names_, metric_mark,
-                  fmt::format("{}.metric = '{}'", path, criterion.metric));
-    if (!criterion.min && !criterion.max) {
-      fail_at(node.mark, fmt::format("{}: min or max must be given", path));
-    }
-    if (criterion.min && criterion.max && *criterion.min > *criterion.max) {
-      fail_at(node.mark,
-              fmt::format("{}: min = {} is above max = {}", path, *criterion.min, *criterion.max));
-    }
-    criterion.name = read.values.has("name") ? read.values.text("name") : "";
-    if (criterion.name.empty()) {
-      criterion.name = criterion.metric;
-      if (criterion.min) criterion.name += fmt::format(" >= {}", *criterion.min);
-      if (criterion.max) criterion.name += fmt::format(" <= {}", *criterion.max);
-    }
-    written = std::move(read.resolved);
-    written.put("name", yaml_text(criterion.name));
-    return criterion;
+  void read_mission() {
+    YamlNode written;
+    scenario_.phases =
+        read_phases(root_.find_entry("phases"), scenario_.vehicles, context_, written);
+    // A scenario without a mission says nothing of one.
+    if (!scenario_.phases.empty()) resolved_.put("phases", std::move(written));
+    const YamlEntry* traffic = root_.find_entry("traffic");
+    scenario_.traffic =
+        read_traffic(read_group("traffic"), traffic ? traffic->mark : file_, vehicle_names_);
   }
 
-  void read_criteria() {
-    YamlNode written = yaml_list();
-    if (const YamlEntry* entry = root_.find_entry("criteria")) {
-      if (!entry->value.is_list()) {
-        fail_at(entry->mark, fmt::format("criteria = {}, must be a list of entries like {{metric: "
-                                         "rover.cross_track_rms_m, max: 0.05}}",
-                                         shown(entry->value)));
-      }
-      for (std::size_t i = 0; i < entry->value.items.size(); ++i) {
-        YamlNode one;
-        scenario_.criteria.push_back(
-            read_criterion(entry->value.items[i], fmt::format("criteria[{}]", i), one));
-        written.items.push_back(std::move(one));
-      }
+  void read_limits() {
+    CriterionScope scope{vehicle_names_, false};
+    for (const PhaseConfig& phase : scenario_.phases) {
+      if (phase.job) scope.owners.push_back(phase.name);
     }
+    YamlNode written;
+    scenario_.criteria = read_criteria(root_.find_entry("criteria"), "criteria", scope, written);
     resolved_.put("criteria", std::move(written));
   }
 

@@ -61,6 +61,7 @@ struct VehicleConfig {
   std::optional<PartConfig> planner;
   std::optional<PartConfig> guidance;
   std::optional<PartConfig> controller;
+  std::vector<NamedPart> payloads;  ///< in file order
   SourceMark where;
 };
 
@@ -92,12 +93,21 @@ struct CameraConfig {
   SourceMark where;
 };
 
+/// A moment of a mission: so long after a phase began.
+struct PhaseMoment {
+  std::string phase;
+  double after_s = 0.0;
+  SourceMark where;
+};
+
 struct PicturesConfig {
   int width = 1280;
   int height = 720;
-  int samples = 4;              ///< antialiasing, 1..8
-  std::vector<double> times_s;  ///< frames at these times
-  double every_s = 0.0;         ///< and every so often; 0 = not
+  int samples = 4;                        ///< antialiasing, 1..8
+  std::vector<double> times_s;            ///< frames at these times
+  std::vector<std::string> moment_texts;  ///< as written: "spray + 30"
+  std::vector<PhaseMoment> moments;       ///< and at these moments of a mission
+  double every_s = 0.0;                   ///< and every so often; 0 = not
   std::vector<double>
       shares;  ///< and at these shares of the run's end (0..1), e.g. 1.0 = last instant
   std::vector<CameraConfig> cameras;
@@ -120,6 +130,53 @@ struct Criterion {
   SourceMark where;
 };
 
+/// A product that a phase takes: `map: from build_map`, or `pictures: from survey/plane/camera`
+/// where a phase gives several.
+struct ProductSource {
+  std::string key;    ///< "map"
+  std::string phase;  ///< that gives it
+  std::string item;   ///< "plane/camera"; "" where the phase gives one alone
+  ProductKind kind = ProductKind::kMap;
+  SourceMark where;
+};
+
+/// What becomes of a mission in which a phase fails. What waits for that phase is blocked.
+enum class OnFailure {
+  kAbort,    ///< it ends at that instant
+  kContinue  ///< phases that do not wait for the failed one go on
+};
+
+/// A phase begins when the wind has been weak enough for a while.
+struct WeatherWindow {
+  double max_wind_mps = 0.0;  ///< mean over `over_s`
+  double height_m = 10.0;     ///< above the ground in the middle of the parcel
+  double over_s = 30.0;
+  double wait_s = 0.0;  ///< after so long without such a window the phase fails
+};
+
+/// A node of the mission's graph: vehicles at work, or a job.
+struct PhaseConfig {
+  std::string name;
+  std::vector<std::string> vehicles;  ///< empty: a job
+  std::optional<PartConfig> job;
+  std::vector<std::string> after;    ///< phases that must have succeeded, those of `takes` included
+  std::vector<ProductSource> takes;  ///< in the order of the file
+  double timeout_s = 0.0;            ///< of vehicles, from the phase's begin; 0: as long as the run
+  double duration_s = 0.0;           ///< of a job, in simulated time
+  OnFailure on_failure = OnFailure::kAbort;
+  std::optional<WeatherWindow> weather;
+  /// Metrics are "<vehicle>.<metric>", those of a job its numbers.
+  std::vector<Criterion> criteria;
+  SourceMark where;
+};
+
+/// Who shares the alleys, so that nobody meets another between the rows.
+struct TrafficConfig {
+  std::vector<std::string> vehicles;  ///< first served first; empty: alleys are not reserved
+  double stop_before_m = 1.0;         ///< before an alley that another one has
+  SourceMark where;
+};
+
 struct Scenario {
   std::string name;
   std::string description;
@@ -132,6 +189,8 @@ struct Scenario {
   PartConfig world;
   std::vector<VehicleConfig> vehicles;  ///< in file order
   std::vector<NamedPart> metrics;       ///< run for every vehicle
+  std::vector<PhaseConfig> phases;      ///< in file order; empty: every vehicle starts at once
+  TrafficConfig traffic;
   std::vector<Criterion> criteria;
   RecordConfig record;
   PicturesConfig pictures;

@@ -50,6 +50,14 @@ std::vector<ParameterSpec> record_fields() {
           choice_parameter("compression", "zstd", {"zstd", "lz4", "none"}, "of the log's chunks")};
 }
 
+std::vector<ParameterSpec> traffic_fields() {
+  return {text_list_parameter("reserve_alleys", {},
+                              "vehicles that enter an alley only when no other of them has it; of "
+                              "two that ask at once the first named is served"),
+          number_parameter("stop_before_m", "m", 1.0, 0.0, 100.0,
+                           "so far before an alley that another has they wait")};
+}
+
 ParameterSpec list_in_range(const char* name, const char* unit, double max,
                             const char* description) {
   ParameterSpec spec = number_list_parameter(name, unit, {}, description);
@@ -89,6 +97,10 @@ const std::vector<StructuralKey>& scenario_keys() {
         required_key(part("world", KeyShape::kPart, PartKind::kWorld, false,
                           "terrain, rows and everything else that stands in it")),
         required_key(shaped("vehicles", KeyShape::kVehicles, "the vehicles by name")),
+        shaped("phases", KeyShape::kPhases,
+               "the mission's graph: vehicles at work, and jobs; absent: every vehicle starts at "
+               "once"),
+        group("traffic", traffic_fields(), "how vehicles share the alleys"),
         part("metrics", KeyShape::kNamedParts, PartKind::kMetric, false,
              "what is measured for every vehicle; default: every known metric"),
         {group_list_parameter("criteria", criterion_fields(), "limits that the run must meet"),
@@ -115,7 +127,9 @@ const std::vector<StructuralKey>& vehicle_keys() {
            "the metric estimation; nothing acts on them"),
       part("planner", KeyShape::kPart, PartKind::kPlanner, true, "makes the path from the map"),
       part("guidance", KeyShape::kPart, PartKind::kGuidance, true, "local planning"),
-      part("controller", KeyShape::kPart, PartKind::kController, true, "drives the actuators")};
+      part("controller", KeyShape::kPart, PartKind::kController, true, "drives the actuators"),
+      part("payloads", KeyShape::kNamedParts, PartKind::kPayload, true,
+           "what the vehicle works with, by name: sprayers, scouting cameras")};
   return keys;
 }
 
@@ -126,10 +140,12 @@ const std::vector<StructuralKey>& pictures_keys() {
       parameter(integer_parameter("samples", 4, 1, 8, "antialiasing samples per pixel")),
       parameter(number_parameter("every_s", "s", 0.0, 0.0, 1e7, "a frame every so often; 0 = not")),
       parameter(list_in_range("times_s", "s", 1e7, "frames at these times")),
+      parameter(text_list_parameter("moments", {},
+                                    "frames at moments of a mission: '<phase> + <seconds>'")),
       parameter(
           list_in_range("shares", "", 1.0,
-                        "frames at these shares of the run; default [1] where neither times_s "
-                        "nor every_s is given")),
+                        "frames at these shares of the run; default [1] where no other moment is "
+                        "given")),
       shaped("cameras", KeyShape::kCameras,
              "the cameras by name; default: one that chases the first vehicle")};
   return keys;
@@ -145,6 +161,48 @@ const std::vector<ParameterSpec>& criterion_fields() {
                                 "the metric must not exceed this")),
       optional(text_parameter("name", "", "in reports; default: the metric and its limits"))};
   return fields;
+}
+
+const std::vector<ParameterSpec>& phase_fields() {
+  static const std::vector<ParameterSpec> fields = [] {
+    ParameterSpec weather = group_parameter(
+        "weather",
+        {required(positive_parameter("max_wind_mps", "m/s", 5.0, "mean wind to begin in, at most")),
+         number_parameter("height_m", "m", 10.0, 0.5, 500.0,
+                          "above the ground in the middle of the rows, where it is measured"),
+         positive_parameter("over_s", "s", 30.0, "time over which the mean is taken"),
+         number_parameter("wait_s", "s", 600.0, 0.0, 1e7,
+                          "the phase fails where no such window came in this time")},
+        "the phase begins in a window of weak wind");
+    return std::vector<ParameterSpec>{
+        text_list_parameter("vehicles", {}, "that work in this phase, each by its own controller"),
+        text_list_parameter("after", {},
+                            "phases that must have succeeded before, beside those whose products "
+                            "it takes"),
+        number_parameter("timeout_s", "s", 0.0, 0.0, 1e7,
+                         "vehicles that have not finished by then have failed; 0: as long as the "
+                         "run"),
+        number_parameter("duration_s", "s", 0.0, 0.0, 1e7, "simulated time that a job takes"),
+        choice_parameter("on_failure", "abort", {"abort", "continue"},
+                         "a failure ends the mission, or phases that do not wait for this one go "
+                         "on"),
+        optional(weather)};
+  }();
+  return fields;
+}
+
+std::vector<ProductPort> product_ports(const Registry& registry) {
+  std::vector<ProductPort> ports = {
+      {"map", ProductKind::kMap, false, "what the phase's vehicles are told of the world"},
+      {"plan", ProductKind::kPlan, false, "what the phase's vehicle follows"}};
+  for (const std::string& job : registry.names(PartKind::kJob)) {
+    for (const ProductPort& port : registry.spec(PartKind::kJob, job).takes) {
+      const bool is_known =
+          std::any_of(ports.begin(), ports.end(), [&](const auto& p) { return p.key == port.key; });
+      if (!is_known) ports.push_back(port);
+    }
+  }
+  return ports;
 }
 
 const std::vector<SpawnForm>& spawn_forms() {
@@ -237,11 +295,12 @@ std::vector<ParameterSpec> camera_fields(const std::string& kind) {
 
 bool has_rate(PartKind kind) {
   return kind == PartKind::kSensor || kind == PartKind::kEstimator || kind == PartKind::kGuidance ||
-         kind == PartKind::kController || kind == PartKind::kMetric;
+         kind == PartKind::kController || kind == PartKind::kPayload || kind == PartKind::kMetric;
 }
 
 bool follows_controller(PartKind kind) {
-  return kind == PartKind::kEstimator || kind == PartKind::kGuidance || kind == PartKind::kMetric;
+  return kind == PartKind::kEstimator || kind == PartKind::kGuidance ||
+         kind == PartKind::kPayload || kind == PartKind::kMetric;
 }
 
 ParameterSpec rate_field(PartKind kind, const PartSpec& part) {
@@ -272,7 +331,7 @@ const std::vector<std::string>& reserved_signal_names() {
   static const std::vector<std::string> names = {
       "truth",     "estimate",        "plan",     "reference", "links",
       "actuators", "follower",        "command",  "plan_tree", "local_command",
-      "ellipsoid", "estimator_state", "contacts", "map_edges"};
+      "ellipsoid", "estimator_state", "contacts", "map_edges", "authority"};
   return names;
 }
 

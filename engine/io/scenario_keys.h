@@ -26,6 +26,7 @@ enum class KeyShape {
   kPictures,    ///< pictures_keys()
   kCameras,     ///< a mapping from names to cameras
   kPathList,    ///< a list of files
+  kPhases,      ///< a mapping from names to phases of the mission
 };
 
 struct StructuralKey {
@@ -40,6 +41,10 @@ const std::vector<StructuralKey>& scenario_keys();
 const std::vector<StructuralKey>& vehicle_keys();
 const std::vector<StructuralKey>& pictures_keys();
 const std::vector<ParameterSpec>& criterion_fields();
+/// Keys of a phase beside `job`, `criteria` and those of the products it takes.
+const std::vector<ParameterSpec>& phase_fields();
+/// Products that phases take, by key: `map` and `plan` of vehicles, and those of every known job.
+std::vector<ProductPort> product_ports(const Registry& registry);
 
 /// One of several sets of keys of which exactly one must be used. `name` is a key that only this
 /// form has.

@@ -39,9 +39,9 @@ const PartSpec& read_type(const YamlEntry& entry, const std::string& path, PartK
   if (is_known(type->text, known)) return context.registry.spec(kind, type->text);
   for (const PartKind other : kAllPartKinds) {
     if (!is_known(type->text, context.registry.names(other))) continue;
-    fail_at(type->mark,
-            fmt::format("{}.type = '{}' is {}, must be {} (known: {})", path, type->text,
-                        with_article(other), with_article(kind), known.empty() ? "none" : join(known)));
+    fail_at(type->mark, fmt::format("{}.type = '{}' is {}, must be {} (known: {})", path,
+                                    type->text, with_article(other), with_article(kind),
+                                    known.empty() ? "none" : join(known)));
   }
   fail_at(type->mark,
           fmt::format("{}.type = {}: unknown {}{} (known: {})", path, shown(*type), to_string(kind),
@@ -131,12 +131,18 @@ void check_truth_names(const std::vector<NamedPart>& sensors, const std::string&
   }
 }
 
-/// Whatever an observer writes must be its own.
+/// Whatever an observer or a payload writes must be its own.
 void check_observer_names(const VehicleConfig& vehicle, const std::string& path) {
   std::map<std::string, std::string> taken;
   for (const NamedPart& sensor : vehicle.sensors) {
     taken.emplace(sensor.name, "the sensor '" + sensor.name + "'");
     taken.emplace(sensor.name + "_truth", "the truth beside the sensor '" + sensor.name + "'");
+  }
+  for (const NamedPart& payload : vehicle.payloads) {
+    const auto [other, is_free] = taken.emplace(payload.name, "a payload");
+    if (is_free) continue;
+    fail_at(payload.part.where, fmt::format("{}.payloads.{}: its signal has the name of {}", path,
+                                            payload.name, other->second));
   }
   for (const NamedPart& observer : vehicle.observers) {
     for (const auto& [local, signal] : observer_signals(observer.name)) {
@@ -208,6 +214,7 @@ std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::stri
     check_name(entry, path, to_string(kind));
     if (kind == PartKind::kSensor) check_signal_name(entry, path, "a sensor");
     if (kind == PartKind::kEstimator) check_signal_name(entry, path, "an observer");
+    if (kind == PartKind::kPayload) check_signal_name(entry, path, "a payload");
     if (entry.value.is_null()) continue;
     ReadPart part = read_part(entry, join_path(path, entry.key), kind, context);
     parts.push_back({entry.key, std::move(part.config)});
@@ -250,7 +257,9 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
     if (key.shape == KeyShape::kSpawn) {
       vehicle.spawn = read_spawn(*given, key_path, written);
     } else if (key.shape == KeyShape::kNamedParts) {
-      auto& named = key.part_kind == PartKind::kSensor ? vehicle.sensors : vehicle.observers;
+      auto& named = key.part_kind == PartKind::kSensor    ? vehicle.sensors
+                    : key.part_kind == PartKind::kPayload ? vehicle.payloads
+                                                          : vehicle.observers;
       named = read_named_parts(given->value, key_path, key.part_kind, context, written);
     } else {
       ReadPart own = read_part(*given, key_path, key.part_kind, context);

@@ -157,7 +157,7 @@ PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::stri
     if (key.shape == KeyShape::kParameter) fields.push_back(key.spec);
   }
   check_keys(node, "pictures", known, "", nullptr);
-  if (!node.has("times_s") && !node.has("every_s") && !node.has("shares")) {
+  if (!node.has("times_s") && !node.has("every_s") && !node.has("moments") && !node.has("shares")) {
     YamlNode last_instant = yaml_list();
     last_instant.items.push_back(yaml_number(1.0));
     node.put("shares", std::move(last_instant));
@@ -172,6 +172,7 @@ PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::stri
   pictures.times_s = read.values.numbers("times_s");
   pictures.every_s = read.values.number("every_s");
   pictures.shares = read.values.numbers("shares");
+  pictures.moment_texts = read.values.texts("moments");
 
   const YamlNode* given = node.find("cameras");
   const YamlNode cameras = given ? *given : entry ? default_cameras(vehicles) : yaml_mapping();

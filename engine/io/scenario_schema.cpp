@@ -191,6 +191,7 @@ class SchemaBuilder {
   Json build() {
     for (const PartKind kind : kAllPartKinds) define_parts(kind);
     define_cameras();
+    define("phase", [&](bool partial) { return phase_schema(partial); });
     define("spawn", [&](bool partial) { return spawn_schema(partial); });
     define("scenario", [&](bool partial) { return keys_schema(scenario_keys(), {}, partial); });
     Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
@@ -236,7 +237,7 @@ class SchemaBuilder {
         schema = value_schema(key.spec, partial);
         break;
       case KeyShape::kGroupList:
-        schema = criteria_schema();
+        schema = criteria_schema(true);
         break;
       case KeyShape::kPart:
         schema = reference(name_of(to_string(key.part_kind), partial));
@@ -263,6 +264,9 @@ class SchemaBuilder {
       case KeyShape::kCameras:
         schema = named("camera", name, partial);
         break;
+      case KeyShape::kPhases:
+        schema = named("phase", name, partial);
+        break;
       case KeyShape::kPathList:
         schema = {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}};
         break;
@@ -284,15 +288,28 @@ class SchemaBuilder {
     return object_of(std::move(properties), required_keys, partial);
   }
 
-  Json criteria_schema() const {
-    const auto make = [](bool partial) {
+  /// @param of_vehicle  "<vehicle>.<metric>", as the loader splits it; else a job's number, too
+  Json criteria_schema(bool of_vehicle) const {
+    const auto make = [of_vehicle](bool partial) {
       Json schema = group_schema(criterion_fields(), partial);
-      // "<vehicle>.<metric>", as the loader splits it.
-      schema["properties"]["metric"] = {{"type", "string"}, {"pattern", "^[^.]+[.].+$"}};
+      schema["properties"]["metric"] = {{"type", "string"},
+                                        {"pattern", of_vehicle ? "^[^.]+[.].+$" : "."}};
       if (!partial) schema["anyOf"] = {{{"required", {"min"}}}, {{"required", {"max"}}}};
       return schema;
     };
     return {{"type", "array"}, {"items", by_include(make)}};
+  }
+
+  /// Which of the keys fit a job or vehicles is the loader's to say.
+  Json phase_schema(bool partial) const {
+    Json properties = properties_of(phase_fields(), partial, "");
+    properties["job"] = reference(name_of("job", partial));
+    properties["criteria"] = criteria_schema(false);
+    for (const ProductPort& port : product_ports(registry_)) {
+      properties[port.key] = {
+          {"type", "string"}, {"pattern", "^from [^ ]+$"}, {"description", port.description}};
+    }
+    return object_of(std::move(properties), {}, partial);
   }
 
   Json spawn_schema(bool partial) const {

@@ -155,6 +155,11 @@ constexpr std::array kDefinitions = {
                "std_msgs/Header header\n# m, positive left of the path\nfloat64 lateral_error\n"
                "# rad\nfloat64 heading_error\n# m along the path, done and to go\n"
                "float64 distance\nfloat64 remaining\nint32 waypoint\nbool finished\n"},
+    Definition{"vinerow_msgs/MovementAuthority",
+               "# how far a vehicle may go along its plan\n"
+               "std_msgs/Header header\n# m along the path; infinity: to its end\n"
+               "float64 stop_at\n# waited for, and who has it; -1: none\n"
+               "int32 alley\nstring holder\n"},
     Definition{"trajectory_msgs/MultiDOFJointTrajectory",
                "std_msgs/Header header\nstring[] joint_names\n"
                "trajectory_msgs/MultiDOFJointTrajectoryPoint[] points\n"},

@@ -70,6 +70,7 @@ VINEROW_ROS_MAPPING(NamedValues, "vinerow_msgs/msg/NamedValues", nullptr)
 VINEROW_ROS_MAPPING(LinkPoses, "tf2_msgs/msg/TFMessage", nullptr)
 VINEROW_ROS_MAPPING(PlannedPath, "nav_msgs/msg/Path", "vinerow_msgs/msg/PlannedPath")
 VINEROW_ROS_MAPPING(FollowerState, "vinerow_msgs/msg/FollowerState", nullptr)
+VINEROW_ROS_MAPPING(MovementAuthority, "vinerow_msgs/msg/MovementAuthority", nullptr)
 VINEROW_ROS_MAPPING(ReferenceTrajectory, "trajectory_msgs/msg/MultiDOFJointTrajectory",
                     "vinerow_msgs/msg/ReferenceTrajectory")
 VINEROW_ROS_MAPPING(AirReference, "vinerow_msgs/msg/AirReference", nullptr)

@@ -226,4 +226,21 @@ bool RosMapping<FollowerState>::read(CdrReader& in, const FrameNames&, FollowerS
   return in.ok();
 }
 
+void RosMapping<MovementAuthority>::write(CdrWriter& out, const WriteContext& to,
+                                          const MovementAuthority& value) {
+  write_header(out, to.stamp, to.frames.body);
+  out.add(value.stop_at_m);
+  out.add(value.alley);
+  out.add(value.holder);
+}
+
+bool RosMapping<MovementAuthority>::read(CdrReader& in, const FrameNames&,
+                                         MovementAuthority& value) {
+  skip_header(in);
+  value.stop_at_m = in.read<double>();
+  value.alley = in.read<std::int32_t>();
+  in.read(value.holder);
+  return in.ok();
+}
+
 }  // namespace vinerow::record

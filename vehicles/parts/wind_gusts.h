@@ -1,23 +1,11 @@
 #pragma once
-/// 1-cosine gusts of a world: those of its list, and those that come by chance.
+/// 1-cosine gusts of a world that come by chance; those of its list: engine/api/wind_field.h.
 
-#include <Eigen/Core>
-
-#include "engine/api/wind.h"
+#include "engine/api/wind_field.h"
 #include "engine/core/random.h"
 #include "engine/core/time.h"
 
 namespace vinerow::vehicles {
-
-/// Unit vector to which a wind from this azimuth (clockwise from north) blows; x east, y north.
-Eigen::Vector2d downwind_direction(double from_azimuth_rad);
-
-/// Pulse (1 - cos(2 pi t / duration)) / 2 of a gust, 0 to 1; 0 outside. A gust with a front is
-/// late by the way from W's origin along its direction.
-double gust_pulse(const WindGust& gust, double time_s, const Eigen::Vector2d& p_W);
-
-/// Its wind in W, m/s.
-Eigen::Vector3d calc_gust_W(const WindGust& gust, double time_s, const Eigen::Vector2d& p_W);
 
 /// Gusts by chance, one after the other: after each the air rests for a time that is
 /// exponentially distributed with mean interval - duration, so that they come once per interval on

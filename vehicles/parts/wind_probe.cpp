@@ -21,25 +21,6 @@ Eigen::Vector3d horizontal(double speed_mps, const Eigen::Vector2d& direction) {
 
 }  // namespace
 
-double mean_wind_mps(const Wind& wind, double height_m) {
-  switch (wind.height_law) {
-    case WindHeightLaw::kUniform:
-      break;
-    case WindHeightLaw::kLogarithmic:
-      if (height_m <= wind.roughness_length_m) return 0.0;
-      return wind.mean_speed_mps * std::log(height_m / wind.roughness_length_m) /
-             std::log(wind.reference_height_m / wind.roughness_length_m);
-    case WindHeightLaw::kPower:
-      if (height_m <= 0.0) return 0.0;
-      return wind.mean_speed_mps *
-             std::pow(height_m / wind.reference_height_m, wind.power_exponent);
-    case WindHeightLaw::kLinear:
-      return wind.ground_speed_mps + (wind.mean_speed_mps - wind.ground_speed_mps) *
-                                         std::max(0.0, height_m) / wind.reference_height_m;
-  }
-  return wind.mean_speed_mps;
-}
-
 double turbulence_wind_mps(const Wind& wind) {
   return wind.turbulence_wind_mps >= 0.0 ? wind.turbulence_wind_mps
                                          : std::abs(mean_wind_mps(wind, kTwentyFeet_m));

@@ -17,6 +17,7 @@
 #include <Eigen/Core>
 
 #include "engine/api/scene_query.h"
+#include "engine/api/wind_field.h"
 #include "engine/api/world_model.h"
 #include "engine/core/random.h"
 #include "engine/core/time.h"
@@ -25,11 +26,6 @@
 #include "vehicles/parts/wind_shelter.h"
 
 namespace vinerow::vehicles {
-
-/// Mean wind at a height above the ground without shelter, m/s; < 0 only by the linear law.
-/// Continues as 0 below the roughness length (logarithmic) or the ground (power), as on the ground
-/// below it (linear); uniform has no ground.
-double mean_wind_mps(const Wind& wind, double height_m);
 
 /// Wind at 20 ft that sets the turbulence: the given one, else the mean wind there.
 double turbulence_wind_mps(const Wind& wind);

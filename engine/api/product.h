@@ -1,0 +1,46 @@
+#pragma once
+/// What phases of a mission hand to each other: pictures, point clouds, maps, plans.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/api/map.h"
+#include "engine/api/messages.h"
+#include "engine/api/survey_camera.h"
+
+namespace vinerow {
+
+enum class ProductKind { kPictures, kCloud, kMap, kPlan };
+
+/// "pictures", "cloud", "map", "plan": how files spell it.
+const char* to_string(ProductKind kind);
+
+/// Where a camera took its pictures, in the order in which they were taken.
+struct PictureSet {
+  SurveyCamera camera;
+  std::vector<Pose> X_WS;  ///< x of S along the optical axis, y to the picture's left
+  std::string source;      ///< for people: "plane/camera"
+};
+
+/// One product. Of the fields those of its kind are filled.
+struct Product {
+  ProductKind kind = ProductKind::kMap;
+  std::shared_ptr<const PictureSet> pictures;
+  /// Cloud: a LAS file, its truth beside it as <stem>.truth.json. Map: its folder
+  /// (docs/mapping.md), empty where it has none.
+  std::filesystem::path file;
+  std::shared_ptr<const RowMap> map;
+  std::shared_ptr<const PlannedPath> plan;
+};
+
+/// A product that a job takes, by the key that names it.
+struct ProductPort {
+  std::string key;  ///< "cloud" in `cloud: from build_cloud`
+  ProductKind kind = ProductKind::kMap;
+  bool required = true;
+  std::string description;
+};
+
+}  // namespace vinerow

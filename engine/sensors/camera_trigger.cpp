@@ -174,6 +174,7 @@ PartSpec camera_trigger_spec() {
     }
   }
   spec.reads.push_back("plan (where on: lanes)");
+  spec.gives = ProductKind::kPictures;
   return spec;
 }
 

@@ -1,10 +1,11 @@
+#include "engine/sim/judge.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/sim/run.h"
 
 namespace vinerow {
 namespace {
@@ -14,7 +15,7 @@ double find_metric(const io::Criterion& criterion,
   std::vector<std::string> known;
   for (const auto& [vehicle, values] : metrics) {
     for (const auto& [name, value] : values) {
-      const std::string full = vehicle + "." + name;
+      const std::string full = vehicle.empty() ? name : vehicle + "." + name;
       if (full == criterion.metric) return value;
       known.push_back(full);
     }

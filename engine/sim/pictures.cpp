@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "engine/core/error.h"
@@ -12,6 +13,7 @@
 #include "engine/render/scene.h"
 #include "engine/sim/frame_composer.h"
 #include "engine/sim/log_trace.h"
+#include "engine/sim/phase_report.h"
 #include "engine/sim/simulation.h"
 
 namespace vinerow {
@@ -46,9 +48,22 @@ TraceWishes wishes_of(const std::vector<io::CameraConfig>& cameras) {
   return wishes;
 }
 
+/// When each phase of the run's mission began.
+std::map<std::string, Time> phase_begins(const record::LogReader& reader) {
+  std::map<std::string, Time> begins;
+  if (!reader.has_topic("/run/phases")) return begins;
+  reader.read<NamedValues>("/run/phases", [&](Time t, const NamedValues& states) {
+    for (std::size_t i = 0; i < states.names.size(); ++i) {
+      if (states.values[i] == static_cast<double>(PhaseState::kWaiting)) continue;
+      begins.emplace(states.names[i], t);
+    }
+  });
+  return begins;
+}
+
 /// Instants of the frames, in order, each once. Instants after the log's end are left out.
 std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOptions& options,
-                           const LogTrace& trace) {
+                           const LogTrace& trace, const std::map<std::string, Time>& begins) {
   std::set<Time> times;
   const auto add = [&](double t_s) {
     const Time t{duration_from_s(t_s).ns};
@@ -64,6 +79,10 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
     for (std::int64_t k = 0; k <= count; ++k) add(static_cast<double>(k) * every_s);
   }
   if (!own_schedule) {
+    for (const io::PhaseMoment& moment : pictures.moments) {
+      const auto begin = begins.find(moment.phase);
+      if (begin != begins.end()) add(begin->second.s() + moment.after_s);
+    }
     for (const double share : pictures.shares) {
       times.insert(trace.first + Duration{std::llround(
                                      share * static_cast<double>((trace.last - trace.first).ns))});
@@ -91,21 +110,6 @@ std::set<Time> times_of(const io::CameraConfig& camera, const std::set<Time>& sc
   return times;
 }
 
-std::vector<std::unique_ptr<Vehicle>> build_vehicles(const io::Scenario& scenario,
-                                                     const Registry& registry) {
-  std::vector<std::unique_ptr<Vehicle>> vehicles;
-  for (const io::VehicleConfig& config : scenario.vehicles) {
-    VehicleContext context;
-    context.vehicle = context.part = config.name;
-    context.seed = scenario.seed;
-    context.physics_step = scenario.physics_step;
-    context.gravity_mps2 = scenario.gravity_mps2;
-    vehicles.push_back(
-        registry.make_vehicle(config.vehicle.type, config.vehicle.parameters, context));
-  }
-  return vehicles;
-}
-
 io::Scenario scenario_in(const record::LogReader& reader, const std::filesystem::path& log,
                          const Registry& registry) {
   const auto found = reader.info().attachments.find("scenario.resolved.yaml");
@@ -120,6 +124,21 @@ io::Scenario scenario_in(const record::LogReader& reader, const std::filesystem:
 
 io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry) {
   return scenario_in(record::LogReader(log), log, registry);
+}
+
+std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& scenario,
+                                                           const Registry& registry) {
+  std::vector<std::unique_ptr<Vehicle>> vehicles;
+  for (const io::VehicleConfig& config : scenario.vehicles) {
+    VehicleContext context;
+    context.vehicle = context.part = config.name;
+    context.seed = scenario.seed;
+    context.physics_step = scenario.physics_step;
+    context.gravity_mps2 = scenario.gravity_mps2;
+    vehicles.push_back(
+        registry.make_vehicle(config.vehicle.type, config.vehicle.parameters, context));
+  }
+  return vehicles;
 }
 
 PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
@@ -137,12 +156,13 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
     report.note = renderer.reason();
     return report;
   }
-  const std::vector<std::unique_ptr<Vehicle>> vehicles = build_vehicles(scenario, registry);
+  const std::vector<std::unique_ptr<Vehicle>> vehicles = vehicles_of_scenario(scenario, registry);
   std::vector<std::string> names;
   for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   const LogTrace trace = read_trace(reader, names, wishes_of(cameras));
   const FrameComposer composer(scenario, *world, vehicles, trace);
-  const std::set<Time> schedule = frame_times(scenario.pictures, options, trace);
+  const std::set<Time> schedule =
+      frame_times(scenario.pictures, options, trace, phase_begins(reader));
   std::vector<std::set<Time>> times_by_camera;
   std::set<Time> times;
   int total = 0;

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/api/vehicle.h"
 #include "engine/io/scenario.h"
 
 namespace vinerow {
@@ -36,5 +38,9 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
 
 /// The scenario that a log holds.
 io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry);
+
+/// A scenario's vehicles, built and not spawned: their links and descriptions, in its order.
+std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& scenario,
+                                                           const Registry& registry);
 
 }  // namespace vinerow

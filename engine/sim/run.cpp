@@ -5,13 +5,18 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
 #include "engine/record/recorder.h"
+#include "engine/sim/canopy_file.h"
+#include "engine/sim/judge.h"
+#include "engine/sim/junit.h"
 #include "engine/sim/pictures.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/summary.h"
+#include "engine/sim/vehicle_runtime.h"
 
 namespace vinerow {
 namespace {
@@ -121,14 +126,62 @@ void step_to_end(Simulation& simulation, const RunOptions& options, Clock::time_
   }
 }
 
+/// The criteria that can be judged before the run: a job's numbers are known after it.
+std::vector<io::Criterion> of_vehicles(const io::Scenario& scenario) {
+  std::vector<io::Criterion> criteria;
+  for (const io::Criterion& criterion : scenario.criteria) {
+    const std::string owner = criterion.metric.substr(0, criterion.metric.find('.'));
+    const bool is_job =
+        std::any_of(scenario.phases.begin(), scenario.phases.end(),
+                    [&](const auto& phase) { return phase.job && phase.name == owner; });
+    if (!is_job) criteria.push_back(criterion);
+  }
+  return criteria;
+}
+
+/// Numbers that a job did not come to give are not measured, so that its criteria are not met.
+std::map<std::string, std::map<std::string, double>> with_missing_numbers(
+    const io::Scenario& scenario, std::map<std::string, std::map<std::string, double>> metrics,
+    const std::vector<PhaseReport>& phases) {
+  for (const io::Criterion& criterion : scenario.criteria) {
+    const std::size_t dot = criterion.metric.find('.');
+    const std::string owner = criterion.metric.substr(0, dot);
+    for (const PhaseReport& phase : phases) {
+      if (phase.job.empty() || phase.name != owner || phase.state == PhaseState::kSucceeded) {
+        continue;
+      }
+      metrics[owner].emplace(criterion.metric.substr(dot + 1),
+                             std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return metrics;
+}
+
+std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
+                                                const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code failed;
+  std::filesystem::remove_all(folder, failed);  // what an earlier run left would be taken for ours
+  for (const auto& vehicle : simulation.vehicles()) {
+    for (const auto& [name, payload] : vehicle->payloads()) {
+      const CanopyCoverage* coverage = payload->coverage();
+      if (!coverage) continue;
+      std::filesystem::create_directories(folder, failed);
+      files.push_back(folder / fmt::format("{}_{}.json", vehicle->name(), name));
+      write_text(files.back(), canopy_json(vehicle->name(), name, *coverage));
+    }
+  }
+  return files;
+}
+
 }  // namespace
 
 RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
                        const RunOptions& options) {
-  Simulation simulation(scenario, registry);
+  Simulation simulation(scenario, registry, options.out / "products");
   simulation.scheduler().measure(options.measure_cost);
   // Unknown metric names are bad input and must not wait for the end of a long run.
-  static_cast<void>(judge(scenario.criteria, simulation.metrics()));
+  static_cast<void>(judge(of_vehicles(scenario), simulation.metrics()));
 
   std::error_code failed;
   std::filesystem::create_directories(options.out, failed);
@@ -153,6 +206,7 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
     step_to_end(simulation, options, start);
     simulation.emit(Event::Level::kInfo, "run",
                     simulation.finished()           ? "mission finished"
+                    : !scenario.phases.empty()      ? "mission ended"
                     : !simulation.crashes().empty() ? "ended after a crash"
                                                     : "duration is over");
     if (log) log->on_instant(simulation.now());
@@ -168,12 +222,17 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   result.digest = simulation.digest();
   result.finished = simulation.finished();
   result.metrics = simulation.metrics();
-  result.criteria = judge(scenario.criteria, result.metrics);
+  result.phases = simulation.phases();
+  result.criteria =
+      judge(scenario.criteria, with_missing_numbers(scenario, result.metrics, result.phases));
   result.crashes = simulation.crashes();
   if (result.status == RunStatus::kAllMet) {
     if (!result.crashes.empty()) result.status = RunStatus::kCriterionFailed;
     for (const Crash& crash : result.crashes) {
       result.error += (result.error.empty() ? "" : "; ") + crash.sentence();
+    }
+    for (const PhaseReport& phase : result.phases) {
+      if (phase.state != PhaseState::kSucceeded) result.status = RunStatus::kCriterionFailed;
     }
     for (const CriterionResult& criterion : result.criteria) {
       if (!criterion.met) result.status = RunStatus::kCriterionFailed;
@@ -190,7 +249,9 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
       result.picture_note = "pictures are drawn from the log, which this run does not write";
     }
   }
+  result.canopy = write_canopy(simulation, options.out / "canopy");
   write_text(options.out / "summary.json", summary_json(result, simulation));
+  write_text(options.out / "junit.xml", junit_xml(scenario.name, result));
   return result;
 }
 

@@ -10,20 +10,12 @@
 #include "engine/api/registry.h"
 #include "engine/io/scenario.h"
 #include "engine/sim/crash.h"
+#include "engine/sim/phase_report.h"
 
 namespace vinerow {
 
 /// Exit status of `vinerow run` (docs/architecture.md).
 enum class RunStatus { kAllMet = 0, kCriterionFailed = 1, kBadInput = 2, kBrokenOff = 3 };
-
-struct CriterionResult {
-  std::string name;
-  std::string metric;  ///< "rover.cross_track_rms_m"
-  std::string kind;    ///< "max" | "min"
-  double value = 0.0;
-  double limit = 0.0;
-  bool met = false;
-};
 
 struct Progress {
   double simulated_s = 0.0;
@@ -50,6 +42,8 @@ struct RunResult {
   std::vector<CriterionResult> criteria;
   std::vector<Crash> crashes;  ///< any of them makes the status kCriterionFailed
   std::map<std::string, std::map<std::string, double>> metrics;
+  std::vector<PhaseReport> phases;  ///< of a mission; any that did not succeed: kCriterionFailed
+  std::vector<std::filesystem::path> canopy;  ///< what payloads did, a file each
   std::vector<std::filesystem::path> pictures;
   std::string picture_note;  ///< why there are no pictures, if they were asked for
 
@@ -60,11 +54,5 @@ struct RunResult {
 /// planning
 RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
                        const RunOptions& options);
-
-/// Verdicts on metrics. @throws ConfigError naming the nearest metric if a criterion's metric does
-/// not exist
-std::vector<CriterionResult> judge(
-    const std::vector<io::Criterion>& criteria,
-    const std::map<std::string, std::map<std::string, double>>& metrics);
 
 }  // namespace vinerow

@@ -17,8 +17,8 @@ std::string in_seconds(Duration d) {
 
 }  // namespace
 
-void Scheduler::add(Stage stage, std::string name, Duration period, Duration offset,
-                    std::function<void(Time)> run) {
+int Scheduler::add(Stage stage, std::string name, Duration period, Duration offset,
+                   std::function<void(Time)> run, Time begin) {
   if (period.ns <= 0 || period.ns % step_.ns != 0) {
     throw ConfigError(
         fmt::format("{}: its period of {} is not a multiple of the physics step of {}", name,
@@ -30,7 +30,18 @@ void Scheduler::add(Stage stage, std::string name, Duration period, Duration off
   }
   const auto place = std::upper_bound(tasks_.begin(), tasks_.end(), stage,
                                       [](Stage s, const Task& task) { return s < task.stage; });
-  tasks_.insert(place, Task{stage, std::move(name), period, Time{offset.ns}, std::move(run)});
+  const Time first = begin + offset;
+  tasks_.insert(place, Task{++last_id_, stage, std::move(name), period, first, std::move(run)});
+  earliest_ = std::min(earliest_, first);
+  return last_id_;
+}
+
+void Scheduler::remove(int task) {
+  const auto found =
+      std::find_if(tasks_.begin(), tasks_.end(), [&](const Task& t) { return t.id == task; });
+  if (found == tasks_.end()) return;
+  removed_.push_back(report_of(*found));
+  tasks_.erase(found);
 }
 
 void Scheduler::run_due(Time now) {
@@ -55,12 +66,15 @@ void Scheduler::run_due(Time now) {
   earliest_ = earliest;
 }
 
+Scheduler::TaskReport Scheduler::report_of(const Task& task) {
+  return {task.name, task.stage, task.period, task.ticks, static_cast<double>(task.wall_ns) * 1e-9};
+}
+
 std::vector<Scheduler::TaskReport> Scheduler::reports() const {
-  std::vector<TaskReport> result;
-  for (const Task& task : tasks_) {
-    result.push_back(
-        {task.name, task.stage, task.period, task.ticks, static_cast<double>(task.wall_ns) * 1e-9});
-  }
+  std::vector<TaskReport> result = removed_;
+  for (const Task& task : tasks_) result.push_back(report_of(task));
+  std::stable_sort(result.begin(), result.end(),
+                   [](const auto& a, const auto& b) { return a.stage < b.stage; });
   return result;
 }
 

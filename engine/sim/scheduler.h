@@ -16,7 +16,7 @@
 namespace vinerow {
 
 /// The order inside one instant. Physics then carries the state to the next instant.
-enum class Stage { kSense, kEstimate, kPlan, kGuide, kControl, kActuate, kJudge };
+enum class Stage { kSense, kEstimate, kPlan, kGuide, kControl, kActuate, kPayload, kJudge };
 
 class Scheduler {
  public:
@@ -24,9 +24,13 @@ class Scheduler {
   explicit Scheduler(Duration step) : step_(step) {}
 
   /// @param name  who, for errors and timings, e.g. "rover.controller"
+  /// @param begin  the task first runs at begin + offset; not before the instant worked on
+  /// @returns what remove() takes
   /// @throws ConfigError naming both numbers if the step does not divide the period or the offset
-  void add(Stage stage, std::string name, Duration period, Duration offset,
-           std::function<void(Time)> run);
+  int add(Stage stage, std::string name, Duration period, Duration offset,
+          std::function<void(Time)> run, Time begin = {});
+  /// Its ticks so far stay in reports(). Not to be called while tasks run.
+  void remove(int task);
 
   /// Runs everything that is due at `now`. Instants must be visited in rising order without gaps.
   void run_due(Time now);
@@ -44,6 +48,7 @@ class Scheduler {
 
  private:
   struct Task {
+    int id;
     Stage stage;
     std::string name;
     Duration period;
@@ -53,7 +58,11 @@ class Scheduler {
     std::int64_t wall_ns = 0;
   };
   Duration step_;
+  static TaskReport report_of(const Task& task);
+
   std::vector<Task> tasks_;  // sorted by stage, stable
+  std::vector<TaskReport> removed_;
+  int last_id_ = 0;
   Time earliest_{0};
   bool measure_ = false;
 };

@@ -2,13 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/sim/mission.h"
 #include "engine/sim/vehicle_runtime.h"
 
 namespace vinerow {
+namespace {
+
+/// A folder that no other simulation of this machine has.
+std::filesystem::path make_own_folder() {
+  static std::atomic<int> count = 0;
+  return std::filesystem::temp_directory_path() /
+         fmt::format("vinerow_products_{}_{}", ::getpid(), ++count);
+}
+
+}  // namespace
 
 std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry) {
   WorldContext context;
@@ -19,7 +33,8 @@ std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Regi
   return registry.make_world(scenario.world.type, scenario.world.parameters, context);
 }
 
-Simulation::Simulation(const io::Scenario& scenario, const Registry& registry)
+Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
+                       std::filesystem::path products)
     : scenario_(scenario),
       world_(build_world(scenario, registry)),
       scheduler_(scenario.physics_step) {
@@ -40,9 +55,23 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry)
                               const std::string& text) { emit(level, source, text); }};
   for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
     vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run));
+    // In a mission a vehicle begins with its phase.
+    if (scenario_.phases.empty()) vehicles_.back()->begin(now_, {});
+  }
+  if (!scenario_.phases.empty()) {
+    if (products.empty()) products = own_products_ = make_own_folder();
+    mission_ = std::make_unique<Mission>(run, vehicles_, std::move(products));
   }
   bus_.check_connected();
+  classify_signals();
+}
 
+Simulation::~Simulation() {
+  std::error_code ignored;
+  if (!own_products_.empty()) std::filesystem::remove_all(own_products_, ignored);
+}
+
+void Simulation::classify_signals() {
   hashed_sequence_.assign(bus_.signals().size(), 0);
   hashed_.assign(bus_.signals().size(), true);
   // Events tell people what the signals hold already.
@@ -61,15 +90,18 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry)
   }
 }
 
-Simulation::~Simulation() = default;
-
 void Simulation::emit(Event::Level level, const std::string& source, const std::string& text) {
   const Event event{level, source, text};
   events_.write(now_, event);
   for (RunObserver* observer : observers_) observer->on_event(now_, event);
 }
 
+std::vector<PhaseReport> Simulation::phases() const {
+  return mission_ ? mission_->reports() : std::vector<PhaseReport>{};
+}
+
 bool Simulation::finished() const {
+  if (mission_) return mission_->succeeded();
   bool any = false;
   for (const auto& vehicle : vehicles_) {
     if (vehicle->crash()) return false;
@@ -89,6 +121,7 @@ std::vector<Crash> Simulation::crashes() const {
 }
 
 bool Simulation::is_done() const {
+  if (mission_) return mission_->over();
   bool any = false, all = true;
   for (const auto& vehicle : vehicles_) {
     if (vehicle->crash() && vehicle->on_crash() == io::OnCrash::kEnd) return true;
@@ -102,6 +135,7 @@ bool Simulation::is_done() const {
 void Simulation::work_instant() {
   if (now_.ns == 0 && map_.connected()) map_.write(now_, world_->rows.occupancy);
   for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
+  if (mission_) mission_->advance(now_);
   scheduler_.run_due(now_);
   pass_on_events();
   hash_new_signals();
@@ -141,8 +175,14 @@ void Simulation::run_until(Time end) {
   while (!over_ && now_ <= end) {
     work_instant();
     over_ = now_ >= last || is_done();
+    if (over_) end_mission();
     if (!over_) step_physics();
   }
+}
+
+void Simulation::end_mission() {
+  if (!mission_ || mission_->over()) return;
+  mission_->close(now_, fmt::format("the run's duration of {:g} s was over", scenario_.duration_s));
 }
 
 void Simulation::run() {
@@ -152,6 +192,10 @@ void Simulation::run() {
 std::map<std::string, std::map<std::string, double>> Simulation::metrics() const {
   std::map<std::string, std::map<std::string, double>> all;
   for (const auto& vehicle : vehicles_) all[vehicle->name()] = vehicle->metric_results();
+  if (!mission_) return all;
+  for (const PhaseReport& phase : mission_->reports()) {
+    if (!phase.job.empty()) all[phase.name] = phase.numbers;
+  }
   return all;
 }
 

@@ -3,8 +3,10 @@
 ///
 /// At each instant t = k * physics step: truth is published, then sense, estimate, plan, guide,
 /// control, actuate, judge (metrics); observers see the instant and the digest takes in every
-/// signal written; then physics carries the state to t + step and is checked.
+/// signal written; then physics carries the state to t + step and is checked. Of a mission
+/// (mission.h) the phases are looked at first of all.
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,10 +16,12 @@
 #include "engine/io/scenario.h"
 #include "engine/physics/physics_world.h"
 #include "engine/sim/crash.h"
+#include "engine/sim/phase_report.h"
 #include "engine/sim/scheduler.h"
 
 namespace vinerow {
 
+class Mission;
 class VehicleRuntime;
 
 /// Looks at a run without changing it.
@@ -33,8 +37,11 @@ class RunObserver {
 class Simulation {
  public:
   /// Builds everything. @param registry must outlive the simulation
+  /// @param products  folder for what the jobs of a mission make; empty: one that goes with the
+  ///   simulation
   /// @throws ConfigError
-  Simulation(const io::Scenario& scenario, const Registry& registry);
+  Simulation(const io::Scenario& scenario, const Registry& registry,
+             std::filesystem::path products = {});
   ~Simulation();
 
   const io::Scenario& scenario() const { return scenario_; }
@@ -54,8 +61,11 @@ class Simulation {
   /// No further step will be made: the duration is over, every controller has finished or lost its
   /// vehicle, or a vehicle crashed whose crash ends the run.
   bool over() const { return over_; }
-  /// Every controller said that it has finished, and no vehicle crashed.
+  /// Every controller said that it has finished, and no vehicle crashed; of a mission: every phase
+  /// succeeded.
   bool finished() const;
+  /// Of a mission, in the file's order; empty without one.
+  std::vector<PhaseReport> phases() const;
   /// In the vehicles' order.
   std::vector<Crash> crashes() const;
   /// The next instant to be worked on.
@@ -66,7 +76,7 @@ class Simulation {
   /// excepted: they follow from the others, and their rate belongs to the log.
   std::string digest() const { return hasher_.hex(); }
 
-  /// metrics[vehicle][metric]. Call when over().
+  /// metrics[vehicle][metric], and of a mission's jobs [phase][number]. Call when over().
   std::map<std::string, std::map<std::string, double>> metrics() const;
   /// What planners told of their work: [vehicle][number].
   std::map<std::string, std::map<std::string, double>> planning() const;
@@ -79,6 +89,9 @@ class Simulation {
 
  private:
   void work_instant();
+  /// Which signals go into the digest, once all that are known are there.
+  void classify_signals();
+  void end_mission();
   /// Nobody has anything left to do, or a crash ends the run.
   bool is_done() const;
   /// Hands what parts wrote as events of their own to "run/events".
@@ -92,6 +105,8 @@ class Simulation {
   SignalBus bus_;
   Scheduler scheduler_;
   std::vector<std::unique_ptr<VehicleRuntime>> vehicles_;
+  std::filesystem::path own_products_;  // removed with the simulation; empty: not its own
+  std::unique_ptr<Mission> mission_;    // null: none
   SignalWriter<Event> events_;
   SignalWriter<OccupancyGrid> map_;
   std::vector<std::pair<const Signal<Event>*, std::uint64_t>>

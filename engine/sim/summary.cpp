@@ -9,15 +9,52 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json criteria_json(const RunResult& result) {
+Json criteria_json(const std::vector<CriterionResult>& criteria) {
   Json list = Json::array();
-  for (const CriterionResult& c : result.criteria) {
+  for (const CriterionResult& c : criteria) {
     list.push_back({{"name", c.name},
                     {"metric", c.metric},
                     {"kind", c.kind},
                     {"value", c.value},
                     {"limit", c.limit},
                     {"met", c.met}});
+  }
+  return list;
+}
+
+/// "products/build_map" or a file in there, from the run's folder.
+std::string file_in_run(const PhaseReport& phase) {
+  const std::filesystem::path folder = std::filesystem::path("products") / phase.name;
+  const std::filesystem::path name = phase.product->file.filename();
+  return name == phase.name ? folder.string() : (folder / name).string();
+}
+
+Json phases_json(const RunResult& result) {
+  Json list = Json::array();
+  for (const PhaseReport& phase : result.phases) {
+    Json json = {{"name", phase.name}, {"kind", phase.job.empty() ? "vehicles" : "job"}};
+    if (phase.job.empty()) {
+      json["vehicles"] = phase.vehicles;
+    } else {
+      json["job"] = phase.job;
+    }
+    json["after"] = phase.after;
+    json["state"] = to_string(phase.state);
+    json["begin_s"] = phase.begin ? Json(phase.begin->s()) : Json();
+    json["end_s"] = phase.end ? Json(phase.end->s()) : Json();
+    json["reason"] = phase.reason;
+    json["criteria"] = criteria_json(phase.criteria);
+    json["numbers"] = phase.numbers;
+    json["metrics"] = phase.metrics;
+    json["notes"] = phase.notes;
+    if (phase.product) {
+      json["product"] = {{"kind", to_string(phase.product->kind)}};
+      if (!phase.product->file.empty()) {
+        json["product"]["file"] = file_in_run(phase);
+      }
+    }
+    if (!phase.job.empty()) json["wall_s"] = phase.wall_s;
+    list.push_back(std::move(json));
   }
   return list;
 }
@@ -48,6 +85,9 @@ const char* status_name(const RunResult& result) {
     case RunStatus::kAllMet:
       return "all criteria met";
     case RunStatus::kCriterionFailed:
+      for (const PhaseReport& phase : result.phases) {
+        if (phase.state == PhaseState::kFailed) return "a phase failed";
+      }
       return result.crashes.empty() ? "a criterion failed" : "a vehicle crashed";
     case RunStatus::kBadInput:
       return "bad input";
@@ -78,7 +118,8 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   summary["real_time_factor"] = result.real_time_factor();
   summary["physics_step_s"] = scenario.physics_step.s();
   summary["steps"] = simulation.steps();
-  summary["criteria"] = criteria_json(result);
+  summary["criteria"] = criteria_json(result.criteria);
+  if (!result.phases.empty()) summary["phases"] = phases_json(result);
   if (!result.crashes.empty()) summary["crashes"] = crashes_json(result);
   summary["metrics"] = Json::object();
   for (const auto& [vehicle, metrics] : result.metrics) {
@@ -86,6 +127,9 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   }
   for (const auto& [vehicle, numbers] : simulation.planning()) {
     for (const auto& [name, value] : numbers) summary["planning"][vehicle][name] = value;
+  }
+  for (const auto& file : result.canopy) {
+    summary["canopy"].push_back("canopy/" + file.filename().string());
   }
   summary["pictures"] = Json::array();
   for (const auto& picture : result.pictures) summary["pictures"].push_back(picture.string());

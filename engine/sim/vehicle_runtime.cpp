@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/api/observer.h"
 #include "engine/core/error.h"
@@ -79,8 +80,19 @@ void VehicleRuntime::add_stepped(Stage stage, const std::string& part, const std
                                  std::map<std::string, std::string> written_as) {
   Ports ports(run_.bus, config_.name, part, std::move(written_as));
   stepped.connect(ports);
-  run_.scheduler.add(stage, part, period_of_rate(rate_Hz), {},
-                     guarded(part, type, [&stepped](Time now) { stepped.step(now); }));
+  schedule(stage, part, period_of_rate(rate_Hz), {},
+           guarded(part, type, [&stepped](Time now) { stepped.step(now); }));
+}
+
+void VehicleRuntime::schedule(Stage stage, const std::string& part, Duration period,
+                              Duration offset, std::function<void(Time)> run) {
+  if (!begin_) return;
+  tasks_.push_back(run_.scheduler.add(stage, part, period, offset, std::move(run), *begin_));
+}
+
+void VehicleRuntime::add_diagnostic(const std::string& signal) {
+  const auto known = std::find(diagnostic_signals_.begin(), diagnostic_signals_.end(), signal);
+  if (known == diagnostic_signals_.end()) diagnostic_signals_.push_back(signal);
 }
 
 VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext& run)
@@ -113,29 +125,88 @@ VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext
       Stage::kSense, name + ".diagnostics",
       diagnostics_period(run_.scenario.record.truth_rate_Hz, run_.scenario.physics_step), {},
       [this](Time now) { publish_diagnostics(now); });
-  make_map();
+}
+
+void VehicleRuntime::begin(Time now, const PhaseHandover& handover) {
+  worked_ = true;
+  if (now.ns > 0) {
+    contacts_.values = {0.0, 0.0};
+    contacts_writer_.write(now, contacts_);
+  }
+  assemble(handover, now);
+}
+
+void VehicleRuntime::assemble(const PhaseHandover& handover, std::optional<Time> begin) {
+  take_down();
+  handover_ = handover;
+  begin_ = begin;
+  take_map(handover.map ? handover.map : make_map());
+  show_map();
   add_sensors();
   add_estimator();
   add_observers();
   add_planner();
   add_controller();
+  add_payloads();
   add_metrics();
+}
+
+void VehicleRuntime::take_down() {
+  for (const int task : tasks_) run_.scheduler.remove(task);
+  tasks_.clear();
+  metrics_.clear();
+  payloads_.clear();
+  controller_.reset();
+  guidance_.reset();
+  planner_.reset();
+  observers_.clear();
+  estimator_.reset();
+  sensors_.clear();
+  mountings_.clear();
+  run_.bus.release(config_.name);
+  actuators_seen_ = 0;
+  actuator_index_.clear();
+  planned_ = said_finished_ = false;
+  plan_failure_.clear();
+}
+
+void VehicleRuntime::end(bool done) {
+  if (!done && vehicle_->description().flies()) return;
+  for (const int task : tasks_) run_.scheduler.remove(task);
+  tasks_.clear();
+  actuator_values_.assign(vehicle_->description().actuators.size(), 0.0);
+  for (std::size_t i = 0; i < actuator_values_.size(); ++i) {
+    const ActuatorSpec& spec = vehicle_->description().actuators[i];
+    actuator_values_[i] = std::clamp(0.0, spec.min, spec.max);
+  }
+  vehicle_->actuate(actuator_values_);
 }
 
 double VehicleRuntime::control_rate_Hz() const {
   return config_.controller ? config_.controller->rate_Hz : kDefaultControlRate_Hz;
 }
 
-void VehicleRuntime::make_map() {
-  if (!config_.map) return;
+std::shared_ptr<const RowMap> VehicleRuntime::make_map() const {
+  if (!config_.map) return nullptr;
   auto map_context = context<MapContext>(config_.name + ".map", 0.0);
   map_context.world = &run_.world;
   map_context.scene = &run_.physics.scene();
-  own_map_ = run_.registry.make_map(config_.map->type, config_.map->parameters, map_context);
+  return run_.registry.make_map(config_.map->type, config_.map->parameters, map_context);
+}
+
+void VehicleRuntime::take_map(std::shared_ptr<const RowMap> map) {
+  map_ground_.reset();
+  own_map_ = std::move(map);
+  if (!own_map_) return;
   if (own_map_->terrain) map_ground_.emplace(*own_map_->terrain);
-  if (own_map_->meshes.empty()) return;
-  map_edges_writer_ = Ports(run_.bus, config_.name, map_context.part).write<LineList>("map_edges");
-  diagnostic_signals_.push_back(config_.name + "/map_edges");
+}
+
+void VehicleRuntime::show_map() {
+  if (!own_map_ || own_map_->meshes.empty()) return;
+  map_edges_writer_ =
+      Ports(run_.bus, config_.name, config_.name + ".map").write<LineList>("map_edges");
+  map_edges_due_ = begin_.has_value();
+  add_diagnostic(config_.name + "/map_edges");
 }
 
 void VehicleRuntime::add_sensors() {
@@ -151,14 +222,13 @@ void VehicleRuntime::add_sensors() {
     Sensor& built = *sensors_.back();
     add_stepped(Stage::kSense, part, sensor.part.type, sensor.part.rate_Hz, built);
     // What a sensor would read without error follows from the truth.
-    diagnostic_signals_.push_back(fmt::format("{}/{}_truth", config_.name, sensor.name));
+    add_diagnostic(fmt::format("{}/{}_truth", config_.name, sensor.name));
     if (const auto X_BS = built.mounting_X_BS()) {
       mountings_.push_back({sensor.name, sensor.part.type, *X_BS});
     }
     if (built.delay().ns > 0) {
-      run_.scheduler.add(
-          Stage::kSense, part + ".delivery", sensor_context.period, built.delay(),
-          guarded(part, sensor.part.type, [&built](Time now) { built.deliver(now); }));
+      schedule(Stage::kSense, part + ".delivery", sensor_context.period, built.delay(),
+               guarded(part, sensor.part.type, [&built](Time now) { built.deliver(now); }));
     }
   }
 }
@@ -195,31 +265,65 @@ void VehicleRuntime::add_observers() {
   }
 }
 
-void VehicleRuntime::add_planner() {
-  if (!config_.planner) return;
-  const std::string part = config_.name + ".planner";
-  auto planner_context = context<PlannerContext>(part, control_rate_Hz());
-  planner_context.vehicle_description = &vehicle_->description();
-  planner_context.map = &map();
-  planner_context.scene =
+PlannerContext VehicleRuntime::planner_context() const {
+  auto result = context<PlannerContext>(config_.name + ".planner", control_rate_Hz());
+  result.vehicle_description = &vehicle_->description();
+  result.map = &map();
+  result.scene =
       map_ground_ ? static_cast<const SceneQuery*>(&*map_ground_) : &run_.physics.scene();
-  planner_context.origin = run_.world.origin;
-  planner_ = run_.registry.make_planner(config_.planner->type, config_.planner->parameters,
-                                        planner_context);
+  result.origin = run_.world.origin;
+  return result;
+}
+
+void VehicleRuntime::add_planner() {
+  if (!config_.planner && !handover_.plan) return;
+  const std::string part = config_.name + ".planner";
+  if (!handover_.plan) {
+    planner_ = run_.registry.make_planner(config_.planner->type, config_.planner->parameters,
+                                          planner_context());
+  }
   Ports ports(run_.bus, config_.name, part);
   estimate_ = ports.read<Odometry>("estimate");
   plan_writer_ = ports.write<PlannedPath>("plan");
   tree_writer_ = ports.write<LineList>("plan_tree");
-  diagnostic_signals_.push_back(config_.name + "/plan_tree");
-  run_.scheduler.add(Stage::kPlan, part, planner_context.period, {},
-                     [this](Time now) { try_to_plan(now); });
+  add_diagnostic(config_.name + "/plan_tree");
+  schedule(Stage::kPlan, part, period_of_rate(control_rate_Hz()), {},
+           [this](Time now) { try_to_plan(now); });
+}
+
+Result<PlannedPath> VehicleRuntime::plan_ahead(std::shared_ptr<const RowMap> map) {
+  if (!config_.planner) {
+    return Failure{fmt::format("vehicle '{}' has no planner", config_.name)};
+  }
+  // The parts that a later phase builds do not keep this map.
+  const std::shared_ptr<const RowMap> kept = own_map_;
+  take_map(map ? std::move(map) : make_map());
+  Result<PlannedPath> plan = Failure{};
+  try {
+    const auto planner = run_.registry.make_planner(config_.planner->type,
+                                                    config_.planner->parameters, planner_context());
+    plan = planner->plan(truth_.X_WB);
+  } catch (const ConfigError& error) {
+    plan = Failure{error.what()};
+  }
+  take_map(kept);
+  return plan;
 }
 
 void VehicleRuntime::try_to_plan(Time now) {
-  if (planned_ || !estimate_.has_value()) return;
+  if (planned_ || !plan_failure_.empty() || !estimate_.has_value()) return;
   Result<PlannedPath> plan = Failure{};
-  guarded(config_.name + ".planner", config_.planner->type,
-          [&](Time) { plan = planner_->plan(estimate_.value().X_WB); })(now);
+  if (handover_.plan) {
+    plan = *handover_.plan;
+  } else {
+    guarded(config_.name + ".planner", config_.planner->type,
+            [&](Time) { plan = planner_->plan(estimate_.value().X_WB); })(now);
+  }
+  if (!plan && !run_.scenario.phases.empty()) {
+    plan_failure_ =
+        fmt::format("{}.planner ({}): {}", config_.name, config_.planner->type, plan.reason());
+    return;
+  }
   // A plan that cannot be made is bad input, not a failure of the simulation.
   if (!plan) {
     throw ConfigError(fmt::format("{}: {}.planner ({}): {}", config_.planner->where.text(),
@@ -229,7 +333,7 @@ void VehicleRuntime::try_to_plan(Time now) {
   plan_writer_.write(now, *plan);
   std::string told =
       fmt::format("planned {:.2f} m with {} points", plan->length_m, plan->points.size());
-  if (const PlanReport* report = planner_->report()) {
+  if (const PlanReport* report = planner_ ? planner_->report() : nullptr) {
     plan_numbers_ = report->numbers;
     if (!report->tree.points_W.empty()) tree_writer_.write(now, report->tree);
     for (const auto& [name, value] : report->numbers)
@@ -264,13 +368,31 @@ void VehicleRuntime::add_controller() {
   Ports ports(run_.bus, config_.name, config_.name);
   actuators_ = ports.read<NamedValues>("actuators");
   actuator_values_.assign(vehicle_->description().actuators.size(), 0.0);
-  run_.scheduler.add(Stage::kActuate, config_.name + ".actuators",
-                     period_of_rate(control_rate_Hz()), {}, [this](Time now) { actuate(now); });
+  schedule(Stage::kActuate, config_.name + ".actuators", period_of_rate(control_rate_Hz()), {},
+           [this](Time now) { actuate(now); });
+}
+
+void VehicleRuntime::add_payloads() {
+  for (const io::NamedPart& payload : config_.payloads) {
+    const std::string part = fmt::format("{}.payloads.{}", config_.name, payload.name);
+    const double rate_Hz = payload.part.rate_Hz > 0.0 ? payload.part.rate_Hz : control_rate_Hz();
+    auto payload_context = context<PayloadContext>(part, rate_Hz);
+    payload_context.name = payload.name;
+    payload_context.scene = &run_.physics.scene();
+    payload_context.world = &run_.world;
+    payload_context.vehicle_truth = vehicle_.get();
+    payload_context.vehicle_description = &vehicle_->description();
+    payload_context.map = &map();
+    payloads_.emplace_back(
+        payload.name,
+        run_.registry.make_payload(payload.part.type, payload.part.parameters, payload_context));
+    add_stepped(Stage::kPayload, part, payload.part.type, rate_Hz, *payloads_.back().second);
+  }
 }
 
 void VehicleRuntime::refuse_a_missing_plan() const {
   const SignalBase* plan = run_.bus.find(config_.name + "/plan");
-  if (planner_ || plan == nullptr) return;
+  if (planner_ || handover_.plan || plan == nullptr) return;
   const auto refuse = [&](const io::PartConfig& part, const std::string& name) {
     if (plan->first_reader() != name) return;
     throw ConfigError(fmt::format("{}: {}: '{}' follows a plan, but the vehicle has no planner",
@@ -339,7 +461,8 @@ void VehicleRuntime::publish_diagnostics(Time now) {
   vehicle_->publish(now);
   if (now.ns == 0) contacts_writer_.write(now, contacts_);
   // For those who look at the log: which map it was is told there, not made again from the world.
-  if (now.ns == 0 && map_edges_writer_.connected()) {
+  if (map_edges_due_) {
+    map_edges_due_ = false;
     map_edges_writer_.write(now, map_edges(*own_map_));
   }
 }
@@ -414,6 +537,12 @@ std::map<std::string, double> VehicleRuntime::metric_results() const {
   std::map<std::string, double> all;
   for (const NamedMetric& metric : metrics_) {
     for (const auto& [name, value] : metric.metric->results()) all[name] = value;
+  }
+  for (const auto& [payload, part] : payloads_) {
+    for (const auto& [name, value] : part->results()) all[payload + "_" + name] = value;
+  }
+  if (!worked_) {
+    for (auto& [name, value] : all) value = std::numeric_limits<double>::quiet_NaN();
   }
   return all;
 }

@@ -1,11 +1,12 @@
 #pragma once
-/// One vehicle of a run with its sensors, estimator, planner, guidance, controller and metrics,
-/// wired and scheduled.
+/// One vehicle of a run with its sensors, estimator, planner, guidance, controller, payloads and
+/// metrics, wired and scheduled: for the whole run, or for each of the phases that it works in.
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/api/registry.h"
@@ -19,7 +20,7 @@ namespace vinerow {
 
 /// What the vehicle's assembly needs from the run.
 struct RunContext {
-  const io::Scenario& scenario;
+  const io::Scenario& scenario;  ///< with phases: a plan that cannot be made fails its phase
   const Registry& registry;
   const WorldModel& world;
   physics::PhysicsWorld& physics;
@@ -28,17 +29,41 @@ struct RunContext {
   std::function<void(Event::Level, const std::string& source, const std::string& text)> emit;
 };
 
+/// What a phase of a mission hands its vehicle beside the vehicle's own configuration.
+struct PhaseHandover {
+  std::shared_ptr<const RowMap> map;        ///< in place of its `map`; null: that
+  std::shared_ptr<const PlannedPath> plan;  ///< in place of its planner's; null: that
+};
+
 class VehicleRuntime {
  public:
-  /// Builds the vehicle, puts it into the physics world, connects and schedules its parts. @throws
+  /// Builds the vehicle and stands it in the physics world; nothing else runs yet. @throws
   /// ConfigError
   VehicleRuntime(const io::VehicleConfig& config, const RunContext& run);
+
+  /// Builds and connects its parts without letting them run, so that faults are found before the
+  /// run. @throws ConfigError
+  void rehearse(const PhaseHandover& handover) { assemble(handover, std::nullopt); }
+  /// Builds its parts anew and lets them run from `now` on. @throws ConfigError
+  void begin(Time now, const PhaseHandover& handover);
+  /// Its parts run no more. What drives on the ground stands still; what flies, if it has not
+  /// landed, is left to its controller. @param done  it has finished, or lies on the ground
+  void end(bool done);
+  /// Its parts run.
+  bool at_work() const { return !tasks_.empty(); }
+  /// Why no plan could be made; empty where one could. Only in missions: elsewhere that is an
+  /// error.
+  const std::string& plan_failure() const { return plan_failure_; }
+  /// Plans from where it stands with a planner of its own. @param map  null: its own map
+  Result<PlannedPath> plan_ahead(std::shared_ptr<const RowMap> map);
 
   const std::string& name() const { return config_.name; }
   const Vehicle& vehicle() const { return *vehicle_; }
   const Odometry& truth() const { return truth_; }
   /// Its controller has nothing left to do; without a controller always. Never after a crash.
-  bool finished() const { return !crash_ && (controller_ == nullptr || controller_->finished()); }
+  bool finished() const {
+    return !crash_ && (controller_ == nullptr || (at_work() && controller_->finished()));
+  }
   bool has_controller() const { return controller_ != nullptr; }
   /// How it was wrecked, if it was.
   const std::optional<Crash>& crash() const { return crash_; }
@@ -51,7 +76,11 @@ class VehicleRuntime {
   /// SimulationError
   void after_physics(Time now, Duration step);
 
+  /// Of the last phase it worked in; not measured (NaN) where it never began.
   std::map<std::string, double> metric_results() const;
+  const std::vector<std::pair<std::string, std::unique_ptr<Payload>>>& payloads() const {
+    return payloads_;
+  }
   /// What the planner told of its work; empty without planner or report.
   const std::map<std::string, double>& plan_numbers() const { return plan_numbers_; }
   /// Names of the signals that are diagnostics: recorded, but not part of the digest.
@@ -67,14 +96,24 @@ class VehicleRuntime {
   Context context(const std::string& part, double rate_Hz) const;
   void add_stepped(Stage stage, const std::string& part, const std::string& type, double rate_Hz,
                    SteppedPart& stepped, std::map<std::string, std::string> written_as = {});
-  void make_map();
+  /// @param begin  absent: nothing is scheduled
+  void assemble(const PhaseHandover& handover, std::optional<Time> begin);
+  void take_down();
+  void schedule(Stage stage, const std::string& part, Duration period, Duration offset,
+                std::function<void(Time)> run);
+  void add_diagnostic(const std::string& signal);
+  std::shared_ptr<const RowMap> make_map() const;
+  void take_map(std::shared_ptr<const RowMap> map);
+  void show_map();
   const RowMap& map() const { return own_map_ ? *own_map_ : run_.world.rows; }
+  PlannerContext planner_context() const;
   void add_sensors();
   void add_estimator();
   void add_observers();
   EstimatorContext estimator_context(const std::string& part, double rate_Hz) const;
   void add_planner();
   void add_controller();
+  void add_payloads();
   /// @throws ConfigError naming who reads a plan that no planner writes
   void refuse_a_missing_plan() const;
   void add_metrics();
@@ -93,13 +132,14 @@ class VehicleRuntime {
   RunContext run_;
   std::unique_ptr<Vehicle> vehicle_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
-  std::unique_ptr<RowMap> own_map_;      ///< null: the world's rows
-  std::optional<MapGround> map_ground_;  ///< where that map has a terrain
+  std::shared_ptr<const RowMap> own_map_;  ///< null: the world's rows
+  std::optional<MapGround> map_ground_;    ///< where that map has a terrain
   std::unique_ptr<Estimator> estimator_;
   std::vector<std::unique_ptr<Estimator>> observers_;
   std::unique_ptr<Planner> planner_;
   std::unique_ptr<Guidance> guidance_;
   std::unique_ptr<Controller> controller_;
+  std::vector<std::pair<std::string, std::unique_ptr<Payload>>> payloads_;
   std::vector<NamedMetric> metrics_;
   std::vector<SensorMounting> mountings_;
   std::map<std::string, double> plan_numbers_;
@@ -121,7 +161,13 @@ class VehicleRuntime {
   Time last_contact_{-1'000'000'000};
   int first_body_ = 0;
   int end_body_ = 0;
+  PhaseHandover handover_;
+  std::optional<Time> begin_;  ///< of the parts that are built; absent while rehearsing
+  std::vector<int> tasks_;     ///< of the scheduler, while the parts run
+  bool worked_ = false;        ///< has begun at least once
+  bool map_edges_due_ = false;
   bool planned_ = false;
+  std::string plan_failure_;
   bool said_finished_ = false;
   std::optional<Crash> crash_;
   std::vector<std::string> diagnostic_signals_;

@@ -23,7 +23,11 @@ class Travel final : public Metric {
 
   void step(Time now) override {
     const Odometry& truth = truth_.value();
-    if (!has_last_) start_p_W_ = last_p_W_ = truth.X_WB.p;
+    if (!has_last_) {
+      begin_ = slow_since_ = now;
+      start_p_W_ = last_p_W_ = truth.X_WB.p;
+      start_energy_J_ = battery_.has_value() ? battery_.value().energy_used_J : 0.0;
+    }
     distance_m_ += (truth.X_WB.p - last_p_W_).norm();
     last_p_W_ = truth.X_WB.p;
     has_last_ = true;
@@ -34,8 +38,9 @@ class Travel final : public Metric {
   }
 
   std::map<std::string, double> results() const override {
-    const double time_s = now_.s();
-    const double energy_J = battery_.has_value() ? battery_.value().energy_used_J : kNotMeasured;
+    const double time_s = (now_ - begin_).s();
+    const double energy_J =
+        battery_.has_value() ? battery_.value().energy_used_J - start_energy_J_ : kNotMeasured;
     const double mean_power_W = time_s > 0.0 ? energy_J / time_s : kNotMeasured;
     // Who only takes in, or draws nothing, works for ever.
     const double battery_hours =
@@ -86,7 +91,8 @@ class Travel final : public Metric {
   double standing_drift_m_ = kNotMeasured;
   double distance_m_ = 0.0;
   double max_speed_mps_ = 0.0;
-  Time now_;
+  double start_energy_J_ = 0.0;
+  Time begin_, now_;
 };
 
 }  // namespace

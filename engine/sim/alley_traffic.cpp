@@ -1,0 +1,303 @@
+#include "engine/sim/alley_traffic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+
+namespace vinerow {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+void check(const TrafficVehicle& vehicle) {
+  const std::pair<const char*, double> lengths[] = {{"length_m", vehicle.length_m},
+                                                    {"stop_before_m", vehicle.stop_before_m},
+                                                    {"look_ahead_m", vehicle.look_ahead_m},
+                                                    {"approach_m", vehicle.use.approach_m},
+                                                    {"headland_m", vehicle.use.headland_m}};
+  for (const auto& [name, value] : lengths) {
+    if (value >= 0.0) continue;
+    throw ConfigError(fmt::format("alley traffic: {} of vehicle '{}' is {}, must be >= 0", name,
+                                  vehicle.name, value));
+  }
+}
+
+}  // namespace
+
+AlleyTraffic::AlleyTraffic(std::vector<Alley> alleys, std::vector<TrafficVehicle> vehicles)
+    : alleys_(std::move(alleys)), holder_(alleys_.size(), -1) {
+  if (vehicles.size() < 2) {
+    throw ConfigError(
+        fmt::format("alley traffic: {} vehicle{} cannot share alleys, give at least 2",
+                    vehicles.size(), vehicles.size() == 1 ? "" : "s"));
+  }
+  for (const Alley& alley : alleys_) {
+    if (alley.line_W.size() >= 2) continue;
+    throw ConfigError(
+        fmt::format("alley traffic: the centre line of alley {} has {} points, "
+                    "must have at least 2",
+                    alley.id, alley.line_W.size()));
+  }
+  for (TrafficVehicle& vehicle : vehicles) {
+    check(vehicle);
+    for (const Lane& other : lanes_) {
+      if (other.self.name != vehicle.name) continue;
+      throw ConfigError(fmt::format("alley traffic: vehicle '{}' is named twice", vehicle.name));
+    }
+    Lane lane;
+    lane.self = std::move(vehicle);
+    lane.authority.stop_at_m = kInfinity;
+    lanes_.push_back(std::move(lane));
+  }
+  waits_to_get_.assign(lanes_.size() * lanes_.size(), 0);
+  waits_ = waits_to_get_;
+  is_stuck_.assign(lanes_.size(), 0);
+}
+
+void AlleyTraffic::begin(int vehicle, Time now, const PlannedPath& plan, double distance_m) {
+  Lane& lane = lanes_[vehicle];
+  lane.works = true;
+  lane.stays = lane.asks = false;
+  lane.distance_m = distance_m;
+  lane.stretches = find_alley_stretches(plan, alleys_, lane.self.use);
+  lane.passed = 0;
+  const int count = static_cast<int>(lane.stretches.size());
+  while (lane.passed < count &&
+         lane.stretches[lane.passed].end_m <= distance_m - lane.self.length_m) {
+    ++lane.passed;
+  }
+  lane.granted = lane.passed;
+  release(vehicle);
+  while (lane.granted < count && lane.stretches[lane.granted].begin_m <= distance_m &&
+         are_free_for(vehicle, wanted(lane))) {
+    take(vehicle, wanted(lane));
+    ++lane.granted;
+  }
+  advance(vehicle, now, distance_m);
+}
+
+void AlleyTraffic::advance(int vehicle, Time now, double distance_m) {
+  Lane& lane = lanes_[vehicle];
+  if (!lane.works) return;
+  lane.distance_m = distance_m;
+  const int passed = lane.passed;
+  const double tail_m = distance_m - lane.self.length_m;
+  while (lane.passed < lane.granted && lane.stretches[lane.passed].end_m <= tail_m) ++lane.passed;
+  extend(vehicle);
+  if (lane.passed != passed) release(vehicle);
+  if (lane.asks || lane.granted == static_cast<int>(lane.stretches.size())) return;
+  const double stop_at_m = lane.stretches[lane.granted].begin_m - lane.self.stop_before_m;
+  if (distance_m + lane.self.look_ahead_m < stop_at_m) return;
+  lane.asks = true;
+  lane.since = now;
+}
+
+void AlleyTraffic::leave(int vehicle, Leaving leaving) {
+  Lane& lane = lanes_[vehicle];
+  if (!lane.works) return;
+  lane.works = lane.asks = false;
+  lane.stays = leaving == Leaving::kStaysThere;
+  lane.authority = {};
+  lane.authority.stop_at_m = kInfinity;
+  // It stands somewhere from its tail to as far ahead: what it has got farther on becomes free.
+  const double front_m = lane.distance_m + lane.self.length_m;
+  while (lane.granted > lane.passed && lane.stretches[lane.granted - 1].begin_m > front_m) {
+    --lane.granted;
+  }
+  if (!lane.stays) lane.granted = lane.passed;
+  release(vehicle);
+}
+
+void AlleyTraffic::serve() {
+  for (bool has_granted = true; has_granted;) {
+    has_granted = false;
+    calc_waiting();
+    int next = -1;
+    for (int i = 0; i < vehicles(); ++i) {
+      if (!is_asking(i) || find_taken(i) >= 0 || is_behind(i)) continue;
+      if (next < 0 || asked_earlier(i, next)) next = i;
+    }
+    if (next < 0) break;
+    take(next, wanted(lanes_[next]));
+    ++lanes_[next].granted;
+    lanes_[next].asks = false;
+    extend(next);
+    has_granted = true;
+  }
+  for (int i = 0; i < vehicles(); ++i) write_authority(i);
+}
+
+void AlleyTraffic::take(int vehicle, const std::vector<int>& alleys) {
+  for (const int alley : alleys) holder_[alley] = vehicle;
+}
+
+void AlleyTraffic::release(int vehicle) {
+  const Lane& lane = lanes_[vehicle];
+  for (std::size_t alley = 0; alley < holder_.size(); ++alley) {
+    if (holder_[alley] != vehicle) continue;
+    bool is_needed = false;
+    for (int i = lane.passed; i < lane.granted && !is_needed; ++i) {
+      const std::vector<int>& needs = lane.stretches[i].needs;
+      is_needed = std::binary_search(needs.begin(), needs.end(), static_cast<int>(alley));
+    }
+    if (!is_needed) holder_[alley] = -1;
+  }
+}
+
+bool AlleyTraffic::are_free_for(int vehicle, const std::vector<int>& alleys) const {
+  return std::all_of(alleys.begin(), alleys.end(),
+                     [&](int alley) { return holder_[alley] < 0 || holder_[alley] == vehicle; });
+}
+
+void AlleyTraffic::extend(int vehicle) {
+  Lane& lane = lanes_[vehicle];
+  while (lane.granted < static_cast<int>(lane.stretches.size())) {
+    const std::vector<int>& needs = wanted(lane);
+    if (!std::all_of(needs.begin(), needs.end(),
+                     [&](int alley) { return holder_[alley] == vehicle; })) {
+      return;
+    }
+    ++lane.granted;
+    lane.asks = false;
+  }
+}
+
+int AlleyTraffic::find_taken(int vehicle) const {
+  for (const int alley : wanted(lanes_[vehicle])) {
+    if (holder_[alley] >= 0 && holder_[alley] != vehicle) return alley;
+  }
+  return -1;
+}
+
+bool AlleyTraffic::asked_earlier(int a, int b) const {
+  const Time first = lanes_[a].since, second = lanes_[b].since;
+  return first.ns != second.ns ? first.ns < second.ns : a < b;
+}
+
+bool AlleyTraffic::want_the_same(int a, int b) const {
+  const std::vector<int>& others = wanted(lanes_[b]);
+  for (const int alley : wanted(lanes_[a])) {
+    if (holder_[alley] == a || holder_[alley] == b) continue;
+    if (std::binary_search(others.begin(), others.end(), alley)) return true;
+  }
+  return false;
+}
+
+bool AlleyTraffic::is_behind(int vehicle) const {
+  for (int i = 0; i < vehicles(); ++i) {
+    if (i == vehicle || !is_asking(i) || !asked_earlier(i, vehicle)) continue;
+    if (!want_the_same(i, vehicle)) continue;
+    if (!is_stuck_[i] && !at(waits_, i, vehicle)) return true;
+  }
+  return false;
+}
+
+void AlleyTraffic::close_paths(std::vector<char>& leads) const {
+  const int n = vehicles();
+  for (int via = 0; via < n; ++via) {
+    for (int a = 0; a < n; ++a) {
+      for (int b = 0; b < n; ++b) {
+        if (at(leads, a, via) != 0 && at(leads, via, b) != 0) at(leads, a, b) = 1;
+      }
+    }
+  }
+}
+
+void AlleyTraffic::calc_waiting() {
+  const int n = vehicles();
+  std::fill(waits_to_get_.begin(), waits_to_get_.end(), 0);
+  for (int i = 0; i < n; ++i) {
+    if (!is_asking(i)) continue;
+    for (const int alley : wanted(lanes_[i])) {
+      const int other = holder_[alley];
+      if (other >= 0 && other != i) at(waits_to_get_, i, other) = 1;
+    }
+  }
+  waits_ = waits_to_get_;
+  close_paths(waits_to_get_);
+  for (int i = 0; i < n; ++i) {
+    is_stuck_[i] = at(waits_to_get_, i, i) != 0 ? 1 : 0;
+    for (int k = 0; k < n; ++k) {
+      const bool never = lanes_[k].stays || at(waits_to_get_, k, k) != 0;
+      if (never && at(waits_to_get_, i, k) != 0) is_stuck_[i] = 1;
+    }
+  }
+  // In the queue nobody waits for one that is never served.
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < n; ++k) {
+      if (i == k || !is_asking(i) || !is_asking(k) || is_stuck_[k]) continue;
+      if (asked_earlier(k, i) && want_the_same(k, i)) at(waits_, i, k) = 1;
+    }
+  }
+  close_paths(waits_);
+}
+
+void AlleyTraffic::write_authority(int vehicle) {
+  Lane& lane = lanes_[vehicle];
+  MovementAuthority& authority = lane.authority;
+  authority.stop_at_m = kInfinity;
+  authority.alley = -1;
+  authority.holder.clear();
+  if (!lane.works || lane.granted == static_cast<int>(lane.stretches.size())) return;
+  authority.stop_at_m = lane.stretches[lane.granted].begin_m - lane.self.stop_before_m;
+  if (!lane.asks) return;
+  int alley = find_taken(vehicle);
+  if (alley >= 0) {
+    authority.holder = lanes_[holder_[alley]].self.name;
+  } else {
+    alley = wanted(lane).front();  // free, but somebody asked for it before
+  }
+  authority.alley = alleys_[alley].id;
+}
+
+std::string AlleyTraffic::tell_circle(int vehicle) const {
+  // How many vehicles on the shortest way from each one back to this one, and by which alley.
+  const int n = vehicles();
+  std::vector<int> steps(n, n + 1), by(n, -1);
+  for (int round = 0; round < n; ++round) {
+    for (int i = 0; i < n; ++i) {
+      if (!is_asking(i)) continue;
+      for (const int alley : wanted(lanes_[i])) {
+        const int other = holder_[alley];
+        if (other < 0 || other == i) continue;
+        const int way = other == vehicle ? 1 : steps[other] + 1;
+        if (way >= steps[i]) continue;
+        steps[i] = way;
+        by[i] = alley;
+      }
+    }
+  }
+  std::string text;
+  int held = -1;
+  int i = vehicle;
+  do {
+    held = by[i];
+    const int id = alleys_[held].id;
+    text += text.empty() ? fmt::format(" and waits for alley {}", id)
+                         : fmt::format(", which {} holds, waiting for alley {}", name(i), id);
+    i = holder_[held];
+  } while (i != vehicle);
+  return fmt::format("{} holds alley {}{}", name(vehicle), alleys_[held].id, text);
+}
+
+std::optional<std::string> AlleyTraffic::deadlock() const {
+  for (int i = 0; i < vehicles(); ++i) {
+    if (is_asking(i) && at(waits_to_get_, i, i)) return tell_circle(i);
+  }
+  for (int i = 0; i < vehicles(); ++i) {
+    if (!is_asking(i)) continue;
+    for (const int alley : wanted(lanes_[i])) {
+      const int other = holder_[alley];
+      if (other < 0 || !lanes_[other].stays) continue;
+      return fmt::format("{} waits for alley {}, in which {} stands and works no more", name(i),
+                         alleys_[alley].id, name(other));
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace vinerow

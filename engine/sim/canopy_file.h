@@ -1,0 +1,15 @@
+#pragma once
+/// What a payload did to the canopy, as a file for the report and for other programs.
+
+#include <string>
+
+#include "engine/api/payload.h"
+
+namespace vinerow {
+
+/// {vehicle, payload, quantity, unit, wanted, step_m, band_m, patches: [[row, side, along, band,
+/// x_m, y_m, z_m, area_m2, amount], ...]}, as JSON.
+std::string canopy_json(const std::string& vehicle, const std::string& payload,
+                        const CanopyCoverage& coverage);
+
+}  // namespace vinerow

@@ -1,0 +1,53 @@
+#include "engine/sim/plan_job.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace vinerow {
+namespace {
+
+class PlanJob : public Job {
+ public:
+  PlanJob(const ParameterSet& parameters, const JobContext& context)
+      : context_(context), of_vehicle_(parameters.text("vehicle")) {}
+
+  Result<JobOutcome> run(const std::map<std::string, Product>& inputs) override {
+    const auto map = inputs.find("map");
+    Result<PlannedPath> planned =
+        context_.plan(of_vehicle_, map == inputs.end() ? nullptr : map->second.map);
+    if (!planned) return Failure{planned.reason()};
+    auto plan = std::make_shared<PlannedPath>(std::move(planned).value());
+    if (plan->points.empty()) {
+      return Failure{fmt::format("the plan of vehicle '{}' has no points", of_vehicle_)};
+    }
+    JobOutcome outcome;
+    outcome.numbers = {{"length_m", plan->length_m},
+                       {"points", static_cast<double>(plan->points.size())}};
+    outcome.product.kind = ProductKind::kPlan;
+    outcome.product.plan = std::move(plan);
+    return outcome;
+  }
+
+ private:
+  const JobContext context_;
+  const std::string of_vehicle_;
+};
+
+}  // namespace
+
+void register_plan_job(Registry& registry) {
+  PartSpec spec;
+  spec.name = "plan";
+  spec.description =
+      "plans for a vehicle from where it stands, with its own planner, before the phase in which "
+      "it drives";
+  spec.parameters = {required(text_parameter("vehicle", "", "name of the vehicle"))};
+  spec.takes = {{"map", ProductKind::kMap, false, "to plan on; default: the vehicle's own"}};
+  spec.gives = ProductKind::kPlan;
+  registry.add_job(std::move(spec), [](const ParameterSet& parameters, const JobContext& context) {
+    return std::make_unique<PlanJob>(parameters, context);
+  });
+}
+
+}  // namespace vinerow

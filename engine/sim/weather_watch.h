@@ -1,0 +1,33 @@
+#pragma once
+/// Waits for a window of weak wind over the middle of the rows.
+
+#include <deque>
+
+#include "engine/api/world_model.h"
+#include "engine/core/time.h"
+#include "engine/io/scenario.h"
+
+namespace vinerow {
+
+class WeatherWatch {
+ public:
+  /// @param world  outlives the watch
+  WeatherWatch(const io::WeatherWindow& window, const WorldModel& world);
+
+  enum class Verdict { kWait, kGo, kGiveUp };
+  /// Called at every instant while its phase waits. The wind is read once a second: what
+  /// everybody feels of it, the mean wind and the gusts, without turbulence.
+  Verdict look(Time now);
+  /// Over the last `over_s`, m/s; of what has been read so far where that is less.
+  double mean_mps() const;
+
+ private:
+  io::WeatherWindow window_;
+  const Wind& wind_;
+  Eigen::Vector2d p_W_;  ///< middle of the rows
+  bool began_ = false;
+  Time begin_, next_;
+  std::deque<double> speeds_mps_;
+};
+
+}  // namespace vinerow

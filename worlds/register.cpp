@@ -1,6 +1,8 @@
 #include "worlds/register.h"
 
 #include "worlds/mapping/cloud/folder/cloud_map_type.h"
+#include "worlds/mapping/jobs/cloud_map_job.h"
+#include "worlds/mapping/jobs/photogrammetry_job.h"
 #include "worlds/mapping/row_mesh_map.h"
 #include "worlds/mesh/mesh.h"
 #include "worlds/orchard/orchard.h"
@@ -16,6 +18,8 @@ void register_worlds(Registry& registry) {
   worlds::register_mesh(registry);
   worlds::register_row_mesh_map(registry);
   worlds::register_cloud_map(registry);
+  worlds::register_photogrammetry_job(registry);
+  worlds::register_cloud_map_job(registry);
 }
 
 }  // namespace vinerow

@@ -3,6 +3,7 @@
 #include "controllers/register.h"
 #include "engine/sensors/register.h"
 #include "engine/sim/metrics/register.h"
+#include "engine/sim/plan_job.h"
 #include "vehicles/register.h"
 #include "worlds/register.h"
 
@@ -14,6 +15,7 @@ void register_all(Registry& registry) {
   register_sensors(registry);
   register_controllers(registry);
   register_metrics(registry);
+  register_plan_job(registry);
 }
 
 }  // namespace vinerow

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
 #include <optional>
+#include <system_error>
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -10,12 +10,9 @@
 #include "engine/physics/world_scene.h"
 #include "engine/sim/pictures.h"
 #include "engine/sim/simulation.h"
-#include "tools/vinerow/cloud_file.h"
 #include "tools/vinerow/cloud_poses.h"
 #include "tools/vinerow/commands.h"
-#include "worlds/mapping/cloud/sampling/cloud_truth.h"
-#include "worlds/mapping/cloud/sampling/photogrammetry.h"
-#include "worlds/mapping/cloud/sampling/uniform_cloud.h"
+#include "worlds/mapping/cloud/sampling/write_cloud.h"
 
 namespace vinerow::tools {
 namespace {
@@ -24,7 +21,7 @@ struct Arguments {
   ScenarioArguments scenario;
   std::filesystem::path out, log;
   std::string vehicle, sensor;
-  CloudFileOptions file;
+  worlds::CloudFileOptions file;
   std::vector<double> area;
   double margin_m = 0.0;
   std::optional<double> density_per_m2, uniform_per_m2;
@@ -56,23 +53,14 @@ void check(const Arguments& arguments) {
   }
 }
 
-worlds::SurveyArea area_of(const Arguments& arguments, const WorldModel& world) {
-  Polygon polygon = world.rows.boundary_W;
-  if (!arguments.area.empty()) {
-    if (arguments.area.size() % 2 != 0) {
-      throw ConfigError(
-          fmt::format("--area: {} numbers, must be an even number: x and y of each corner in m",
-                      arguments.area.size()));
-    }
-    polygon.clear();
-    for (std::size_t i = 0; i < arguments.area.size(); i += 2) {
-      polygon.emplace_back(arguments.area[i], arguments.area[i + 1]);
-    }
-  } else if (polygon.empty()) {
-    throw ConfigError(
-        fmt::format("cloud: world '{}' has no parcel: give the area by --area", world.name));
+void make_folder_of(const std::filesystem::path& file) {
+  if (file.parent_path().empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  if (error) {
+    throw ConfigError(fmt::format("--out: folder '{}' cannot be made: {}",
+                                  file.parent_path().string(), error.message()));
   }
-  return worlds::SurveyArea(std::move(polygon), arguments.margin_m);
 }
 
 worlds::PhotogrammetryOptions photogrammetry_of(const Arguments& arguments, std::uint64_t seed) {
@@ -97,37 +85,9 @@ worlds::UniformCloudOptions uniform_of(const Arguments& arguments, std::uint64_t
   return options;
 }
 
-/// Somewhere on the ground of the area.
-Eigen::Vector3d middle_of(const worlds::SurveyArea& area, const WorldModel& world) {
-  const Eigen::Vector2d p = area.box_W().center();
-  return {p.x(), p.y(), world.terrain ? world.terrain->height_m(p.x(), p.y()) : 0.0};
-}
-
-void note_tally(const worlds::CloudTally& tally, worlds::CloudSampling& sampling) {
-  sampling.points = tally.points;
-  sampling.ground_points = tally.ground_points;
-  sampling.canopy_points = tally.canopy_points;
-  sampling.outlier_points = tally.outliers;
-  sampling.views_mean = tally.mean_views();
-  sampling.horizontal_noise_rms_m = tally.horizontal_rms_m();
-  sampling.height_noise_rms_m = tally.height_rms_m();
-  sampling.density_per_m2 = static_cast<double>(tally.points) / sampling.area_m2;
-}
-
-/// By the share of a fine grid's points that lie in it.
-double area_m2_of(const worlds::SurveyArea& area) {
-  const Eigen::AlignedBox2d box = area.box_W();
-  constexpr int kSteps = 1000;
-  int inside = 0;
-  for (int k = 0; k < kSteps * kSteps; ++k) {
-    const Eigen::Vector2d share((k % kSteps + 0.5) / kSteps, (k / kSteps + 0.5) / kSteps);
-    inside += area.contains(box.min() + share.cwiseProduct(box.sizes())) ? 1 : 0;
-  }
-  return box.volume() * inside / (static_cast<double>(kSteps) * kSteps);
-}
-
-void print_report(const worlds::CloudTruth& truth, const worlds::CloudTally& tally, double wall_s,
-                  std::uint64_t bytes, const std::string& source) {
+void print_report(const worlds::WrittenCloud& written, double wall_s, const std::string& source) {
+  const worlds::CloudTruth& truth = written.truth;
+  const worlds::CloudTally& tally = written.tally;
   const worlds::CloudSampling& s = truth.sampling;
   const auto share = [&](std::int64_t part) {
     return 100.0 * static_cast<double>(part) /
@@ -149,7 +109,7 @@ void print_report(const worlds::CloudTruth& truth, const worlds::CloudTally& tal
   fmt::print("truth          {} rows, bearing {:.3f} deg, spacing {:.3f} m, canopy {:.2f} m3\n",
              truth.rows.size(), truth.bearing_deg, truth.spacing_m, truth.volume_m3);
   fmt::print("time           {:.1f} s\n", wall_s);
-  fmt::print("file           {} ({:.1f} MB)\n", s.file, 1e-6 * static_cast<double>(bytes));
+  fmt::print("file           {} ({:.1f} MB)\n", s.file, 1e-6 * static_cast<double>(written.bytes));
   fmt::print("truth file     {}\n", worlds::truth_file_of(s.file).string());
 }
 
@@ -167,61 +127,29 @@ void make_cloud(const Arguments& arguments) {
     scenario = load(arguments.scenario, registry);
   }
   const bool uniform = arguments.uniform_per_m2.has_value();
-  CloudPoses poses;
+  PictureSet pictures;
   if (!uniform) {
-    poses = log.empty()
-                ? poses_of_plan(scenario, arguments.scenario.file, registry, arguments.vehicle)
-                : poses_of_log(log, registry, arguments.vehicle, arguments.sensor);
+    pictures = log.empty() ? pictures_of_plan(scenario, arguments.scenario.file, registry,
+                                              arguments.vehicle)
+                           : pictures_of_log(log, registry, arguments.vehicle, arguments.sensor);
   }
   const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
   physics::check_world(*world);
   const physics::WorldScene scene(*world);
-  const worlds::SurveyArea area = area_of(arguments, *world);
-
-  CloudFile file(arguments.out, arguments.file, world->origin, middle_of(area, *world));
-  const auto sink = [&file](std::span<const worlds::SampledPoint> points) { file.write(points); };
-  worlds::CloudSampling sampling;
-  worlds::CloudTally tally;
-  sampling.file = arguments.out.string();
-  sampling.crs = arguments.file.crs;
-  sampling.seed = scenario.seed;
-  sampling.area_m2 = area_m2_of(area);
-  if (uniform) {
-    const worlds::UniformCloudOptions options = uniform_of(arguments, scenario.seed);
-    tally = worlds::sample_uniformly(*world, area, options, sink);
-    sampling.method = "uniform";
-    sampling.noise_m = options.noise_m;
-    sampling.weeds_m = options.weeds.height_m;
-    sampling.outliers = options.outliers;
-    sampling.wanted_density_per_m2 = options.density_per_m2;
-  } else {
-    const worlds::PhotogrammetryReport report =
-        worlds::sample_photogrammetry(scene, *world, poses.camera, poses.X_WS, area,
-                                      photogrammetry_of(arguments, scenario.seed), sink);
-    tally = report.tally;
-    sampling.method = "photogrammetry";
-    sampling.pictures = report.pictures;
-    sampling.gsd_m = report.gsd_m;
-    sampling.match_px = arguments.match_px;
-    sampling.wanted_density_per_m2 = report.density_per_m2;
-  }
-  if (tally.points == 0) {
-    throw ConfigError(
-        uniform ? "cloud: no point: the world has no surface in the area"
-                : fmt::format("cloud: no point: the world has no surface in the area, or too few "
-                              "pictures see it ({} of {} pixels seen too seldom, {} from too close "
-                              "together)",
-                              tally.unseen, tally.aims, tally.thin));
-  }
-  const std::uint64_t bytes = file.finish();
-  note_tally(tally, sampling);
-  worlds::CloudTruth truth = worlds::measure_truth(scene, *world);
-  truth.scenario = scenario.name;
-  truth.sampling = sampling;
-  worlds::write_cloud_truth(truth, worlds::truth_file_of(arguments.out));
+  const worlds::SurveyArea area =
+      worlds::make_survey_area(arguments.area, arguments.margin_m, *world, "--area");
+  make_folder_of(arguments.out);
+  const worlds::CloudTarget target = {arguments.out, arguments.file, arguments.out.string(),
+                                      scenario.name};
+  const Result<worlds::WrittenCloud> written =
+      uniform ? worlds::write_uniform_cloud(scene, *world, area,
+                                            uniform_of(arguments, scenario.seed), target)
+              : worlds::write_photogrammetry(scene, *world, pictures, area,
+                                             photogrammetry_of(arguments, scenario.seed), target);
+  if (!written) throw ConfigError("cloud: " + written.reason());
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  print_report(truth, tally, wall_s, bytes, poses.source);
+  print_report(*written, wall_s, pictures.source);
 }
 
 }  // namespace

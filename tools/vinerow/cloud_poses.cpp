@@ -50,8 +50,8 @@ SurveyCamera camera_of(const io::Scenario& scenario, const Camera& camera,
 
 }  // namespace
 
-CloudPoses poses_of_log(const std::filesystem::path& log, const Registry& registry,
-                        const std::string& vehicle, const std::string& sensor) {
+PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& registry,
+                           const std::string& vehicle, const std::string& sensor) {
   const record::LogReader reader(log);
   const std::vector<Camera> all = find_cameras(reader);
   if (all.empty()) {
@@ -77,17 +77,17 @@ CloudPoses poses_of_log(const std::filesystem::path& log, const Registry& regist
                           "and --sensor",
                           log.string(), names));
   }
-  CloudPoses poses;
-  poses.camera = camera_of(scenario_of_log(log, registry), chosen.front(), log);
+  PictureSet pictures;
+  pictures.camera = camera_of(scenario_of_log(log, registry), chosen.front(), log);
   reader.read<CameraShot>(chosen.front().topic, [&](Time, const CameraShot& shot) {
-    if (shot.index >= 0) poses.X_WS.push_back(shot.X_WS);
+    if (shot.index >= 0) pictures.X_WS.push_back(shot.X_WS);
   });
-  poses.source = fmt::format("{} of {}", chosen.front().name(), log.string());
-  return poses;
+  pictures.source = fmt::format("{} of {}", chosen.front().name(), log.string());
+  return pictures;
 }
 
-CloudPoses poses_of_plan(const io::Scenario& scenario, const std::filesystem::path& file,
-                         const Registry& registry, const std::string& vehicle) {
+PictureSet pictures_of_plan(const io::Scenario& scenario, const std::filesystem::path& file,
+                            const Registry& registry, const std::string& vehicle) {
   SurveyArguments arguments;
   arguments.scenario.file = file;
   arguments.vehicle = vehicle;
@@ -95,14 +95,14 @@ CloudPoses poses_of_plan(const io::Scenario& scenario, const std::filesystem::pa
   const SurveyTask task = task_of_scenario(arguments, scenario, simulation);
   const auto plan = plan_survey(task.request, task.start_W, task.ground);
   if (!plan) throw ConfigError("survey: " + plan.reason());
-  CloudPoses poses;
-  poses.camera = task.request.camera;
+  PictureSet pictures;
+  pictures.camera = task.request.camera;
   for (const SurveyShot& shot : plan->shots) {
-    poses.X_WS.push_back(
+    pictures.X_WS.push_back(
         {quaternion_from_rpy({0.0, 0.5 * std::numbers::pi, shot.yaw_rad}), shot.p_W});
   }
-  poses.source = "plan of " + file.string();
-  return poses;
+  pictures.source = "plan of " + file.string();
+  return pictures;
 }
 
 }  // namespace vinerow::tools

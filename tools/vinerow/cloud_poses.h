@@ -3,31 +3,23 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
+#include "engine/api/product.h"
 #include "engine/api/registry.h"
-#include "engine/api/survey_camera.h"
 #include "engine/io/scenario.h"
-#include "engine/math/pose.h"
 
 namespace vinerow::tools {
-
-struct CloudPoses {
-  SurveyCamera camera;
-  std::vector<Pose> X_WS;
-  std::string source;  ///< for people: "plane/camera of runs/x/log.mcap"
-};
 
 /// As they were flown: true poses at the shots of one camera_trigger.
 /// @param vehicle,sensor  names, or "" where only one has taken pictures
 /// @throws ConfigError: no pictures, several cameras without a choice, unknown names
-CloudPoses poses_of_log(const std::filesystem::path& log, const Registry& registry,
-                        const std::string& vehicle, const std::string& sensor);
+PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& registry,
+                           const std::string& vehicle, const std::string& sensor);
 
 /// As they are planned by a vehicle's planner `survey`: straight down, heading along the lane.
 /// @param vehicle  name, or "" for the first that surveys
 /// @throws ConfigError: none does, the survey cannot be planned
-CloudPoses poses_of_plan(const io::Scenario& scenario, const std::filesystem::path& file,
-                         const Registry& registry, const std::string& vehicle);
+PictureSet pictures_of_plan(const io::Scenario& scenario, const std::filesystem::path& file,
+                            const Registry& registry, const std::string& vehicle);
 
 }  // namespace vinerow::tools

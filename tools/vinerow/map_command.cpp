@@ -21,7 +21,7 @@
 #include "tools/vinerow/map_truth.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
 #include "worlds/mapping/cloud/make_cloud_map.h"
-#include "worlds/mapping/cloud/reading/read_cloud.h"
+#include "worlds/mapping/cloud/reading/cloud_source.h"
 
 namespace vinerow::tools {
 namespace {
@@ -115,22 +115,6 @@ void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
-}
-
-/// What the reader told, into the map's report.
-void add_reading(const worlds::CloudReadReport& read, worlds::CloudMap& map) {
-  worlds::CloudMapReport& report = map.report;
-  report.file = fs::path(read.file).filename().string();
-  report.format = read.format;
-  report.crs = read.crs;
-  report.cloud_bytes = static_cast<std::int64_t>(read.file_bytes);
-  report.not_finite = static_cast<std::int64_t>(read.not_finite);
-  report.reduction = report.cloud_bytes > 0 ? 1.0 - static_cast<double>(report.mesh_bytes) /
-                                                        static_cast<double>(report.cloud_bytes)
-                                            : 0.0;
-  report.notes.insert(report.notes.begin(), read.sentences.begin(), read.sentences.end());
-  map.has_origin = read.has_origin;
-  map.origin = read.origin;
 }
 
 /// All row meshes in one file of each kind, for other programs.
@@ -241,7 +225,7 @@ void make_map(Arguments& arguments) {
   }
   worlds::CloudMap map = worlds::make_cloud_map(
       cloud, options, [&](const std::string& phase) { watch.end_phase(phase); });
-  add_reading(read, map);
+  worlds::add_source(read, map);
   worlds::save_map(map, arguments.out);
   export_meshes(map.map.meshes, arguments.exports, arguments.out);
   watch.end_phase("files");
@@ -256,7 +240,8 @@ void make_map(Arguments& arguments) {
   write_text(arguments.out / "report.html", map_report_html(map, pictures, title));
   write_text(arguments.out / "timing.json", timing_json(watch.phases()));
   fmt::print("{}", map_report_text(map));
-  if (truth) fmt::print("{}", comparison_text(compare_with_truth(map, *truth), map, *truth));
+  if (truth)
+    fmt::print("{}", comparison_text(worlds::compare_with_truth(map, *truth), map, *truth));
   print_phases(watch.phases());
   fmt::print("map            {}\nreport         {}\n", (arguments.out / "map.json").string(),
              (arguments.out / "report.html").string());

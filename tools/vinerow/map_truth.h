@@ -1,41 +1,14 @@
 #pragma once
-/// How far a map that was made of a synthetic cloud is from what is true of its parcel.
+/// How far a map is from what is true of its parcel, for a terminal.
 
 #include <string>
-#include <vector>
 
-#include "worlds/mapping/cloud/cloud_map.h"
-#include "worlds/mapping/cloud/sampling/cloud_truth.h"
+#include "worlds/mapping/cloud/map_comparison.h"
 
 namespace vinerow::tools {
 
-/// A true row and the map's row that lies on it. Errors are the map's figure less the true one.
-struct RowComparison {
-  int true_row = 0;
-  int mapped_row = -1;  ///< -1: not found; then all else is 0
-  double bearing_deg = 0.0;
-  double first_m = 0.0, last_m = 0.0;  ///< distance of the ends from the true ones, horizontally
-  double length_m = 0.0, base_m = 0.0, top_m = 0.0, width_m = 0.0;
-  double volume_share = 0.0;  ///< of the true volume
-  int gaps = 0, true_gaps = 0;
-};
-
-struct MapComparison {
-  std::vector<RowComparison> rows;  ///< one per true row that has canopy
-  std::vector<int> extra_rows;      ///< of the map, where no true row is
-  double bearing_deg = 0.0, spacing_m = 0.0, volume_share = 0.0;
-  double seen_volume_share = 0.0;  ///< the estimate without noise, of the true volume
-
-  int found() const;
-  double worst_end_m() const;
-  double mean_end_m() const;
-};
-
-/// @param map  moved to the truth's origin where it has one of its own
-MapComparison compare_with_truth(const worlds::CloudMap& map, const worlds::CloudTruth& truth);
-
-/// A table for the terminal: all rows together, then row by row.
-std::string comparison_text(const MapComparison& comparison, const worlds::CloudMap& map,
+/// A table: all rows together, then row by row.
+std::string comparison_text(const worlds::MapComparison& comparison, const worlds::CloudMap& map,
                             const worlds::CloudTruth& truth);
 
 }  // namespace vinerow::tools

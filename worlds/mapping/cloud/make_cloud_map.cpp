@@ -23,26 +23,6 @@ namespace {
 constexpr double kRasterCell_m = 0.1;
 constexpr double kHighest_m = 6.0;
 
-void check_options(const CloudMapOptions& options) {
-  const auto positive = [](double value, const char* name) {
-    if (!(value > 0.0)) throw ConfigError(fmt::format("{} = {:g}, must be > 0", name, value));
-  };
-  positive(options.terrain_cell_m, "terrain cell");
-  positive(options.canopy_cut_m, "canopy cut");
-  positive(options.spacing_low_m, "least row spacing");
-  positive(options.row_length_low_m, "least row length");
-  positive(options.headland_m, "headland");
-  const auto not_negative = [](double value, const char* name) {
-    if (!(value >= 0.0)) throw ConfigError(fmt::format("{} = {:g}, must be >= 0", name, value));
-  };
-  not_negative(options.budget_MB, "budget");
-  not_negative(options.occupancy.cell_m, "grid cell");
-  if (!(options.spacing_low_m < options.spacing_high_m)) {
-    throw ConfigError(fmt::format("least row spacing = {:g} m, must be < the largest, {:g} m",
-                                  options.spacing_low_m, options.spacing_high_m));
-  }
-}
-
 /// Distances from a row to the next, every metre where both are.
 std::vector<double> distances_between(const RowCurve& row, const RowCurve& next) {
   std::vector<double> distances;
@@ -186,6 +166,26 @@ void report_rows(const std::vector<RowHulls>& hulls, const std::vector<RowCanopy
 }
 
 }  // namespace
+
+void check_options(const CloudMapOptions& options) {
+  const auto positive = [](double value, const char* name) {
+    if (!(value > 0.0)) throw ConfigError(fmt::format("{} = {:g}, must be > 0", name, value));
+  };
+  positive(options.terrain_cell_m, "terrain cell");
+  positive(options.canopy_cut_m, "canopy cut");
+  positive(options.spacing_low_m, "least row spacing");
+  positive(options.row_length_low_m, "least row length");
+  positive(options.headland_m, "headland");
+  const auto not_negative = [](double value, const char* name) {
+    if (!(value >= 0.0)) throw ConfigError(fmt::format("{} = {:g}, must be >= 0", name, value));
+  };
+  not_negative(options.budget_MB, "budget");
+  not_negative(options.occupancy.cell_m, "grid cell");
+  if (!(options.spacing_low_m < options.spacing_high_m)) {
+    throw ConfigError(fmt::format("least row spacing = {:g} m, must be < the largest, {:g} m",
+                                  options.spacing_low_m, options.spacing_high_m));
+  }
+}
 
 CloudMap make_cloud_map(ParcelCloud& cloud, const CloudMapOptions& options,
                         const std::function<void(const std::string&)>& on_phase) {

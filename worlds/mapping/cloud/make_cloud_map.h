@@ -32,6 +32,9 @@ struct CloudMapOptions {
   OccupancyOptions occupancy;  ///< cell_m = 0: no grid
 };
 
+/// @throws ConfigError: out of range, or such as do not fit together
+void check_options(const CloudMapOptions& options);
+
 /// @param cloud     gets a class for every point
 /// @param on_phase  called with each phase's name when it ends, or empty
 /// @returns the map with a report of everything but the file: file, format, crs, cloud_bytes,

@@ -23,6 +23,35 @@ TEST(SurveyView, ShowsAPyramidBelowTheCamera) {
   EXPECT_FALSE(view.may_show({10.0 + 27.5, 20.0, 0.0}, 2.0));
 }
 
+TEST(SurveyView, ShowsAllOfABallOnlyIfItShowsEveryPointOfIt) {
+  const Pose pose{quaternion_from_rpy({0.2, 1.3, -0.7}), {3.0, -4.0, 60.0}};
+  SurveyCamera camera = test::square_camera();
+  camera.sensor_height_mm = 4.0;
+  const SurveyView view(camera, pose);
+  RandomStream random(1, "", "balls");
+  int whole = 0, part = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const double x = random.uniform(-5, 70), y = random.uniform(-40, 40);
+    const Vector3d centre = pose * Vector3d(x, y, random.uniform(-30, 30));
+    const double radius_m = random.uniform(0.1, 8.0);
+    int shown = 0;
+    constexpr int kPoints = 50;
+    for (int n = 0; n < kPoints; ++n) {
+      const double u = random.normal(), v = random.normal(), w = random.normal();
+      shown += view.shows(centre + radius_m * Vector3d(u, v, w).normalized()) ? 1 : 0;
+    }
+    if (view.shows_all(centre, radius_m)) {
+      ++whole;
+      EXPECT_EQ(shown, kPoints);
+      EXPECT_TRUE(view.may_show(centre, radius_m));
+    } else if (shown == kPoints) {
+      ++part;  // the nearest edge lies between the points
+    }
+  }
+  EXPECT_GT(whole, 300);
+  EXPECT_LT(part, whole / 10);
+}
+
 TEST(SurveyView, PixelsGoToTheRightAndDown) {
   const SurveyView view(test::square_camera(), test::looking_down(0.0, 0.0, 100.0));
   // 1000 pixels show 100 m. Ahead is east, so the right is south.

@@ -111,11 +111,9 @@ void draw_grid_anew(const ParameterSet& parameters, RowMap& map) {
 
 }  // namespace
 
-std::unique_ptr<RowMap> make_map_of_folder(const ParameterSet& parameters,
-                                           const MapContext& context) {
+RowMap map_in_world(CloudMap map, bool like_world, const MapContext& context,
+                    const std::string& folder) {
   VINEROW_DEMAND(context.world != nullptr && context.scene != nullptr);
-  const std::string& folder = parameters.text("folder");
-  CloudMap map = load_map(folder);
   const bool moves = map.has_origin && has_place(*context.world);
   if (moves) {
     move_map(context.world->origin, map);
@@ -127,21 +125,27 @@ std::unique_ptr<RowMap> make_map_of_folder(const ParameterSet& parameters,
                                    : fmt::format("map '{}'", folder)));
   }
   refuse_elsewhere(map, moves, *context.world, folder);
-  if (parameters.text("numbering") == "world" && !context.world->rows.rows.empty()) {
-    number_like(context.world->rows, map.map);
-  }
+  if (like_world && !context.world->rows.rows.empty()) number_like(context.world->rows, map.map);
   note_heights(map.map, context, folder);
+  return std::move(map.map);
+}
+
+std::unique_ptr<RowMap> make_map_of_folder(const ParameterSet& parameters,
+                                           const MapContext& context) {
+  const std::string& folder = parameters.text("folder");
+  RowMap map =
+      map_in_world(load_map(folder), parameters.text("numbering") == "world", context, folder);
   const bool anew = parameters.has("occupancy_cell_m") || parameters.has("virtual_walls") ||
                     parameters.has("first_wall");
-  if (anew) draw_grid_anew(parameters, map.map);
+  if (anew) draw_grid_anew(parameters, map);
   if (parameters.number("stated_surface_std_m") > 0.0) {
-    map.map.accuracy.surface_std_m = parameters.number("stated_surface_std_m");
+    map.accuracy.surface_std_m = parameters.number("stated_surface_std_m");
   }
   if (parameters.has("offset_std_m")) {
     const std::vector<double>& offset = parameters.numbers("offset_std_m");
-    map.map.accuracy.offset_std_m = {offset[0], offset[1], offset[2]};
+    map.accuracy.offset_std_m = {offset[0], offset[1], offset[2]};
   }
-  return std::make_unique<RowMap>(std::move(map.map));
+  return std::make_unique<RowMap>(std::move(map));
 }
 
 void register_cloud_map(Registry& registry) {

@@ -1,9 +1,19 @@
 #pragma once
 /// The map `cloud_map`: what `vinerow map` made of a point cloud, told to a vehicle.
 
+#include <string>
+
 #include "engine/api/registry.h"
+#include "worlds/mapping/cloud/cloud_map.h"
 
 namespace vinerow::worlds {
+
+/// A loaded map as a vehicle of the world is told it, where nothing more is asked for: in the
+/// world's frame, and numbered like the world's rows where `like_world`.
+/// @param folder  of the map, for errors
+/// @throws ConfigError: the map lies elsewhere than the world's rows
+RowMap map_in_world(CloudMap map, bool like_world, const MapContext& context,
+                    const std::string& folder);
 
 /// Rows, alleys, boundary, meshes, accuracy, terrain and occupancy of a map's folder, in the
 /// world's frame: where both have an origin the map is moved to the world's, else its coordinates

@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/random.h"
 #include "worlds/mapping/cloud/sampling/cloud_tiles.h"
+#include "worlds/mapping/cloud/sampling/hidden_rows.h"
 #include "worlds/mapping/cloud/sampling/point_colour.h"
 #include "worlds/mapping/cloud/sampling/tile_views.h"
 #include "worlds/mapping/cloud/sampling/triangulation.h"
@@ -28,35 +29,6 @@ constexpr double kLift_m = 2e-3;
 constexpr int kMostPartners = 24;
 constexpr double kLeastAngle_rad = 0.01;  ///< partners nearer than that add no depth
 
-void check(const PhotogrammetryOptions& options) {
-  const auto refuse = [](const std::string& text) { throw ConfigError(text); };
-  if (!(options.match_px >= 0.0) || !std::isfinite(options.match_px)) {
-    refuse(fmt::format("the matching error is {} pixels, must be 0 or more", options.match_px));
-  }
-  if (options.min_views < 2) {
-    refuse(
-        fmt::format("a point is seen by {} pictures at least, must be two or more: one alone "
-                    "has no depth",
-                    options.min_views));
-  }
-  if (options.max_views < options.min_views) {
-    refuse(
-        fmt::format("a point is fixed by {} pictures at most, must not be fewer than the {} "
-                    "that must see it",
-                    options.max_views, options.min_views));
-  }
-  if (!(options.max_incidence_rad > 0.0 && options.max_incidence_rad < 1.5707)) {
-    refuse(
-        fmt::format("the largest angle off a surface's normal is {:.1f} deg, must be above 0 "
-                    "and below 90 deg",
-                    options.max_incidence_rad * 57.29578));
-  }
-  if (!(options.min_baseline_rad >= 0.0 && options.min_baseline_rad < 3.1416)) {
-    refuse(fmt::format("the least angle between rays is {:.1f} deg, must be 0 to 180 deg",
-                       options.min_baseline_rad * 57.29578));
-  }
-}
-
 /// What every tile needs.
 struct Survey {
   const SceneQuery& scene;
@@ -66,6 +38,7 @@ struct Survey {
   const PhotogrammetryOptions& options;
   const CloudTiles& tiles;
   const PointColour& colour;
+  const HiddenRows& missing;
 
   std::optional<double> ground_m(const Vector2d& p) const {
     if (world.terrain) {
@@ -185,7 +158,8 @@ void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoi
     const Vector3d aim_W(aim.x(), aim.y(), *ground_m);
     showing.clear();
     for (std::size_t k = 0; k < views.shown_in.size(); ++k) {
-      if (survey.views[static_cast<std::size_t>(views.shown_in[k])].shows(aim_W)) {
+      if (views.whole[k] ||
+          survey.views[static_cast<std::size_t>(views.shown_in[k])].shows(aim_W)) {
         showing.push_back(static_cast<std::uint16_t>(k));
       }
     }
@@ -200,6 +174,10 @@ void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoi
     point.p_W = matcher.p_W() + error;
     point.rgb = survey.colour.of(matcher.hit(), matcher.p_W(), random.uniform());
     point.truth = class_of(matcher.hit().surface);
+    if (survey.missing.hide(matcher.p_W(), point.truth)) {
+      ++tally.missing;
+      continue;
+    }
     points.push_back(point);
     ++tally.points;
     tally.ground_points += point.truth == PointClass::kGround ? 1 : 0;
@@ -238,6 +216,35 @@ std::vector<SurveyView> views_of(const SceneQuery& scene, const SurveyCamera& ca
 
 }  // namespace
 
+void check_options(const PhotogrammetryOptions& options) {
+  const auto refuse = [](const std::string& text) { throw ConfigError(text); };
+  if (!(options.match_px >= 0.0) || !std::isfinite(options.match_px)) {
+    refuse(fmt::format("the matching error is {} pixels, must be 0 or more", options.match_px));
+  }
+  if (options.min_views < 2) {
+    refuse(
+        fmt::format("a point is seen by {} pictures at least, must be two or more: one alone "
+                    "has no depth",
+                    options.min_views));
+  }
+  if (options.max_views < options.min_views) {
+    refuse(
+        fmt::format("a point is fixed by {} pictures at most, must not be fewer than the {} "
+                    "that must see it",
+                    options.max_views, options.min_views));
+  }
+  if (!(options.max_incidence_rad > 0.0 && options.max_incidence_rad < 1.5707)) {
+    refuse(
+        fmt::format("the largest angle off a surface's normal is {:.1f} deg, must be above 0 "
+                    "and below 90 deg",
+                    options.max_incidence_rad * 57.29578));
+  }
+  if (!(options.min_baseline_rad >= 0.0 && options.min_baseline_rad < 3.1416)) {
+    refuse(fmt::format("the least angle between rays is {:.1f} deg, must be 0 to 180 deg",
+                       options.min_baseline_rad * 57.29578));
+  }
+}
+
 void CloudTally::add(const CloudTally& other) {
   points += other.points;
   ground_points += other.ground_points;
@@ -249,6 +256,7 @@ void CloudTally::add(const CloudTally& other) {
   unseen += other.unseen;
   thin += other.thin;
   outliers += other.outliers;
+  missing += other.missing;
 }
 
 double CloudTally::mean_views() const {
@@ -268,7 +276,7 @@ PhotogrammetryReport sample_photogrammetry(const SceneQuery& scene, const WorldM
                                            const std::vector<Pose>& poses, const SurveyArea& area,
                                            const PhotogrammetryOptions& options,
                                            const CloudSink& sink) {
-  check(options);
+  check_options(options);
   PhotogrammetryReport report;
   const std::vector<SurveyView> views = views_of(scene, camera, poses, area, report.gsd_m);
   if (views.empty()) {
@@ -283,7 +291,8 @@ PhotogrammetryReport sample_photogrammetry(const SceneQuery& scene, const WorldM
   report.density_per_m2 = options.density_per_m2.value_or(1.0 / (report.gsd_m * report.gsd_m));
   const CloudTiles tiles(area, kRim_m, report.density_per_m2);
   const PointColour colour(world);
-  const Survey survey{scene, world, views, area, options, tiles, colour};
+  const HiddenRows missing(world, options.missing_rows);
+  const Survey survey{scene, world, views, area, options, tiles, colour, missing};
   std::vector<CloudTally> tallies(static_cast<std::size_t>(tiles.count()));
   stream_points(
       tiles.count(),

@@ -26,6 +26,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "engine/api/scene_query.h"
 #include "engine/api/survey_camera.h"
@@ -42,6 +43,7 @@ struct PhotogrammetryOptions {
   int max_views = 6;                     ///< that fix a point, >= min_views
   double max_incidence_rad = 1.396;      ///< 80 deg, off the surface's normal
   double min_baseline_rad = 0.052;       ///< 3 deg, between the reference's ray and some other
+  std::vector<int> missing_rows;         ///< PlantRow::id; no picture shows their canopy
   std::uint64_t seed = 1;
 };
 
@@ -54,6 +56,7 @@ struct CloudTally {
   std::int64_t unseen = 0;  ///< candidates that too few pictures see
   std::int64_t thin = 0;    ///< candidates whose pictures are too close together
   std::int64_t outliers = 0;
+  std::int64_t missing = 0;  ///< of rows whose canopy no picture shows
 
   void add(const CloudTally& other);
   double mean_views() const;
@@ -68,9 +71,13 @@ struct PhotogrammetryReport {
   int pictures = 0;             ///< that may show the area
 };
 
+/// @throws ConfigError: out of range
+void check_options(const PhotogrammetryOptions& options);
+
 /// @param poses  X_WS of each picture; those whose axis meets no ground are left out
 /// @returns what was made; no points where there is no ground or no picture within the area
-/// @throws ConfigError: options out of range, no picture shows the area, a density as CloudTiles
+/// @throws ConfigError: options out of range, no picture shows the area, a density as CloudTiles, a
+/// missing row that the world does not have
 PhotogrammetryReport sample_photogrammetry(const SceneQuery& scene, const WorldModel& world,
                                            const SurveyCamera& camera,
                                            const std::vector<Pose>& poses, const SurveyArea& area,

@@ -1,5 +1,6 @@
 #include "worlds/mapping/cloud/sampling/survey_view.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vinerow::worlds {
@@ -18,13 +19,21 @@ bool SurveyView::shows(const Eigen::Vector3d& p_W) const {
          std::abs(p_S.z()) < tan_along_ * p_S.x();
 }
 
-bool SurveyView::may_show(const Eigen::Vector3d& centre_W, double radius_m) const {
-  const Eigen::Vector3d p_S = R_SW_ * (centre_W - p_WS_);
-  // Distance outwards from the planes through the camera and the picture's edges.
+double SurveyView::outside_m(const Eigen::Vector3d& p_S) const {
   const double across_m =
       (std::abs(p_S.y()) - tan_across_ * p_S.x()) / std::hypot(1.0, tan_across_);
   const double along_m = (std::abs(p_S.z()) - tan_along_ * p_S.x()) / std::hypot(1.0, tan_along_);
-  return p_S.x() > -radius_m && across_m < radius_m && along_m < radius_m;
+  return std::max(across_m, along_m);
+}
+
+bool SurveyView::may_show(const Eigen::Vector3d& centre_W, double radius_m) const {
+  const Eigen::Vector3d p_S = R_SW_ * (centre_W - p_WS_);
+  return p_S.x() > -radius_m && outside_m(p_S) < radius_m;
+}
+
+bool SurveyView::shows_all(const Eigen::Vector3d& centre_W, double radius_m) const {
+  const Eigen::Vector3d p_S = R_SW_ * (centre_W - p_WS_);
+  return p_S.x() > radius_m && outside_m(p_S) < -radius_m;
 }
 
 Eigen::Vector2d SurveyView::pixel(const Eigen::Vector3d& p_W) const {

@@ -22,12 +22,17 @@ class SurveyView {
   bool shows(const Eigen::Vector3d& p_W) const;
   /// Whether a ball may be in the picture: false only if it is not.
   bool may_show(const Eigen::Vector3d& centre_W, double radius_m) const;
+  /// Whether the whole ball is in the picture: true only if it is.
+  bool shows_all(const Eigen::Vector3d& centre_W, double radius_m) const;
   /// Pixels from the picture's middle. @pre in front of the camera
   Eigen::Vector2d pixel(const Eigen::Vector3d& p_W) const;
   /// d pixel / d p_W, pixels per metre. @pre in front of the camera
   Eigen::Matrix<double, 2, 3> jacobian(const Eigen::Vector3d& p_W) const;
 
  private:
+  /// Distance outwards from the planes through the camera and the picture's edges, the larger one.
+  double outside_m(const Eigen::Vector3d& p_S) const;
+
   Eigen::Matrix3d R_SW_;
   Eigen::Vector3d p_WS_;
   double f_u_, f_v_;               ///< pixels

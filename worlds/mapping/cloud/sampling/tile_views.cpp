@@ -13,6 +13,7 @@ TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vec
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!views[i].may_show(centre_W, radius_m)) continue;
     tile.shown_in.push_back(static_cast<int>(i));
+    tile.whole.push_back(views[i].shows_all(centre_W, radius_m));
     rays.push_back((centre_W - views[i].p_WS()).normalized());
   }
   const double most_cosine = std::cos(least_angle_rad);

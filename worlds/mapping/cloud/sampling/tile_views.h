@@ -10,6 +10,7 @@ namespace vinerow::worlds {
 
 struct TileViews {
   std::vector<int> shown_in;  ///< indices of views that may show the tile, ascending
+  std::vector<bool> whole;    ///< of each of them: that it shows all of the ball
   /// For each of `shown_in`: its partners (places in `shown_in`), those with the smallest angle
   /// between both rays first, and by index where two angles are equal.
   std::vector<std::vector<std::uint16_t>> partners;

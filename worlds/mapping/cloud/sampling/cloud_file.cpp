@@ -1,14 +1,11 @@
-#include "tools/vinerow/cloud_file.h"
-
-#include <fmt/format.h>
+#include "worlds/mapping/cloud/sampling/cloud_file.h"
 
 #include <cmath>
 #include <system_error>
 
-#include "engine/core/error.h"
 #include "engine/io/point_cloud_crs.h"
 
-namespace vinerow::tools {
+namespace vinerow::worlds {
 namespace {
 
 /// Points this near to each other go to a CRS by one straight map, see LocalToCrs::Nearby.
@@ -32,14 +29,6 @@ CloudFile::CloudFile(const std::filesystem::path& file, const CloudFileOptions& 
     }
   }
   for (int k = 0; k < 3; ++k) writer.las_offset[k] = std::round(near[k]);
-  if (!file.parent_path().empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(file.parent_path(), error);
-    if (error) {
-      throw ConfigError(fmt::format("--out: folder '{}' cannot be made: {}",
-                                    file.parent_path().string(), error.message()));
-    }
-  }
   writer_ = io::create_point_cloud(file, writer);
 }
 
@@ -50,12 +39,12 @@ CloudFile::~CloudFile() {
   std::filesystem::remove(file_, ignored);
 }
 
-void CloudFile::write(std::span<const worlds::SampledPoint> points) {
+void CloudFile::write(std::span<const SampledPoint> points) {
   block_.resize(points.size());
   io::LocalToCrs::Nearby nearby;
   nearby.centre_W.setConstant(std::nan(""));
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const worlds::SampledPoint& point = points[k];
+    const SampledPoint& point = points[k];
     io::CloudPoint& out = block_[k];
     out.position = point.p_W;
     if (to_crs_) {
@@ -74,4 +63,4 @@ std::uint64_t CloudFile::finish() {
   return std::filesystem::file_size(file_);
 }
 
-}  // namespace vinerow::tools
+}  // namespace vinerow::worlds

@@ -13,7 +13,7 @@
 #include "engine/io/point_cloud_writer.h"
 #include "worlds/mapping/cloud/sampling/sampled_point.h"
 
-namespace vinerow::tools {
+namespace vinerow::worlds {
 
 struct CloudFileOptions {
   std::string crs;             ///< "EPSG:25832", or "": coordinates of W
@@ -23,8 +23,8 @@ struct CloudFileOptions {
 /// What is not finished is removed again.
 class CloudFile {
  public:
-  /// Makes the folder where there is none. @param near_W  a place in the cloud
-  /// @throws ConfigError as create_point_cloud() and LocalToCrs, the folder cannot be made
+  /// @param near_W  a place in the cloud
+  /// @throws ConfigError as create_point_cloud() and LocalToCrs
   CloudFile(const std::filesystem::path& file, const CloudFileOptions& options,
             const GeoOrigin& origin, const Eigen::Vector3d& near_W);
 
@@ -33,7 +33,7 @@ class CloudFile {
   CloudFile& operator=(const CloudFile&) = delete;
 
   /// @throws ConfigError as PointCloudWriter::write()
-  void write(std::span<const worlds::SampledPoint> points);
+  void write(std::span<const SampledPoint> points);
   /// @returns bytes of the file
   std::uint64_t finish();
 
@@ -46,4 +46,4 @@ class CloudFile {
   bool finished_ = false;
 };
 
-}  // namespace vinerow::tools
+}  // namespace vinerow::worlds

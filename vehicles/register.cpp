@@ -3,6 +3,7 @@
 #include "vehicles/diff_drive_rover/diff_drive_rover.h"
 #include "vehicles/fixed_wing/fixed_wing.h"
 #include "vehicles/four_wheel_steering_rover/four_wheel_steering_rover.h"
+#include "vehicles/payloads/register.h"
 #include "vehicles/quadrotor/quadrotor.h"
 #include "vehicles/urdf_rover/urdf_rover.h"
 
@@ -15,6 +16,7 @@ void register_vehicles(Registry& registry) {
                        vehicles::make_four_wheel_steering_rover);
   registry.add_vehicle(vehicles::quadrotor_spec(), vehicles::make_quadrotor);
   registry.add_vehicle(vehicles::urdf_rover_spec(), vehicles::make_urdf_rover);
+  register_payloads(registry);
 }
 
 }  // namespace vinerow

@@ -1,0 +1,10 @@
+#pragma once
+/// Tells the registry of every built-in payload.
+
+#include "engine/api/registry.h"
+
+namespace vinerow {
+
+void register_payloads(Registry& registry);
+
+}  // namespace vinerow

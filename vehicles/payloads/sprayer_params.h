@@ -1,0 +1,45 @@
+#pragma once
+/// What a sprayer is: where its nozzles are, what they emit, when its sections open.
+
+#include <string>
+#include <vector>
+
+#include "engine/api/parameters.h"
+#include "vehicles/payloads/spray_jet.h"
+
+namespace vinerow::vehicles {
+
+struct SprayerParams {
+  // Nozzles, the same on both sides. Heights are above the ground on level ground.
+  std::vector<double> nozzle_heights_m;
+  std::vector<double> nozzle_elevation_rad;  ///< of each nozzle's axis, positive upward
+  double boom_x_m = 0.0;                     ///< of all nozzles in B
+  double nozzle_offset_m = 0.0;              ///< to the left and to the right of B's x axis
+  double spray_half_angle_rad = 0.0;         ///< of the outer cone
+  double hollow_half_angle_rad = 0.0;        ///< of the inner cone, which is empty
+  double nozzle_flow_lps = 0.0;              ///< of one nozzle at the working pressure
+  double tank_l = 0.0;
+  SprayParams spray;
+
+  // Sections: left and right.
+  bool on_legs_only = false;
+  double row_reach_m = 2.0;
+  double most_angle_rad = 0.5;
+  double beyond_end_m = 0.0;
+  double min_speed_mps = 0.2;
+  double valve_lag_s = 0.2;
+  double lead_s = 0.2;
+
+  // What is told of it.
+  int rays_per_nozzle = 2;
+  double step_m = 0.25;
+  double band_m = 0.25;
+  double wanted_ml_per_m2 = 3.0;
+};
+
+std::vector<ParameterSpec> sprayer_parameters();
+/// @param who  for errors, "rover.sprayer"
+/// @throws ConfigError where values do not go together
+SprayerParams read_sprayer(const ParameterSet& parameters, const std::string& who);
+
+}  // namespace vinerow::vehicles

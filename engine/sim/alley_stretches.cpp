@@ -95,6 +95,11 @@ class StretchFinder {
   /// Cuts the plan into parts.
   void part() {
     const int segments = static_cast<int>(points_.size()) - 1;
+    for (int i = 0; i < segments; ++i) {
+      if (points_[i].kind != PathKind::kLeg) continue;
+      first_leg_ = std::min(first_leg_, i);
+      last_leg_ = i;
+    }
     for (int i = 0; i < segments;) {
       Part next;
       next.first = i;
@@ -123,8 +128,10 @@ class StretchFinder {
         part.what = Part::What::kLink;
         return;
       case PathKind::kTransit:
-        part.what = use_.flies ? Part::What::kAbove : Part::What::kLink;
-        part.leads_there = use_.flies;
+        // Between its rows a flight is as low as in them.
+        part.leads_there = use_.flies && part.first < first_leg_;
+        part.what = part.leads_there || (use_.flies && part.first > last_leg_) ? Part::What::kAbove
+                                                                               : Part::What::kLink;
         return;
       case PathKind::kVertical:
       case PathKind::kReturn:
@@ -189,6 +196,7 @@ class StretchFinder {
   std::vector<double> at_m_;
   std::vector<PolylineDistance> lines_;
   std::vector<std::vector<Eigen::Vector2d>> extended_;
+  int first_leg_ = std::numeric_limits<int>::max(), last_leg_ = -1;
   std::vector<Part> parts_;
   std::vector<AlleyStretch> stretches_;
 };

@@ -19,10 +19,11 @@ struct AlleyStretch {
 };
 
 struct AlleyUse {
-  /// Ways up, down, home and to the rows lead above the others and need nothing.
+  /// Ways up, down, home and to the rows are not on the ground and need nothing, but for approach_m
+  /// before the rows.
   bool flies = false;
-  /// The last stretch of the way to the first alley, and the first one of a ground vehicle's way
-  /// from the last, that needs that alley too: who waits shall not stand where others turn.
+  /// So much of the way to the first alley, and of a ground vehicle's way from the last, needs that
+  /// alley too: who waits shall not stand where others turn.
   double approach_m = 4.0;
   /// How far beyond an alley's end a way that crosses its direction passes its mouth.
   double headland_m = 8.0;

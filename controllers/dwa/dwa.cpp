@@ -60,6 +60,7 @@ class Dwa final : public Guidance {
   void connect(Ports& ports) override {
     estimate_ = ports.read<Odometry>("estimate");
     plan_ = ports.read<PlannedPath>("plan");
+    authority_ = ports.read_optional<MovementAuthority>("authority");
     encoders_.connect(ports, "encoders");
     actuators_.connect(ports, "actuators");
     for (const SensorMounting& ranger : rangers_) {
@@ -73,6 +74,7 @@ class Dwa final : public Guidance {
   void step(Time now) override {
     if (plan_.is_newer_than(seen_plan_)) guide_.set_plan(plan_.value(), now);
     LocalCommand command;
+    guide_.set_stop(read_stop_at_m(authority_));
     if (estimate_.has_value()) {
       const Odometry& estimate = estimate_.value();
       for (std::size_t i = 0; i < ranges_.size(); ++i) {
@@ -144,6 +146,7 @@ class Dwa final : public Guidance {
   std::vector<std::uint64_t> seen_ranges_;
   SignalReader<Odometry> estimate_;
   SignalReader<PlannedPath> plan_;
+  SignalReader<MovementAuthority> authority_;
   SteeringReader encoders_;
   SteeringReader actuators_;
   std::vector<SignalReader<RangeSample>> ranges_;
@@ -162,7 +165,7 @@ PartSpec dwa_spec() {
       "stands.";
   spec.parameters = dwa_parameters();
   spec.default_rate_Hz = 10.0;
-  spec.reads = {"estimate", "plan", "<ultrasound sensors>", "encoders", "actuators"};
+  spec.reads = {"estimate", "plan", "<ultrasound sensors>", "encoders", "actuators", "authority"};
   spec.writes = {"local_command", "guidance_event"};
   return spec;
 }

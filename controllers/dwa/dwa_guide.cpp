@@ -24,7 +24,8 @@ DwaGuide::DwaGuide(const DwaGuideParams& params, DiscOutline outline,
       law_(params.law, std::move(outline), rooms_),
       polygon_(DiscOutline::polygon(outline_B_)),
       plan_(params.plan),
-      recovery_(params.recovery) {
+      recovery_(params.recovery),
+      stop_(params.law.acceleration_mps2) {
   for (const Eigen::Vector2d& p : outline_B_) {
     front_m_ = std::max(front_m_, p.x());
     half_width_m_ = std::max(half_width_m_, std::abs(p.y()));
@@ -34,6 +35,7 @@ DwaGuide::DwaGuide(const DwaGuideParams& params, DiscOutline outline,
 void DwaGuide::set_plan(const PlannedPath& plan, Time now) {
   plan_.set_plan(plan);
   recovery_.reset(now);
+  stop_.reset();
   trace_.clear();
   lane_left_m_ = 0.0;
   is_off_plan_ = false;
@@ -91,11 +93,16 @@ LocalCommand DwaGuide::step(Time now, const DwaState& state, const ObstacleMemor
 LocalCommand DwaGuide::drive_forward(Time now, const DwaState& state,
                                      const ObstacleMemory& memory) {
   const double acceleration = params_.law.acceleration_mps2;
-  const double speed = wanted_speed_mps();
+  const double speed = std::min(wanted_speed_mps(), stop_.update(plan_.distance_m()));
+  if (stop_.is_holding()) {
+    recovery_.forward(now, plan_.distance_m(), state.v_mps, true, true);
+    return make_stop(state);
+  }
   const double see_m = speed * params_.law.horizon_s + 0.5 * speed * speed / acceleration;
   const double free_m = plan_.calc_free_m(rooms_, polygon_, state.pose, see_m);
   const bool is_near_end = plan_.remaining_m() <= params_.finish_m;
-  const bool is_free = free_m >= std::min(see_m, plan_.remaining_m());
+  // Beyond where it is to stand, others may be.
+  const bool is_free = free_m >= std::min({see_m, plan_.remaining_m(), stop_.left_m()});
   if (is_free && (params_.mode == DwaMode::kAssist || is_near_end)) {
     lane_left_m_ = 0.0;
     recovery_.forward(now, plan_.distance_m(), state.v_mps, true, true);

@@ -11,6 +11,7 @@
 #include "controllers/dwa/obstacle_memory.h"
 #include "controllers/dwa/plan_ahead.h"
 #include "controllers/dwa/recovery.h"
+#include "controllers/parts/stop_profile.h"
 
 namespace vinerow {
 
@@ -51,6 +52,9 @@ class DwaGuide {
   /// Takes over a plan. Allocates.
   void set_plan(const PlannedPath& plan, Time now);
   bool has_plan() const { return !plan_.empty(); }
+  /// Where to stand still until told otherwise, along the plan; +infinity: nowhere. Standing there
+  /// is no jam.
+  void set_stop(double stop_at_m) { stop_.set_place(stop_at_m); }
 
   /// One cycle. No heap. @pre has_plan()
   LocalCommand step(Time now, const DwaState& state, const ObstacleMemory& memory);
@@ -82,6 +86,7 @@ class DwaGuide {
   double half_width_m_ = 0.0;
   PlanAhead plan_;
   Recovery recovery_;
+  StopProfile stop_;
   Trace trace_;
   LocalPath lane_;
   LocalPath back_;

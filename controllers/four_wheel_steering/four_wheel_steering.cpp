@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "controllers/four_wheel_steering/drive_profile.h"
 #include "controllers/four_wheel_steering/four_wheel_params.h"
@@ -12,6 +13,7 @@
 #include "controllers/four_wheel_steering/steered_vehicle.h"
 #include "controllers/four_wheel_steering/steering_law.h"
 #include "controllers/four_wheel_steering/wheel_speeds.h"
+#include "controllers/parts/stop_profile.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 
@@ -40,6 +42,7 @@ class FourWheelSteering final : public Controller {
         tracker_(params_.reference),
         axles_(vehicle_),
         slip_(params_.slip_learn_s),
+        stop_(params_.drive.acceleration_mps2),
         wheels_(params_.wheels),
         actuator_values_(make_steered_actuators()) {
     steering_values_.names = {"front_des_rad", "rear_des_rad",     "front_act_rad",
@@ -54,6 +57,7 @@ class FourWheelSteering final : public Controller {
     plan_ = ports.read<PlannedPath>("plan");
     local_ = ports.read_optional<LocalCommand>("local_command");
     encoders_ = ports.read_optional<NamedValues>("encoders");
+    authority_ = ports.read_optional<MovementAuthority>("authority");
     actuators_ = ports.write<NamedValues>("actuators");
     command_ = ports.write<VelocityCommand>("command");
     follower_ = ports.write<FollowerState>("follower");
@@ -89,6 +93,7 @@ class FourWheelSteering final : public Controller {
   void take_plan() {
     tracker_.set_path(plan_.value());
     state_ = {};
+    stop_.reset();
     state_.finished = tracker_.path().empty();
     state_.remaining_m = tracker_.path().length_m();
     if (!tracker_.path().empty()) profile_ = DriveProfile(tracker_.path(), params_.drive);
@@ -102,9 +107,16 @@ class FourWheelSteering final : public Controller {
   Drive decide() {
     Drive drive{axles_.wanted(), 0.0};
     if (estimate_.has_value()) learn();
+    most_mps_ = std::numeric_limits<double>::infinity();
     if (can_follow()) drive = follow();
-    if (!local_.has_value() || state_.finished) return drive;
-    const LocalCommand& local = local_.value();
+    if (local_.has_value() && !state_.finished) drive = obey(local_.value(), drive);
+    drive.speed_mps = std::min(drive.speed_mps, most_mps_);
+    if (stop_.is_holding() && drive.speed_mps == 0.0) drive.axles = axles_.wanted();
+    return drive;
+  }
+
+  /// What the local planner makes of the way along the plan.
+  Drive obey(const LocalCommand& local, Drive drive) const {
     switch (local.mode) {
       case LocalCommand::Mode::kFollow:
         drive.speed_mps = std::min(drive.speed_mps, std::max(local.v_mps, 0.0));
@@ -140,6 +152,8 @@ class FourWheelSteering final : public Controller {
     state_.remaining_m = path.length_m() - reference.at.distance_m;
     state_.waypoint = reference.at.segment;
     state_.finished = state_.remaining_m < params_.goal_tolerance_m;
+    stop_.set_place(read_stop_at_m(authority_));
+    most_mps_ = stop_.update(state_.distance_m);
     if (state_.finished) return {axles_.wanted(), 0.0};
 
     SteeringInput input;
@@ -209,15 +223,18 @@ class FourWheelSteering final : public Controller {
   DriveProfile profile_;
   AxleState axles_;
   SlipLearning slip_;
+  StopProfile stop_;
   WheelSpeeds wheels_;
   FollowerState state_;
-  double speed_mps_ = 0.0;  ///< commanded, of B's origin
+  double speed_mps_ = 0.0;                                     ///< commanded, of B's origin
+  double most_mps_ = std::numeric_limits<double>::infinity();  ///< that the authority allows
   NamedValues actuator_values_, steering_values_;
   std::uint64_t seen_plan_ = 0;
   SignalReader<Odometry> estimate_;
   SignalReader<PlannedPath> plan_;
   SignalReader<LocalCommand> local_;
   SignalReader<NamedValues> encoders_;
+  SignalReader<MovementAuthority> authority_;
   SignalWriter<NamedValues> actuators_, steering_;
   SignalWriter<VelocityCommand> command_;
   SignalWriter<FollowerState> follower_;
@@ -236,7 +253,7 @@ PartSpec four_wheel_steering_spec() {
       "QP (eq. 30-33); obeys a local planner where there is one.";
   spec.parameters = four_wheel_parameters();
   spec.default_rate_Hz = 50.0;
-  spec.reads = {"estimate", "plan", "local_command", "encoders"};
+  spec.reads = {"estimate", "plan", "local_command", "encoders", "authority"};
   spec.writes = {"actuators", "command", "follower", "steering", "controller_event"};
   return spec;
 }

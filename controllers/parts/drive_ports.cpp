@@ -19,6 +19,7 @@ DrivePorts::DrivePorts(const ControllerContext& context, const std::string& type
 void DrivePorts::connect(Ports& ports) {
   estimate_ = ports.read<Odometry>("estimate");
   plan_ = ports.read<PlannedPath>("plan");
+  authority_ = ports.read_optional<MovementAuthority>("authority");
   actuators_ = ports.write<NamedValues>("actuators");
   command_ = ports.write<VelocityCommand>("command");
   follower_ = ports.write<FollowerState>("follower");

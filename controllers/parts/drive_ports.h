@@ -3,12 +3,13 @@
 
 #include "controllers/parts/differential_drive.h"
 #include "controllers/parts/pose2.h"
+#include "controllers/parts/stop_profile.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {
 
-/// The followers' common ports: reads "estimate" and "plan"; writes "actuators", "command",
-/// "follower".
+/// The followers' common ports: reads "estimate", "plan" and, where somebody writes it,
+/// "authority"; writes "actuators", "command", "follower".
 class DrivePorts {
  public:
   /// @throws ConfigError as DifferentialDrive
@@ -22,6 +23,8 @@ class DrivePorts {
   bool has_estimate() const { return estimate_.has_value(); }
   const Odometry& estimate() const { return estimate_.value(); }
   Pose2 pose() const;
+  /// Distance along the plan at which to stand still; +infinity: none.
+  double stop_at_m() const { return read_stop_at_m(authority_); }
 
   /// Writes wheel speeds, command and follower state. No heap.
   void write(Time now, const VelocityCommand& command, const FollowerState& state) {
@@ -39,6 +42,7 @@ class DrivePorts {
   std::uint64_t seen_plan_ = 0;
   SignalReader<Odometry> estimate_;
   SignalReader<PlannedPath> plan_;
+  SignalReader<MovementAuthority> authority_;
   SignalWriter<NamedValues> actuators_;
   SignalWriter<VelocityCommand> command_;
   SignalWriter<FollowerState> follower_;

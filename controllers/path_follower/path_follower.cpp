@@ -75,6 +75,7 @@ class PathFollower final : public Controller {
       slip_.update(wheels_.yaw_rate_radps, estimate.w_WB_B.z(), estimate.v_WB_B.head<2>(),
                    period_s_);
       overspeed_mps_ += overspeed_share_ * (estimate.v_WB_B.x() - commanded_mps_ - overspeed_mps_);
+      law_.set_stop(ports_.stop_at_m());
       command = law_.step(ports_.pose(), slip_.slide(), overspeed_mps_);
     }
     // The wheels turn harder than the vehicle is to turn, by what slips away.
@@ -146,7 +147,7 @@ PartSpec path_follower_spec() {
                          "the mission ends this far before the path's end"),
   };
   spec.default_rate_Hz = 40.0;
-  spec.reads = {"estimate", "plan"};
+  spec.reads = {"estimate", "plan", "authority"};
   spec.writes = {"actuators", "command", "follower"};
   return spec;
 }

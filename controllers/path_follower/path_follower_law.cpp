@@ -23,6 +23,7 @@ void PathFollowerLaw::set_path(const PlannedPath& plan) {
   state_.remaining_m = path_.length_m();
   integral_m_ = 0.0;
   distance_m_ = -1.0;
+  stop_.reset();
   if (!path_.empty()) profile_ = SpeedProfile(path_, params_.speed);
 }
 
@@ -40,6 +41,7 @@ double PathFollowerLaw::calc_speed(const Path::Nearest& at, double heading_error
   }
   // Turn before driving off in a wrong direction.
   wanted *= std::max(std::cos(heading_error_rad), 0.1);
+  wanted = std::min(wanted, stop_.update(at.distance_m));
   const double step = params_.speed.acceleration_mps2 * params_.cycle_s;
   return std::clamp(wanted, std::max(speed_mps_ - 2.0 * step, 0.0), speed_mps_ + step);
 }
@@ -110,6 +112,7 @@ VelocityCommand PathFollowerLaw::step(const Pose2& pose, const Sideslip& slide,
     return {};
   }
   speed_mps_ = calc_speed(at, heading_error);
+  if (stop_.is_holding() && speed_mps_ == 0.0) return {};
   // A curvature is driven with the speed there is, not the one wanted.
   const double speed = std::max(speed_mps_ + overspeed_mps, 0.0);
   return {speed_mps_, calc_yaw_rate(at, heading_error, slide, speed)};

@@ -18,6 +18,7 @@
 /// the other way.
 
 #include "controllers/parts/path.h"
+#include "controllers/parts/stop_profile.h"
 #include "controllers/path_follower/speed_profile.h"
 
 namespace vinerow {
@@ -47,10 +48,13 @@ struct PathFollowerParams {
 
 class PathFollowerLaw {
  public:
-  explicit PathFollowerLaw(const PathFollowerParams& params) : params_(params) {}
+  explicit PathFollowerLaw(const PathFollowerParams& params)
+      : params_(params), stop_(params.speed.acceleration_mps2) {}
 
   /// Takes over a path. Allocates. A path without length is finished at once.
   void set_path(const PlannedPath& plan);
+  /// Where to stand still until told otherwise, along the path; +infinity: nowhere.
+  void set_stop(double stop_at_m) { stop_.set_place(stop_at_m); }
 
   /// One cycle. No heap.
   /// @param slide         how the vehicle slides; zero for pure rolling
@@ -71,6 +75,7 @@ class PathFollowerLaw {
   PathFollowerParams params_;
   Path path_;
   SpeedProfile profile_;
+  StopProfile stop_;
   FollowerState state_;
   bool has_path_ = false;
   bool finished_ = false;

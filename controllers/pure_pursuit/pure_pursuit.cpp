@@ -1,5 +1,6 @@
 #include "controllers/pure_pursuit/pure_pursuit.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "controllers/parts/drive_ports.h"
@@ -32,7 +33,9 @@ PurePursuitParams read_params(const ParameterSet& parameters, Duration period) {
 class PurePursuit final : public Controller {
  public:
   PurePursuit(const ParameterSet& parameters, const ControllerContext& context)
-      : ports_(context, "pure_pursuit"), law_(read_params(parameters, context.period)) {}
+      : ports_(context, "pure_pursuit"),
+        law_(read_params(parameters, context.period)),
+        stop_(parameters.number("stop_mps2")) {}
 
   void connect(Ports& ports) override { ports_.connect(ports); }
 
@@ -44,6 +47,7 @@ class PurePursuit final : public Controller {
       const Pose2 pose = ports_.pose();
       command = law_.step(pose);
       state = describe(pose);
+      command = limit(command, state);
     }
     ports_.write(now, command, state);
   }
@@ -53,7 +57,16 @@ class PurePursuit final : public Controller {
  private:
   void take_plan() {
     law_.set_path(ports_.plan());
+    stop_.reset();
     if (law_.has_path()) polyline_ = PolylineDistance(law_.points());
+  }
+
+  /// No farther than the movement authority.
+  VelocityCommand limit(VelocityCommand command, const FollowerState& state) {
+    stop_.set_place(ports_.stop_at_m());
+    command.v_mps = std::min(command.v_mps, stop_.update(state.distance_m));
+    if (stop_.is_holding()) command.yaw_rate_radps = 0.0;
+    return command;
   }
 
   /// Errors from the polyline near the current index; the law itself does not use them.
@@ -77,6 +90,7 @@ class PurePursuit final : public Controller {
 
   DrivePorts ports_;
   PurePursuitLaw law_;
+  StopProfile stop_;
   PolylineDistance polyline_;
 };
 
@@ -106,12 +120,14 @@ PartSpec pure_pursuit_spec() {
                          "vehicles with inertia"),
       positive_parameter("goal_tolerance_m", "m", 0.1,
                          "the mission ends this near the last waypoint (or one cycle's way)"),
+      positive_parameter("stop_mps2", "m/s2", 0.8,
+                         "braking where a movement authority ends; the paper's law has none"),
       boolean_parameter("aim_at_goal", true,
                         "aim at the last waypoint once it is within lookahead_m; false = literally "
                         "the paper, which may never arrive"),
   };
   spec.default_rate_Hz = 40.0;
-  spec.reads = {"estimate", "plan"};
+  spec.reads = {"estimate", "plan", "authority"};
   spec.writes = {"actuators", "command", "follower"};
   return spec;
 }

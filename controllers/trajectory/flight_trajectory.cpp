@@ -179,4 +179,19 @@ FlightTrajectory::Sample FlightTrajectory::at(double time_s) const {
   return sample;
 }
 
+double FlightTrajectory::time_of(double distance_m) const {
+  if (distance_m <= 0.0) return 0.0;
+  // Holding a place may last for ever; nothing beyond its beginning is farther.
+  double low_s = 0.0, high_s = 0.0;
+  for (const Stage& stage : stages_) {
+    if (std::isinf(stage.end_s)) break;
+    high_s = stage.end_s;
+  }
+  while (high_s - low_s > 1e-6) {
+    const double middle_s = 0.5 * (low_s + high_s);
+    (at(middle_s).distance_m < distance_m ? low_s : high_s) = middle_s;
+  }
+  return high_s;
+}
+
 }  // namespace vinerow

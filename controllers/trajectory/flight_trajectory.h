@@ -46,6 +46,9 @@ class FlightTrajectory {
 
   /// Clamped to [0, duration_s()]. No heap. @pre !empty()
   Sample at(double time_s) const;
+  /// When a distance along the plan is reached, s; at once where it is not positive, and at the end
+  /// where it is farther than the plan. No heap. @pre !empty()
+  double time_of(double distance_m) const;
 
  private:
   struct Stage {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
+#include "controllers/parts/stop_profile.h"
 #include "controllers/trajectory/flight_clock.h"
 #include "controllers/trajectory/simple_flights.h"
 #include "controllers/trajectory/trajectory_params.h"
@@ -27,6 +29,7 @@ class Trajectory final : public Guidance {
   void connect(Ports& ports) override {
     estimate_ = ports.read<Odometry>("estimate");
     if (!params_.hover_m) plan_ = ports.read<PlannedPath>("plan");
+    authority_ = ports.read_optional<MovementAuthority>("authority");
     out_ = ports.write<ReferenceTrajectory>("reference");
     news_ = ports.write<Event>("guidance_event");
   }
@@ -36,7 +39,10 @@ class Trajectory final : public Guidance {
     last_ = now;
     if (flight_.empty()) {
       take_flight(now);
+      take_authority();
+      clock_.start();
     } else if (!has_landed_) {
+      take_authority();
       advance(now, dt_s);
     }
     write(now);
@@ -62,6 +68,16 @@ class Trajectory final : public Guidance {
     tell(now, Event::Level::kInfo,
          fmt::format("takes off for {:.1f} m that take {:.1f} s", flight_.length_m(),
                      flight_.duration_s()));
+  }
+
+  /// Where the flight is to wait until it may go on.
+  void take_authority() {
+    const double stop_at_m = read_stop_at_m(authority_);
+    if (flight_.empty() || stop_at_m == stop_at_m_) return;
+    stop_at_m_ = stop_at_m;
+    const bool is_beyond = stop_at_m >= flight_.length_m();
+    clock_.set_stop(is_beyond ? std::numeric_limits<double>::infinity()
+                              : flight_.time_of(stop_at_m - StopProfile::kShort_m));
   }
 
   void advance(Time now, double dt_s) {
@@ -147,6 +163,7 @@ class Trajectory final : public Guidance {
   FlightTrajectory flight_;
   FlightClock clock_;
   double wanted_rate_ = 1.0;
+  double stop_at_m_ = std::numeric_limits<double>::infinity();  ///< along the plan
   LandingWatch watch_;
   bool has_landed_ = false;
   bool is_waiting_ = false;
@@ -156,6 +173,7 @@ class Trajectory final : public Guidance {
   std::uint64_t seen_plan_ = 0;
   SignalReader<Odometry> estimate_;
   SignalReader<PlannedPath> plan_;
+  SignalReader<MovementAuthority> authority_;
   SignalWriter<ReferenceTrajectory> out_;
   SignalWriter<Event> news_;
 };
@@ -170,7 +188,7 @@ PartSpec trajectory_spec() {
       "with 3 m/s in rows, slow turns, climb, way home and landing (paper A, 4.2).";
   spec.parameters = trajectory_parameters();
   spec.default_rate_Hz = 20.0;
-  spec.reads = {"estimate", "plan"};
+  spec.reads = {"estimate", "plan", "authority"};
   spec.writes = {"reference", "guidance_event"};
   return spec;
 }

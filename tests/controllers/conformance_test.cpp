@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -92,6 +93,7 @@ struct Bench {
     Ports world(bus, "rover", "test");
     estimate = world.write<Odometry>("estimate");
     plan = world.write<PlannedPath>("plan");
+    authority = world.write<MovementAuthority>("authority");
     const PartSpec& spec = parts().spec(PartKind::kController, type);
     controller = parts().make_controller(type, make_parameters(spec, {}), context);
     Ports ports(bus, "rover", "rover.controller");
@@ -114,6 +116,7 @@ struct Bench {
   SignalBus bus;
   SignalWriter<Odometry> estimate;
   SignalWriter<PlannedPath> plan;
+  SignalWriter<MovementAuthority> authority;
   std::unique_ptr<Controller> controller;
   SignalReader<NamedValues> actuators;
   SignalReader<FollowerState> follower;
@@ -174,6 +177,65 @@ TEST_P(EveryController, StandsStillAfterTheEnd) {
   EXPECT_TRUE(bench.controller->finished());
   EXPECT_TRUE(bench.follower.value().finished);
   bench.expect_standing();
+}
+
+TEST_P(EveryController, StandsWhereItsAuthorityEndsAndGoesOnFromThere) {
+  for (const double side : {-1.0, 1.0}) {
+    MissionSetup setup = make_small_mission(GetParam(), 0.0, side < 0.0);
+    // The middle of the first leg, then that of the second, behind the half circle of 2.5 m.
+    const double second_m = 20.0 + 2.5 * kPi + 10.0;
+    setup.stop_at_m = [=](double time_s) {
+      if (time_s < 30.0) return 10.0;
+      return time_s < 90.0 ? second_m : std::numeric_limits<double>::infinity();
+    };
+    const MissionResult result = run_mission(setup);
+    EXPECT_TRUE(result.finished);
+    EXPECT_GT(result.time_s, 90.0);
+    const auto x_at = [&](double time_s) {
+      return result.poses[static_cast<std::size_t>(std::lround(time_s / setup.cycle_s))].p.x();
+    };
+    for (double time_s = 0.0; time_s < 30.0; time_s += setup.cycle_s) {
+      ASSERT_LE(x_at(time_s), 10.1) << time_s;
+    }
+    for (double time_s = 50.0; time_s < 90.0; time_s += setup.cycle_s) {
+      ASSERT_GE(x_at(time_s), 9.9) << time_s;
+    }
+    EXPECT_GE(x_at(25.0), 9.7);
+    EXPECT_LE(x_at(80.0), 10.3);
+    EXPECT_EQ(x_at(25.0), x_at(29.9));
+    EXPECT_EQ(x_at(80.0), x_at(89.9));
+    EXPECT_GT(x_at(35.0), 12.0);
+    EXPECT_LT((result.poses.back().p - Eigen::Vector2d(0, side * 5)).norm(), 0.15);
+  }
+}
+
+TEST_P(EveryController, DoesNotBeginWithoutAuthority) {
+  Bench bench(GetParam());
+  bench.plan.write(Time{}, plan_mission(make_small_mission(GetParam())));
+  for (int i = 0; i < 100; ++i) {
+    bench.authority.write(tick(i), {-2.0, 0, "other"});
+    bench.estimate.write(tick(i), Odometry{});
+    bench.controller->step(tick(i));
+    bench.expect_standing();
+  }
+  EXPECT_FALSE(bench.controller->finished());
+  EXPECT_FALSE(bench.follower.value().finished);
+  bench.authority.write(tick(100), {10.0, -1, ""});
+  bench.controller->step(tick(100));
+  double fastest = 0.0;
+  for (const double value : bench.actuators.value().values) fastest = std::max(fastest, value);
+  EXPECT_GT(fastest, 0.0);
+}
+
+TEST_P(EveryController, IsTheSameWithEndlessAuthorityAsWithout) {
+  MissionSetup setup = make_small_mission(GetParam());
+  const MissionResult without = run_mission(setup);
+  setup.stop_at_m = [](double) { return std::numeric_limits<double>::infinity(); };
+  const MissionResult with = run_mission(setup);
+  ASSERT_EQ(with.poses.size(), without.poses.size());
+  for (std::size_t i = 0; i < with.poses.size(); ++i) {
+    ASSERT_EQ(with.poses[i].p, without.poses[i].p);
+  }
 }
 
 TEST_P(EveryController, RefusesVehiclesItCannotSteer) {

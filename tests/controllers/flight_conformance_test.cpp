@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/math/angles.h"
 #include "tests/controllers/support/flight_loop.h"
@@ -156,6 +157,50 @@ TEST_P(EveryFlightController, KeepsTheRowInGusts) {
     EXPECT_LT(height_m, 0.15) << seed;
     record("gusts_max_m", side_m);
     record("gusts_rms_m", std::sqrt(square_m2 / static_cast<double>(samples)));
+  }
+}
+
+TEST_P(EveryFlightController, StandsInTheWindWhereItsAuthorityEndsAndGoesOn) {
+  FlightSetup setup = make_setup();
+  setup.guidance = {"trajectory", {}};
+  const auto add = [&](double x, double z, PathKind kind) {
+    PathPoint point;
+    point.p_W = {x, 0.0, z};
+    point.kind = kind;
+    setup.plan.points.push_back(point);
+  };
+  add(0.0, 0.2, PathKind::kVertical);
+  add(0.0, 2.2, PathKind::kLeg);
+  add(40.0, 2.2, PathKind::kVertical);
+  add(40.0, 0.2, PathKind::kVertical);
+  setup.start.p = {0, 0, 0.2};
+  setup.rotors_on = false;
+  setup.floor_m = 0.2;
+  for (const Eigen::Vector3d& wind_W :
+       {Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(-3, 0, 0), Eigen::Vector3d(0, 3, 0)}) {
+    setup.wind = gusty_wind(wind_W, 1.0, 2.0, 80.0, 1);
+    // In the middle of the leg, 2 m of climb before it.
+    setup.stop_at_m = [](double time_s) {
+      return time_s < 30.0 ? 22.0 : std::numeric_limits<double>::infinity();
+    };
+    FlightLoop loop(setup);
+    double farthest_m = 0.0, nearest_m = 1e9, aside_m = 0.0;
+    loop.run_until(30.0, [&](const FlightLoop& now) {
+      expect_within_limits(now);
+      const Eigen::Vector3d& p_W = now.sim().state().p_W;
+      farthest_m = std::max(farthest_m, p_W.x());
+      if (now.time_s() < 20.0) return;
+      nearest_m = std::min(nearest_m, p_W.x());
+      aside_m = std::max(aside_m, std::abs(p_W.y()));
+    });
+    EXPECT_LT(farthest_m, 20.1) << wind_W.transpose();
+    EXPECT_GT(nearest_m, 19.7) << wind_W.transpose();
+    EXPECT_LT(aside_m, 0.10) << wind_W.transpose();
+    EXPECT_FALSE(loop.controller().finished());
+    loop.run_until(80.0);
+    EXPECT_TRUE(loop.controller().finished()) << wind_W.transpose();
+    EXPECT_NEAR(loop.sim().state().p_W.x(), 40.0, 0.3);
+    record("beyond_max_m", farthest_m - 20.0);
   }
 }
 

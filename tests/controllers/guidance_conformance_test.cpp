@@ -296,6 +296,75 @@ TEST_P(EveryFlightGuidance, ReferencesAreFiniteComeToAnEndAndAreTheSameTwice) {
   EXPECT_GT(fastest, 1.0);
 }
 
+TEST_P(EveryFlightGuidance, HoldsWhereItsAuthorityEndsAndGoesOnFromThere) {
+  GuideBench bench({}, GetParam());
+  bench.give_plan(make_flight());
+  constexpr double kMiddle_m = 1.3 + 10.0;  // up, and half the leg
+  bench.give_authority(kMiddle_m);
+  std::vector<ReferenceTrajectory> seen;
+  bool is_released = false;
+  const auto each = [&](double time_s, const ReferenceTrajectory& reference) {
+    seen.push_back(reference);
+    ASSERT_LT(reference.points[0].a_W.norm(), 2.0) << time_s;
+    if (is_released) return;
+    ASSERT_LE(reference.distance_m, kMiddle_m + 0.1) << time_s;
+    if (time_s >= 30.0) {
+      EXPECT_GE(reference.distance_m, kMiddle_m - 0.3);
+      EXPECT_EQ(reference.points[0].v_W, Eigen::Vector3d::Zero());
+      EXPECT_NE(reference.phase, Phase::kDone);
+      bench.give_authority(std::numeric_limits<double>::infinity());
+      is_released = true;
+    }
+  };
+  bench.fly({0, 0, 0.2}, 100.0, 0.2, each);
+  EXPECT_TRUE(is_released);
+  EXPECT_EQ(seen.back().phase, Phase::kDone);
+  // The preview is what comes, and positions, speeds and accelerations belong together.
+  for (std::size_t i = 1; i + 1 < seen.size() && seen[i + 1].phase != Phase::kLand; ++i) {
+    const double dt_s = seen[i].dt_s;
+    const TrajectoryPoint &before = seen[i - 1].points[0], &now = seen[i].points[0],
+                          &next = seen[i + 1].points[0];
+    const bool is_news = i >= 599 && i <= 602;  // the release
+    ASSERT_LT((next.p_W - before.p_W - 2.0 * dt_s * now.v_W).norm(), 2e-3) << i;
+    if (is_news) continue;
+    for (std::size_t k = 0; k < 5 && i + k < 599; ++k) {
+      ASSERT_LT((seen[i + k].points[0].p_W - seen[i].points[k].p_W).norm(), 1e-9) << i << " " << k;
+      ASSERT_LT((seen[i + k].points[0].v_W - seen[i].points[k].v_W).norm(), 1e-9) << i << " " << k;
+    }
+  }
+}
+
+TEST_P(EveryFlightGuidance, StaysOnTheGroundWithoutAuthority) {
+  GuideBench bench({}, GetParam());
+  bench.give_plan(make_flight());
+  bench.give_authority(-2.0);
+  bench.fly({0, 0, 0.2}, 20.0, 0.2, [&](double, const ReferenceTrajectory& reference) {
+    for (const TrajectoryPoint& point : reference.points) {
+      ASSERT_LT((point.p_W - Eigen::Vector3d(0, 0, 0.2)).norm(), 1e-9);
+    }
+  });
+  bench.give_authority(std::numeric_limits<double>::infinity());
+  Phase phase = Phase::kWait;
+  bench.fly({0, 0, 0.2}, 100.0, 0.2,
+            [&](double, const ReferenceTrajectory& reference) { phase = reference.phase; });
+  EXPECT_EQ(phase, Phase::kDone);
+}
+
+TEST_P(EveryFlightGuidance, IsTheSameWithEndlessAuthorityAsWithout) {
+  GuideBench a({}, GetParam()), b({}, GetParam());
+  for (GuideBench* bench : {&a, &b}) bench->give_plan(make_flight());
+  b.give_authority(std::numeric_limits<double>::infinity());
+  Odometry estimate = at({0, 0, 0.2});
+  for (int i = 0; i < 600; ++i) {
+    const ReferenceTrajectory& x = a.step(estimate);
+    const ReferenceTrajectory& y = b.step(estimate);
+    for (std::size_t k = 0; k < x.points.size(); ++k) {
+      ASSERT_TRUE(x.points[k].p_W == y.points[k].p_W && x.points[k].a_W == y.points[k].a_W);
+    }
+    estimate = shaken(x.points[1], i);
+  }
+}
+
 TEST_P(EveryFlightGuidance, AllocatesOnlyToTellAnEvent) {
   GuideBench bench({}, GetParam());
   bench.give_plan(make_flight());

@@ -281,6 +281,7 @@ Drive drive(const Course& course) {
   auto estimate = world.write<Odometry>("estimate");
   auto plan = world.write<PlannedPath>("plan");
   auto encoders = world.write<NamedValues>("encoders");
+  auto authority = world.write<MovementAuthority>("authority");
   std::vector<SignalWriter<RangeSample>> ranges;
   for (const SensorMounting& sensor : context.sensors) {
     ranges.push_back(world.write<RangeSample>(sensor.name));
@@ -308,6 +309,7 @@ Drive drive(const Course& course) {
         std::atan(0.5 * (std::tan(plant.front_rad) + std::tan(plant.rear_rad)));
     odometry.v_WB_B.head<2>() = plant.v_mps * direction(course_rad);
     estimate.write(now, odometry);
+    if (course.stop_at_m) authority.write(now, {course.stop_at_m(now.s()), -1, ""});
     encoders.write(
         now, {{"axle_front_steer_rad", "axle_rear_steer_rad"}, {plant.front_rad, plant.rear_rad}});
     for (std::size_t i = 0; i < ranges.size(); ++i) {

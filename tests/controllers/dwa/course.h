@@ -3,6 +3,7 @@
 /// rate-limited steering and speed, ultrasonic readings by ray casting against true obstacles, and
 /// guidance `dwa` in the loop through its signals. No kernel, no physics.
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ struct Course {
   std::vector<SensorMounting> sensors = make_rangers();
   /// Obstacles that go away at this time.
   double unknown_until_s = 1e9;
+  /// Where the movement authority ends at a time, along the plan; default: there is none.
+  std::function<double(double time_s)> stop_at_m;
 };
 
 /// Alley of 2.5 m along x from 0 to 30 m between two canopies; the plan is its centre line.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -225,6 +226,51 @@ TEST(Dwa, RefusesWithOneSentence) {
   EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.numbers["rear_axle_m"] = -0.75; }),
             "rover.guidance (dwa): 'rear_axle_m' of vehicle type 'four_wheel_steering_rover' is "
             "-0.75, must be > 0");
+}
+
+TEST(Dwa, StandingWhereTheAuthorityEndsIsNoJam) {
+  // Another vehicle stands across the alley behind the place.
+  Course course = make_alley();
+  course.unknown = {make_box(11.0, 12.0, -0.95, 0.95)};
+  course.longest_s = 100.0;
+  course.stop_at_m = [](double) { return 9.0; };
+  const Drive result = drive(course);
+  EXPECT_FALSE(result.finished);
+  EXPECT_EQ(result.reversals, 0);
+  EXPECT_EQ(result.drive_ticks, 0);
+  for (const Event& event : result.events) {
+    EXPECT_NE(event.text.find("sees an obstacle"), std::string::npos) << event.text;
+  }
+  for (const Pose2& pose : result.poses) ASSERT_LE(pose.p.x(), 9.1);
+  EXPECT_GE(result.end.p.x(), 8.7);
+  EXPECT_EQ(result.poses[300].p, result.end.p);
+}
+
+TEST(Dwa, GoesOnWhenTheAuthorityDoes) {
+  Course course = make_alley();
+  course.stop_at_m = [](double time_s) {
+    return time_s < 40.0 ? 9.0 : std::numeric_limits<double>::infinity();
+  };
+  const Drive result = drive(course);
+  EXPECT_TRUE(result.finished);
+  EXPECT_EQ(result.reversals, 0);
+  EXPECT_EQ(result.drive_ticks, 0);
+  EXPECT_TRUE(result.events.empty());
+  EXPECT_EQ(result.poses[300].p, result.poses[399].p);
+}
+
+TEST(Dwa, DrivingBesideThePlanItStopsAsWell) {
+  Course course = make_alley();
+  course.values = {{"mode", std::string("pure")}};
+  course.stop_at_m = [](double time_s) {
+    return time_s < 40.0 ? 9.0 : std::numeric_limits<double>::infinity();
+  };
+  const Drive result = drive(course);
+  EXPECT_TRUE(result.finished);
+  EXPECT_GT(result.drive_ticks, 100);
+  EXPECT_EQ(result.reversals, 0);
+  for (std::size_t i = 0; i < 400; ++i) ASSERT_LE(result.poses[i].p.x(), 9.1);
+  EXPECT_GE(result.poses[390].p.x(), 8.7);
 }
 
 }  // namespace

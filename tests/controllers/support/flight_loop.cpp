@@ -73,6 +73,7 @@ FlightLoop::FlightLoop(const FlightSetup& setup)
                                         make_parameters(spec, setup.controller.values), context);
   Ports world(bus_, "drone", "test");
   estimate_ = world.write<Odometry>("estimate");
+  authority_ = world.write<MovementAuthority>("authority");
   if (!setup.guidance.type.empty()) {
     context.part = "drone.guidance";
     context.period = guidance_period_;
@@ -114,6 +115,7 @@ void FlightLoop::run_until(double time_s, const std::function<void(const FlightL
   while (now_ < end) {
     estimate_.write(now_, sim_.truth());
     if (now_.ns % guidance_period_.ns == 0) {
+      if (setup_.stop_at_m) authority_.write(now_, {setup_.stop_at_m(this->time_s()), -1, ""});
       guidance_ ? guidance_->step(now_) : write_reference();
     }
     if (now_.ns % control_period_.ns == 0) controller_->step(now_);

@@ -40,6 +40,8 @@ struct FlightSetup {
   double guidance_rate_Hz = 20.0;
   int points = 21;  ///< of the reference
   double dt_s = 0.05;
+  /// Where the movement authority ends at a time, along the plan; default: there is none.
+  std::function<double(double time_s)> stop_at_m;
   WindField wind;
   Pose start;  ///< used with rotors_on: in hover there
   bool rotors_on = true;
@@ -78,6 +80,7 @@ class FlightLoop {
   std::unique_ptr<Controller> controller_;
   SignalWriter<Odometry> estimate_;
   SignalWriter<ReferenceTrajectory> reference_out_;
+  SignalWriter<MovementAuthority> authority_;
   SignalReader<ReferenceTrajectory> reference_in_;
   SignalReader<NamedValues> actuators_, wrench_;
   SignalReader<FollowerState> follower_;

@@ -148,6 +148,7 @@ MissionResult run_mission(const MissionSetup& setup) {
   auto truth_out = world.write<Odometry>("truth");
   auto plan_out = world.write<PlannedPath>("plan");
   auto gps_out = world.write<GnssFix>("gps");
+  auto authority_out = world.write<MovementAuthority>("authority");
   const auto estimator = make_estimator(setup, description);
   SignalWriter<Odometry> estimate_out;
   if (estimator) {
@@ -196,6 +197,7 @@ MissionResult run_mission(const MissionSetup& setup) {
     } else {
       estimate_out.write(now, truth);
     }
+    if (setup.stop_at_m) authority_out.write(now, {setup.stop_at_m(now.s()), -1, ""});
     controller->step(now);
     result.finished = controller->finished();
     if (result.finished) break;

@@ -2,6 +2,7 @@
 /// Drives a planner, an estimator and a controller with exact kinematics and no kernel: one pose
 /// per cycle. The plant is paper B's, or a steered one for controllers that want that (plant.h).
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -33,6 +34,8 @@ struct MissionSetup {
   double accuracy_m = 0.0;  ///< uniform error of each coordinate of the fix
   std::uint64_t seed = 1;
   double longest_s = 2000.0;
+  /// Where the movement authority ends at a time, along the plan; default: there is none.
+  std::function<double(double time_s)> stop_at_m;
 };
 
 struct MissionResult {

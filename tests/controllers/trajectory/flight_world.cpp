@@ -136,6 +136,7 @@ GuideBench::GuideBench(const Values& values, const std::string& type, VehicleDes
   Ports world(bus_, "drone", "test");
   estimate_ = world.write<Odometry>("estimate");
   plan_ = world.write<PlannedPath>("plan");
+  authority_ = world.write<MovementAuthority>("authority");
   Ports ports(bus_, "drone", "drone.guidance");
   guidance_->connect(ports);
   reference_ = world.read<ReferenceTrajectory>("reference");

@@ -79,6 +79,8 @@ class GuideBench {
                       VehicleDescription vehicle = make_quadrotor_description());
 
   void give_plan(const PlannedPath& plan);
+  /// Until told otherwise.
+  void give_authority(double stop_at_m) { authority_.write(now_, {stop_at_m, -1, ""}); }
   /// One tick of 50 ms with this estimate.
   const ReferenceTrajectory& step(const Odometry& estimate);
   const ReferenceTrajectory& step_blind();
@@ -96,6 +98,7 @@ class GuideBench {
   SignalBus bus_;
   SignalWriter<Odometry> estimate_;
   SignalWriter<PlannedPath> plan_;
+  SignalWriter<MovementAuthority> authority_;
   SignalReader<ReferenceTrajectory> reference_;
   SignalReader<Event> news_;
   std::uint64_t news_seen_ = 0;

@@ -22,7 +22,7 @@
 /// independent; those of orientation and calibration, smoothing and gross mismatches are not
 /// modelled, poses are taken as true, a canopy is the world's closed hull and not single leaves.
 ///
-/// Cost: about 6 us a point and core. Memory does not grow with the number of points.
+/// Cost: about 2.5 us a point and core. Memory does not grow with the number of points.
 
 #include <cstdint>
 #include <optional>

@@ -21,7 +21,7 @@ ParameterSpec within(ParameterSpec spec, double min, double max) {
 std::vector<ParameterSpec> sprayer_parameters() {
   // Sources: docs/payloads.md.
   return {
-      within(number_list_parameter("nozzle_heights_m", "m", {0.7, 1.05, 1.4, 1.75},
+      within(number_list_parameter("nozzle_heights_m", "m", {0.85, 1.1, 1.4, 1.65},
                                    "heights of the nozzles of a side above level ground"),
              0.05, 5.0),
       within(number_list_parameter("nozzle_elevation_deg", "deg", {0.0},

@@ -201,6 +201,7 @@ class ScenarioReader {
     const YamlEntry* traffic = root_.find_entry("traffic");
     scenario_.traffic =
         read_traffic(read_group("traffic"), traffic ? traffic->mark : file_, vehicle_names_);
+    if (!traffic) resolved_.erase("traffic");
   }
 
   void read_limits() {

@@ -173,6 +173,7 @@ PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::stri
   pictures.every_s = read.values.number("every_s");
   pictures.shares = read.values.numbers("shares");
   pictures.moment_texts = read.values.texts("moments");
+  if (pictures.moment_texts.empty()) resolved.erase("moments");
 
   const YamlNode* given = node.find("cameras");
   const YamlNode cameras = given ? *given : entry ? default_cameras(vehicles) : yaml_mapping();

@@ -87,6 +87,20 @@ void Body::set_kinematic(bool kinematic) {
                                        : flags & ~btCollisionObject::CF_NO_CONTACT_RESPONSE);
 }
 
+void Body::set_held(bool held) {
+  kinematic_ = held;
+  motion_.v_WP_W.setZero();
+  motion_.w_WP_W.setZero();
+  has_load_before_ = false;
+  if (!bullet_) return;
+  bullet_->setLinearVelocity({0.0, 0.0, 0.0});
+  bullet_->setAngularVelocity({0.0, 0.0, 0.0});
+  // Without mass it is static to the solver.
+  bullet_->setMassProps(held ? 0.0 : inertia_.mass_kg,
+                        held ? btVector3(0, 0, 0) : to_bullet(inertia_.moments_kgm2));
+  bullet_->updateInertiaTensor();
+}
+
 void Body::place_bullet(const MotionState& motion) {
   placed_ = btTransform(to_bullet(motion.q_WP), to_bullet(motion.p_WP));
   bullet_->setWorldTransform(placed_);

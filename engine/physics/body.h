@@ -26,6 +26,8 @@ class Body {
   BodyState state() const;
   void set_state(const BodyState& state);
   void set_kinematic(bool kinematic);
+  /// Stays where it is and cannot be pushed; others meet it as they meet a post.
+  void set_held(bool held);
 
   void add_force(const Eigen::Vector3d& f_W, const Eigen::Vector3d& tau_W) {
     force_W_ += f_W;

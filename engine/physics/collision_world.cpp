@@ -149,6 +149,14 @@ void CollisionWorld::add_body(btRigidBody& body) {
   movable_.reserve(bodies_.size());
 }
 
+void CollisionWorld::ignore_statics(btRigidBody& body, bool ignore) {
+  constexpr int kMoving = btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
+  body.getBroadphaseHandle()->m_collisionFilterMask =
+      ignore ? kMoving : btBroadphaseProxy::AllFilter;
+  // Takes its pairs away and finds them anew.
+  world_->refreshBroadphaseProxy(&body);
+}
+
 void CollisionWorld::forget_contacts(btRigidBody& body) {
   for (int i = 0; i < dispatcher_->getNumManifolds(); ++i) {
     btPersistentManifold* manifold = dispatcher_->getManifoldByIndexInternal(i);
@@ -200,7 +208,7 @@ bool CollisionWorld::find_contacts() {
 void CollisionWorld::solve_contacts(double dt_s) {
   movable_.clear();
   for (btRigidBody* body : bodies_) {
-    if (body->hasContactResponse()) movable_.push_back(body);
+    if (body->hasContactResponse() && !body->isStaticObject()) movable_.push_back(body);
   }
   solver_info_.m_timeStep = dt_s;
   solver_.solveGroup(movable_.data(), static_cast<int>(movable_.size()), pushing_.data(),

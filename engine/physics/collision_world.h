@@ -32,6 +32,9 @@ class CollisionWorld {
   /// Drops contact points of before, e.g. after the body was placed elsewhere.
   void forget_contacts(btRigidBody& body);
 
+  /// Lets a body meet moving bodies alone, or everything again.
+  void ignore_statics(btRigidBody& body, bool ignore);
+
   /// Finds contacts at the poses the bodies have now. @returns true if some contact may push
   bool find_contacts();
   /// Changes the bodies' velocities (and, to undo overlaps, poses) so that contacts hold.

@@ -117,6 +117,16 @@ void PhysicsWorld::set_kinematic(BodyId body, bool kinematic) {
   impl_->body(body).set_kinematic(kinematic);
 }
 
+void PhysicsWorld::set_held(BodyId body, bool held) {
+  Body& changed = impl_->body(body);
+  changed.set_held(held);
+  if (changed.bullet()) impl_->collisions.ignore_statics(*changed.bullet(), held);
+}
+
+bool PhysicsWorld::is_kinematic(BodyId body) const {
+  return impl_->body(body).is_kinematic();
+}
+
 void PhysicsWorld::add_force_W(BodyId body, const Eigen::Vector3d& f_W,
                                const Eigen::Vector3d& p_W) {
   Body& pushed = impl_->body(body);

@@ -115,6 +115,10 @@ class PhysicsWorld {
   /// A body that is placed by set_state each step and pushes nothing (kinematic fidelity). Its
   /// overlaps are reported as contacts.
   void set_kinematic(BodyId body, bool kinematic);
+  bool is_kinematic(BodyId body) const;
+  /// A parked body: at rest, meets other bodies as a post would, and static geometry not at all, so
+  /// that it costs next to nothing. @param held  false: dynamic again, from rest
+  void set_held(BodyId body, bool held);
 
   /// Accumulate until the next step. Forces in W at a point in W. Gravity is added by the world.
   void add_force_W(BodyId body, const Eigen::Vector3d& f_W, const Eigen::Vector3d& p_W);

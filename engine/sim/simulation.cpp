@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/sim/mission.h"
+#include "engine/sim/separation.h"
+#include "engine/sim/traffic_control.h"
 #include "engine/sim/vehicle_runtime.h"
 
 namespace vinerow {
@@ -56,14 +59,53 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
   for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
     vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run));
     // In a mission a vehicle begins with its phase.
-    if (scenario_.phases.empty()) vehicles_.back()->begin(now_, {});
+    if (scenario_.phases.empty()) {
+      vehicles_.back()->begin(now_, {});
+    } else {
+      vehicles_.back()->park();
+    }
   }
   if (!scenario_.phases.empty()) {
     if (products.empty()) products = own_products_ = make_own_folder();
     mission_ = std::make_unique<Mission>(run, vehicles_, std::move(products));
   }
+  add_traffic(run);
   bus_.check_connected();
   classify_signals();
+}
+
+void Simulation::add_traffic(const RunContext& run) {
+  const Duration period = period_of_rate(TrafficControl::kRate_Hz);
+  // A run whose physics step does not divide this period does without.
+  if (vehicles_.size() > 1 && period.ns % scenario_.physics_step.ns == 0) {
+    separation_ = std::make_unique<Separation>(static_cast<int>(vehicles_.size()));
+    for (const auto& vehicle : vehicles_) {
+      vehicle->tell_separation(std::numeric_limits<double>::infinity());
+    }
+    scheduler_.add(Stage::kJudge, "run.separation", period, {},
+                   [this](Time now) { watch_separation(now); });
+  }
+  if (scenario_.traffic.vehicles.empty()) return;
+  traffic_ = std::make_unique<TrafficControl>(
+      run, vehicles_, [this](const std::string& vehicle, const std::string& reason) {
+        emit(Event::Level::kError, "traffic", reason);
+        // Phases end between instants, when no part runs.
+        if (mission_) lost_vehicles_.emplace_back(vehicle, reason);
+      });
+  scheduler_.add(Stage::kPlan, "run.traffic", period, {},
+                 [this](Time now) { traffic_->step(now); });
+}
+
+void Simulation::watch_separation(Time now) {
+  for (int i = 0; i < separation_->vehicles(); ++i) {
+    const VehicleDescription& description = vehicles_[i]->vehicle().description();
+    separation_->place(i, vehicles_[i]->truth().X_WB, description.collision_centre_B,
+                       description.collision_half_extents_m);
+  }
+  separation_->update(now);
+  for (int i = 0; i < separation_->vehicles(); ++i) {
+    vehicles_[i]->tell_separation(separation_->least(i).distance_m);
+  }
 }
 
 Simulation::~Simulation() {
@@ -135,7 +177,13 @@ bool Simulation::is_done() const {
 void Simulation::work_instant() {
   if (now_.ns == 0 && map_.connected()) map_.write(now_, world_->rows.occupancy);
   for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
-  if (mission_) mission_->advance(now_);
+  if (mission_) {
+    for (const auto& [vehicle, reason] : lost_vehicles_) {
+      mission_->fail_phase_of(vehicle, now_, reason);
+    }
+    lost_vehicles_.clear();
+    mission_->advance(now_);
+  }
   scheduler_.run_due(now_);
   pass_on_events();
   hash_new_signals();

@@ -22,6 +22,9 @@
 namespace vinerow {
 
 class Mission;
+class Separation;
+class TrafficControl;
+struct RunContext;
 class VehicleRuntime;
 
 /// Looks at a run without changing it.
@@ -92,6 +95,8 @@ class Simulation {
   /// Which signals go into the digest, once all that are known are there.
   void classify_signals();
   void end_mission();
+  void add_traffic(const RunContext& run);
+  void watch_separation(Time now);
   /// Nobody has anything left to do, or a crash ends the run.
   bool is_done() const;
   /// Hands what parts wrote as events of their own to "run/events".
@@ -105,8 +110,11 @@ class Simulation {
   SignalBus bus_;
   Scheduler scheduler_;
   std::vector<std::unique_ptr<VehicleRuntime>> vehicles_;
-  std::filesystem::path own_products_;  // removed with the simulation; empty: not its own
-  std::unique_ptr<Mission> mission_;    // null: none
+  std::filesystem::path own_products_;       // removed with the simulation; empty: not its own
+  std::unique_ptr<Mission> mission_;         // null: none
+  std::unique_ptr<TrafficControl> traffic_;  // null: alleys are not reserved
+  std::vector<std::pair<std::string, std::string>> lost_vehicles_;  // wait for ever; and why
+  std::unique_ptr<Separation> separation_;                          // null: fewer than two vehicles
   SignalWriter<Event> events_;
   SignalWriter<OccupancyGrid> map_;
   std::vector<std::pair<const Signal<Event>*, std::uint64_t>>

@@ -127,8 +127,31 @@ VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext
       [this](Time now) { publish_diagnostics(now); });
 }
 
+void VehicleRuntime::park() {
+  for (int i = first_body_; i < end_body_; ++i) {
+    // What its vehicle holds itself, as an aircraft on its launcher, stays the vehicle's.
+    if (run_.physics.is_kinematic({i})) continue;
+    run_.physics.set_held({i}, true);
+    held_bodies_.push_back(i);
+  }
+  parked_ = true;
+  vehicle_->read_truth(truth_);
+  truth_.v_WB_B = truth_.w_WB_B = Eigen::Vector3d::Zero();
+}
+
+void VehicleRuntime::unpark() {
+  for (const int i : held_bodies_) run_.physics.set_held({i}, false);
+  held_bodies_.clear();
+  parked_ = false;
+}
+
 void VehicleRuntime::begin(Time now, const PhaseHandover& handover) {
   worked_ = true;
+  stranded_ = false;
+  if (parked_) {
+    unpark();
+    publish_truth(now);  // this instant's was left out
+  }
   if (now.ns > 0) {
     contacts_.values = {0.0, 0.0};
     contacts_writer_.write(now, contacts_);
@@ -171,6 +194,7 @@ void VehicleRuntime::take_down() {
 }
 
 void VehicleRuntime::end(bool done) {
+  stranded_ = !done;
   if (!done && vehicle_->description().flies()) return;
   for (const int task : tasks_) run_.scheduler.remove(task);
   tasks_.clear();
@@ -180,6 +204,7 @@ void VehicleRuntime::end(bool done) {
     actuator_values_[i] = std::clamp(0.0, spec.min, spec.max);
   }
   vehicle_->actuate(actuator_values_);
+  park();
 }
 
 double VehicleRuntime::control_rate_Hz() const {
@@ -451,11 +476,14 @@ void VehicleRuntime::add_metrics() {
 }
 
 void VehicleRuntime::publish_truth(Time now) {
+  if (parked_) return;
   vehicle_->read_truth(truth_);
   truth_writer_.write(now, truth_);
 }
 
 void VehicleRuntime::publish_diagnostics(Time now) {
+  // Nothing of it changes; the log wants it all the same.
+  if (parked_) truth_writer_.write(now, truth_);
   vehicle_->read_links(links_.X_WL);
   links_writer_.write(now, links_);
   vehicle_->publish(now);
@@ -468,6 +496,7 @@ void VehicleRuntime::publish_diagnostics(Time now) {
 }
 
 void VehicleRuntime::after_physics(Time now, Duration step) {
+  if (parked_) return;
   vehicle_->after_physics(now, step);
   Odometry state;
   vehicle_->read_truth(state);
@@ -541,6 +570,7 @@ std::map<std::string, double> VehicleRuntime::metric_results() const {
   for (const auto& [payload, part] : payloads_) {
     for (const auto& [name, value] : part->results()) all[payload + "_" + name] = value;
   }
+  if (least_separation_m_) all["min_vehicle_distance_m"] = *least_separation_m_;
   if (!worked_) {
     for (auto& [name, value] : all) value = std::numeric_limits<double>::quiet_NaN();
   }

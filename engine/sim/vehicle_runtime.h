@@ -46,11 +46,17 @@ class VehicleRuntime {
   void rehearse(const PhaseHandover& handover) { assemble(handover, std::nullopt); }
   /// Builds its parts anew and lets them run from `now` on. @throws ConfigError
   void begin(Time now, const PhaseHandover& handover);
-  /// Its parts run no more. What drives on the ground stands still; what flies, if it has not
-  /// landed, is left to its controller. @param done  it has finished, or lies on the ground
+  /// Its parts run no more, and it is parked. What flies and has not landed is left to its
+  /// controller. @param done  it has finished, or lies on the ground
   void end(bool done);
+  /// Held fast where it is, switched off, until it begins: others can touch it and not push it.
+  void park();
   /// Its parts run.
   bool at_work() const { return !tasks_.empty(); }
+  /// It works no more and did not come to its end: crashed, or stopped on its way.
+  bool stranded() const { return crash_.has_value() || stranded_; }
+  /// How near another vehicle has come so far, for its metrics; infinite: none has.
+  void tell_separation(double least_m) { least_separation_m_ = least_m; }
   /// Why no plan could be made; empty where one could. Only in missions: elsewhere that is an
   /// error.
   const std::string& plan_failure() const { return plan_failure_; }
@@ -71,7 +77,9 @@ class VehicleRuntime {
 
   /// Reads the bodies and writes "truth". Called at every instant.
   void publish_truth(Time now);
-  void before_physics(Time now, Duration step) { vehicle_->before_physics(now, step); }
+  void before_physics(Time now, Duration step) {
+    if (!parked_) vehicle_->before_physics(now, step);
+  }
   /// Advances the vehicle and checks that its state is finite and inside the envelope. @throws
   /// SimulationError
   void after_physics(Time now, Duration step);
@@ -99,6 +107,7 @@ class VehicleRuntime {
   /// @param begin  absent: nothing is scheduled
   void assemble(const PhaseHandover& handover, std::optional<Time> begin);
   void take_down();
+  void unpark();
   void schedule(Stage stage, const std::string& part, Duration period, Duration offset,
                 std::function<void(Time)> run);
   void add_diagnostic(const std::string& signal);
@@ -164,7 +173,11 @@ class VehicleRuntime {
   PhaseHandover handover_;
   std::optional<Time> begin_;  ///< of the parts that are built; absent while rehearsing
   std::vector<int> tasks_;     ///< of the scheduler, while the parts run
-  bool worked_ = false;        ///< has begun at least once
+  bool parked_ = false;
+  std::vector<int> held_bodies_;
+  bool stranded_ = false;
+  std::optional<double> least_separation_m_;
+  bool worked_ = false;  ///< has begun at least once
   bool map_edges_due_ = false;
   bool planned_ = false;
   std::string plan_failure_;

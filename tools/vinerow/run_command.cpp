@@ -55,7 +55,18 @@ class ProgressLine {
   double next_share_ = 0.1;
 };
 
+/// "succeeded  survey        0.0 to 288.9 s", and why where it did not.
+void print_phase(const PhaseReport& phase) {
+  fmt::print("{:11}  {:16}", to_string(phase.state), phase.name);
+  if (phase.begin && phase.end) {
+    fmt::print(" {:8.1f} to {:8.1f} s", phase.begin->s(), phase.end->s());
+  }
+  fmt::print("{}{}\n", phase.reason.empty() ? "" : "  ", phase.reason);
+  for (const std::string& note : phase.notes) fmt::print("             {}\n", note);
+}
+
 void print_result(const RunResult& result, const std::filesystem::path& out, bool with_log) {
+  for (const PhaseReport& phase : result.phases) print_phase(phase);
   for (const CriterionResult& c : result.criteria) {
     fmt::print("{}  {} = {:.6g} ({} {:g})\n", c.met ? "met   " : "FAILED", c.metric, c.value,
                c.kind == "max" ? "at most" : "at least", c.limit);

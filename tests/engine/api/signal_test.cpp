@@ -58,6 +58,28 @@ TEST(Signal, OptionalReadersNeedNoWriter) {
   EXPECT_FALSE(reader.has_value());
 }
 
+TEST(SignalBus, AReleasedSignalIsNewToItsReadersAndFreeForAnotherWriter) {
+  SignalBus bus;
+  auto writer = bus.advertise<VelocityCommand>("rover/command", "rover.controller");
+  auto other = bus.advertise<VelocityCommand>("rover/truth", "rover");
+  const auto reader = bus.subscribe<VelocityCommand>("rover/command", "test");
+  const auto truth = bus.subscribe<VelocityCommand>("rover/truth", "test");
+  writer.write(Time{1}, {2.0, 0.0});
+  other.write(Time{1}, {3.0, 0.0});
+  bus.release("rover");
+  EXPECT_FALSE(reader.has_value());
+  EXPECT_TRUE(truth.has_value()) << "the vehicle itself is not below 'rover'";
+  std::uint64_t seen = 0;
+  EXPECT_FALSE(reader.is_newer_than(seen));
+  writer = bus.advertise<VelocityCommand>("rover/command", "rover.controller");
+  writer.write(Time{2}, {4.0, 0.0});
+  EXPECT_TRUE(reader.is_newer_than(seen));
+  EXPECT_EQ(reader.sequence(), 1u);
+  EXPECT_EQ(reader.value().v_mps, 4.0);
+  // The bus counts on, so that log and digest miss nothing.
+  EXPECT_EQ(bus.find("rover/command")->sequence(), 2u);
+}
+
 TEST(Signal, DigestSeesNameTimeAndEveryField) {
   const auto digest = [](const char* name, Time time, double v) {
     Signal<VelocityCommand> signal(name);

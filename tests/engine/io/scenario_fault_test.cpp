@@ -46,8 +46,8 @@ TEST(ScenarioFault, KeyInTheWrongPlaceIsToldWhereItBelongs) {
 TEST(ScenarioFault, KnownKeysAreSortedAndCompleteAtTheTop) {
   EXPECT_EQ(fault_of(with_line(2, "wrld: 3")),
             "scenario:2: wrld: unknown key; did you mean 'world'? (known: criteria, description, "
-            "duration_s, gravity_mps2, metrics, name, physics, pictures, plugins, record, seed, "
-            "stop_when_finished, vehicles, vinerow, world)");
+            "duration_s, gravity_mps2, metrics, name, phases, physics, pictures, plugins, record, "
+            "seed, stop_when_finished, traffic, vehicles, vinerow, world)");
 }
 
 TEST(ScenarioFault, WrongTypeSaysWhatIsExpected) {
@@ -246,7 +246,7 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
       fault_of(with_line(10, "      truth: {type: gps}")),
       "scenario:10: vehicles.rover.sensors.truth: a sensor cannot have the name of another signal "
       "(truth, estimate, plan, reference, links, actuators, follower, command, plan_tree, "
-      "local_command, ellipsoid, estimator_state, contacts, map_edges)");
+      "local_command, ellipsoid, estimator_state, contacts, map_edges, authority)");
   EXPECT_EQ(fault_of(with_line(10, "      gps: {type: gps}\n      gps_truth: {type: gps}")),
             "scenario:11: vehicles.rover.sensors.gps_truth: a sensor cannot have the name of the "
             "truth beside the sensor 'gps'");
@@ -261,7 +261,7 @@ TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {
       observers("estimate: {type: filter}"),
       "scenario:11: vehicles.rover.observers.estimate: an observer cannot have the name of "
       "another signal (truth, estimate, plan, reference, links, actuators, follower, command, "
-      "plan_tree, local_command, ellipsoid, estimator_state, contacts, map_edges)");
+      "plan_tree, local_command, ellipsoid, estimator_state, contacts, map_edges, authority)");
   EXPECT_EQ(observers("gps: {type: filter}"),
             "scenario:11: vehicles.rover.observers.gps: its signal 'gps' has the name of the "
             "sensor 'gps'");

@@ -175,6 +175,35 @@ TEST(PhysicsWorld, KinematicBodyStaysWhereItIsPutAndReportsOverlaps) {
   EXPECT_NEAR(world.state(ball).X_WB.p.z(), 0.1, 1e-3) << "the ball fell through: pushes nothing";
 }
 
+TEST(PhysicsWorld, AHeldBodyStandsLikeAPostAndFallsWhenLetGo) {
+  WorldModel model;
+  model.terrain = test::make_flat();
+  PhysicsWorld world({}, model);
+  // In the air, where nothing else would hold it.
+  const BodyId held = world.add_body(test::make_box({0.5, 0.5, 0.5}, 20.0, {0, 0, 2.0}));
+  world.set_held(held, true);
+  EXPECT_TRUE(world.is_kinematic(held));
+  const BodyId ball = world.add_body(test::make_sphere(0.1, 1.0, {0, 0, 3.0}));
+  test::run(world, 2.0);
+  EXPECT_EQ(world.state(held).X_WB.p, Eigen::Vector3d(0, 0, 2.0));
+  EXPECT_NEAR(world.state(ball).X_WB.p.z(), 2.6, 2e-3) << "the ball lies on it";
+  world.set_held(held, false);
+  test::run(world, 2.0);
+  EXPECT_NEAR(world.state(held).X_WB.p.z(), 0.5, 2e-3) << "it meets the ground again";
+  EXPECT_NEAR(world.state(ball).X_WB.p.z(), 1.1, 4e-3);
+}
+
+TEST(PhysicsWorld, AHeldBodySunkIntoTheGroundIsNotPushedOut) {
+  WorldModel model;
+  model.terrain = test::make_flat();
+  PhysicsWorld world({}, model);
+  const BodyId box = world.add_body(test::make_box({0.5, 0.5, 0.5}, 20.0, {0, 0, 0.4}));
+  world.set_held(box, true);
+  test::run(world, 0.5);
+  EXPECT_EQ(world.state(box).X_WB.p.z(), 0.4);
+  EXPECT_TRUE(world.contacts().empty()) << "the ground is not looked at";
+}
+
 TEST(PhysicsWorld, BodyDrivenIntoAPostStops) {
   WorldModel model;
   model.terrain = test::make_flat();

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/core/error.h"
-#include "engine/sim/run.h"
+#include "engine/sim/judge.h"
 
 namespace vinerow {
 namespace {

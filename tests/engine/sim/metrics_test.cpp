@@ -265,9 +265,27 @@ TEST(Travel, TellsPowerBatteryLifeAndDisplacement) {
   EXPECT_DOUBLE_EQ(r.at("battery_hours"), 8.0);  // 7.2e6 J / 250 W = 28800 s
 }
 
+TEST(Travel, TimeAndEnergyCountFromTheFirstLook) {
+  Bench bench;
+  bench.vehicle.numbers["battery_capacity_J"] = 7.2e6;
+  bench.start(make_travel);
+  bench.drive(300.0, {1, 1}, 1.0);
+  bench.energy(9000.0);  // used before its phase began
+  bench.step();
+  bench.drive(310.0, {11, 1}, 1.0);
+  bench.energy(11500.0);
+  bench.step();
+  EXPECT_DOUBLE_EQ(bench.results().at("time_s"), 10.0);
+  EXPECT_DOUBLE_EQ(bench.results().at("energy_J"), 2500.0);
+  EXPECT_DOUBLE_EQ(bench.results().at("mean_speed_mps"), 1.0);
+}
+
 TEST(Travel, WithoutBatteryOrCapacityDoesNotGuess) {
   Bench without_capacity;
   without_capacity.start(make_travel);
+  without_capacity.drive(0.0, {0, 0}, 0.0);
+  without_capacity.energy(0.0);
+  without_capacity.step();
   without_capacity.drive(10.0, {0, 0}, 0.0);
   without_capacity.energy(1000.0);
   without_capacity.step();

@@ -46,6 +46,33 @@ TEST(Scheduler, AnOffsetDelaysTheFirstTick) {
   EXPECT_EQ(ticks, (std::vector<std::int64_t>{20, 50, 80}));
 }
 
+TEST(Scheduler, ATaskAddedLaterBeginsThere) {
+  Scheduler scheduler(Duration{10});
+  std::vector<std::int64_t> ticks;
+  for (int k = 0; k < 10; ++k) {
+    // 45 is no instant of a task that began at 0.
+    if (k == 4) {
+      scheduler.add(
+          Stage::kSense, "s", Duration{20}, Duration{10}, [&](Time t) { ticks.push_back(t.ns); },
+          Time{40});
+    }
+    scheduler.run_due(Time{k * 10});
+  }
+  EXPECT_EQ(ticks, (std::vector<std::int64_t>{50, 70, 90}));
+}
+
+TEST(Scheduler, ATaskTakenAwayRunsNoMoreAndItsTicksAreKept) {
+  Scheduler scheduler(Duration{10});
+  int ticks = 0;
+  const int task = scheduler.add(Stage::kSense, "s", Duration{10}, {}, [&](Time) { ++ticks; });
+  for (int k = 0; k < 3; ++k) scheduler.run_due(Time{k * 10});
+  scheduler.remove(task);
+  for (int k = 3; k < 9; ++k) scheduler.run_due(Time{k * 10});
+  EXPECT_EQ(ticks, 3);
+  ASSERT_EQ(scheduler.reports().size(), 1u);
+  EXPECT_EQ(scheduler.reports()[0].ticks, 3u);
+}
+
 TEST(Scheduler, PeriodsThatTheStepDoesNotDivideAreRefusedWithBothNumbers) {
   Scheduler scheduler(Duration{1'000'000});
   try {

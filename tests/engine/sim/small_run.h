@@ -16,8 +16,8 @@ namespace vinerow::test {
 class RunFixture : public FolderTest {
  protected:
   /// @param yaml  the scenario
-  explicit RunFixture(std::string yaml)
-      : FolderTest("run"), registry_(small_registry()), yaml_(std::move(yaml)) {
+  explicit RunFixture(std::string yaml, Registry registry = small_registry())
+      : FolderTest("run"), registry_(std::move(registry)), yaml_(std::move(yaml)) {
     register_metrics(registry_);
   }
 

@@ -1,0 +1,116 @@
+#include "engine/sim/traffic_control.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.h"
+
+namespace vinerow {
+namespace {
+
+/// Whether one of a vehicle's parts stops where its authority ends.
+bool honours_authority(const io::VehicleConfig& vehicle, const Registry& registry) {
+  const auto reads = [&](PartKind kind, const std::optional<io::PartConfig>& part) {
+    if (!part) return false;
+    const std::vector<std::string>& names = registry.spec(kind, part->type).reads;
+    return std::any_of(names.begin(), names.end(),
+                       [](const std::string& name) { return name.starts_with("authority"); });
+  };
+  return reads(PartKind::kGuidance, vehicle.guidance) ||
+         reads(PartKind::kController, vehicle.controller);
+}
+
+TrafficVehicle describe(const VehicleRuntime& vehicle, double stop_before_m) {
+  const VehicleDescription& description = vehicle.vehicle().description();
+  TrafficVehicle result;
+  result.name = vehicle.name();
+  const double half_m = description.collision_half_extents_m.x();
+  result.length_m = 2.0 * half_m;
+  result.stop_before_m = stop_before_m + half_m;
+  // From its top speed at a gentle 0.5 m/s2; a vehicle between rows is never faster than 4 m/s.
+  const auto speed = description.numbers.find("max_speed_mps");
+  const double v_mps = speed == description.numbers.end() ? 1.5 : std::min(speed->second, 4.0);
+  result.look_ahead_m = v_mps * v_mps + 2.0;
+  result.use.flies = description.flies();
+  return result;
+}
+
+}  // namespace
+
+TrafficControl::TrafficControl(
+    const RunContext& run, const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles,
+    std::function<void(const std::string&, const std::string&)> on_deadlock)
+    : on_deadlock_(std::move(on_deadlock)) {
+  const io::TrafficConfig& config = run.scenario.traffic;
+  std::vector<TrafficVehicle> described;
+  for (const std::string& name : config.vehicles) {
+    for (std::size_t i = 0; i < vehicles.size(); ++i) {
+      if (vehicles[i]->name() != name) continue;
+      if (!honours_authority(run.scenario.vehicles[i], run.registry)) {
+        throw ConfigError(fmt::format(
+            "{}: traffic.reserve_alleys: neither guidance nor controller of '{}' reads the signal "
+            "'authority', so it cannot wait for an alley",
+            config.where.text(), name));
+      }
+      Lane lane;
+      lane.vehicle = vehicles[i].get();
+      lane.plan = run.bus.subscribe_optional<PlannedPath>(name + "/plan", "traffic");
+      lane.follower = run.bus.subscribe_optional<FollowerState>(name + "/follower", "traffic");
+      // What a fixed wing calls so is of another type, and it does not share alleys.
+      lane.reference =
+          run.bus.subscribe_optional<ReferenceTrajectory>(name + "/reference", "traffic");
+      lane.authority = run.bus.advertise<MovementAuthority>(name + "/authority", "traffic");
+      described.push_back(describe(*vehicles[i], config.stop_before_m));
+      lanes_.push_back(std::move(lane));
+    }
+  }
+  if (run.world.rows.alleys.empty()) {
+    throw ConfigError(
+        fmt::format("{}: traffic.reserve_alleys: the world has no alleys", config.where.text()));
+  }
+  traffic_ = std::make_unique<AlleyTraffic>(run.world.rows.alleys, std::move(described));
+}
+
+double TrafficControl::distance_m(const Lane& lane) const {
+  if (lane.follower.has_value()) return lane.follower.value().distance_m;
+  return lane.reference.has_value() ? lane.reference.value().distance_m : 0.0;
+}
+
+void TrafficControl::follow(int i, Time now) {
+  Lane& lane = lanes_[i];
+  const bool works = lane.vehicle->at_work() && !lane.vehicle->crash();
+  if (works && lane.plan.has_value() && lane.plan.is_newer_than(lane.plan_seen)) {
+    traffic_->begin(i, now, lane.plan.value(), distance_m(lane));
+    lane.works = true;
+    lane.lost = false;
+  }
+  if (!lane.works) return;
+  if (works) {
+    traffic_->advance(i, now, distance_m(lane));
+    return;
+  }
+  lane.works = false;
+  lane.plan_seen = 0;
+  traffic_->leave(i, lane.vehicle->stranded() ? AlleyTraffic::Leaving::kStaysThere
+                                              : AlleyTraffic::Leaving::kGone);
+}
+
+void TrafficControl::step(Time now) {
+  for (int i = 0; i < traffic_->vehicles(); ++i) follow(i, now);
+  traffic_->serve();
+  for (int i = 0; i < traffic_->vehicles(); ++i) {
+    if (lanes_[i].works) lanes_[i].authority.write(now, traffic_->authority(i));
+  }
+  const std::optional<std::string> deadlock = traffic_->deadlock();
+  if (!deadlock) return;
+  for (int i = 0; i < traffic_->vehicles(); ++i) {
+    Lane& lane = lanes_[i];
+    if (!lane.works || lane.lost || traffic_->authority(i).alley < 0) continue;
+    lane.lost = true;
+    on_deadlock_(lane.vehicle->name(), *deadlock);
+  }
+}
+
+}  // namespace vinerow

@@ -1,0 +1,50 @@
+#pragma once
+/// Wires the reservation of alleys (alley_traffic.h) into a run: reads the plans and distances of
+/// the vehicles that share alleys and writes each its movement authority.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/sim/alley_traffic.h"
+#include "engine/sim/vehicle_runtime.h"
+
+namespace vinerow {
+
+class TrafficControl {
+ public:
+  /// How often authorities are worked out.
+  static constexpr double kRate_Hz = 20.0;
+
+  /// @param vehicles  of the run, in its order; outlive this object
+  /// @param on_deadlock  told once of every vehicle that will wait for ever, and why
+  /// @throws ConfigError if a vehicle's parts do not read the signal "authority", or the world has
+  ///   no alleys
+  TrafficControl(
+      const RunContext& run, const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles,
+      std::function<void(const std::string& vehicle, const std::string& reason)> on_deadlock);
+
+  /// One tick, of the stage that plans.
+  void step(Time now);
+
+ private:
+  struct Lane {
+    VehicleRuntime* vehicle;
+    SignalReader<PlannedPath> plan;
+    SignalReader<FollowerState> follower;
+    SignalReader<ReferenceTrajectory> reference;
+    SignalWriter<MovementAuthority> authority;
+    std::uint64_t plan_seen = 0;
+    bool works = false;
+    bool lost = false;  ///< its waiting for ever has been told
+  };
+  void follow(int i, Time now);
+  double distance_m(const Lane& lane) const;
+
+  std::vector<Lane> lanes_;
+  std::unique_ptr<AlleyTraffic> traffic_;
+  std::function<void(const std::string&, const std::string&)> on_deadlock_;
+};
+
+}  // namespace vinerow

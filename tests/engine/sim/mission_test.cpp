@@ -1,0 +1,236 @@
+/// Missions as graphs of phases: order, products, failures, verdicts and their files.
+
+#include "engine/sim/mission.h"
+#include "engine/core/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "engine/record/log_reader.h"
+#include "tests/engine/sim/mission_parts.h"
+#include "tests/engine/sim/small_run.h"
+
+namespace vinerow {
+namespace {
+
+using testing::HasSubstr;
+
+/// Survey for 2 s, a job of 3 s, then two vehicles side by side for 1 s and 4 s.
+const char* const kScenario = R"(
+vinerow: 1
+name: graph
+duration_s: 60
+world: {type: plain}
+vehicles:
+  plane:
+    type: statue
+    spawn: {x_m: 0, y_m: 0}
+    sensors: {camera: {type: clicker}}
+    controller: {type: worker, work_s: 2}
+  rover:
+    type: statue
+    spawn: {x_m: 1, y_m: 0}
+    controller: {type: worker, work_s: 4}
+  drone:
+    type: statue
+    spawn: {x_m: 2, y_m: 0}
+    controller: {type: worker, work_s: 1}
+metrics: {travel: {type: travel}}
+phases:
+  survey: {vehicles: [plane]}
+  build_map: {job: {type: count_rows}, pictures: from survey, duration_s: 3}
+  spray: {vehicles: [rover], map: from build_map, on_failure: continue}
+  scout: {vehicles: [drone], map: from build_map, on_failure: continue}
+criteria:
+  - {metric: build_map.rows, min: 2}
+)";
+
+class MissionRun : public test::RunFixture {
+ protected:
+  MissionRun() : RunFixture(kScenario, test::mission_registry()) {}
+  /// State, begin and end of every phase: "survey succeeded 0.0-2.0".
+  static std::vector<std::string> told(const RunResult& result) {
+    std::vector<std::string> lines;
+    for (const PhaseReport& phase : result.phases) {
+      std::ostringstream line;
+      line.precision(2);
+      line << phase.name << " " << to_string(phase.state) << std::fixed;
+      if (phase.begin) line << " " << phase.begin->s();
+      if (phase.end) line << "-" << phase.end->s();
+      lines.push_back(line.str());
+    }
+    return lines;
+  }
+  static const PhaseReport& phase(const RunResult& result, const std::string& name) {
+    for (const PhaseReport& report : result.phases) {
+      if (report.name == name) return report;
+    }
+    throw std::logic_error(name);
+  }
+  std::string text_of(const char* file) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / file).rdbuf();
+    return text.str();
+  }
+};
+
+TEST_F(MissionRun, PhasesBeginWhenWhatTheyWaitForIsDone) {
+  const RunResult result = run();
+  EXPECT_EQ(result.status, RunStatus::kAllMet);
+  EXPECT_TRUE(result.finished);
+  // A controller says at its tick that it has finished; the next instant, 1 ms later, acts on it.
+  EXPECT_EQ(told(result),
+            (std::vector<std::string>{"survey succeeded 0.00-2.00", "build_map succeeded 2.00-5.00",
+                                      "spray succeeded 5.00-9.00", "scout succeeded 5.00-6.00"}));
+  EXPECT_NEAR(result.simulated_s, 9.0, 0.01);
+}
+
+TEST_F(MissionRun, ProductsReachThoseWhoNameThem) {
+  const RunResult result = run();
+  // Pictures at 0, 1 and 2 s, each told twice: the one at 2.0 falls into the survey's last tick.
+  EXPECT_EQ(phase(result, "build_map").numbers.at("rows"), 3.0);
+  const record::LogReader log(folder_ / "log.mcap");
+  std::vector<double> rows;
+  Time first{-1};
+  log.read<NamedValues>("/rover/map_rows", [&](Time t, const NamedValues& value) {
+    if (rows.empty()) first = t;
+    rows.push_back(value.values[0]);
+  });
+  ASSERT_FALSE(rows.empty());
+  EXPECT_EQ(rows.front(), 3.0) << "the rover's controller was built on the made map";
+  EXPECT_NEAR(first.s(), 5.0, 0.01) << "and ran from its phase's begin";
+}
+
+TEST_F(MissionRun, SameMissionSameDigestAndFiles) {
+  const std::string digest = run().digest;
+  const std::string junit = text_of("junit.xml");
+  EXPECT_EQ(run().digest, digest);
+  EXPECT_EQ(text_of("junit.xml"), junit);
+  EXPECT_NE(run({"rover.controller.work_s=3"}).digest, digest);
+}
+
+TEST_F(MissionRun, AFailedJobBlocksWhatWaitsForItAndEndsTheMission) {
+  const RunResult result = run({"phases.build_map.job.fails=true"});
+  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  EXPECT_EQ(phase(result, "build_map").state, PhaseState::kFailed);
+  EXPECT_EQ(phase(result, "build_map").reason, "the pictures are too dark");
+  EXPECT_EQ(phase(result, "spray").state, PhaseState::kBlocked);
+  EXPECT_EQ(phase(result, "spray").reason, "waits for 'build_map', which failed");
+  EXPECT_NEAR(result.simulated_s, 5.0, 0.01);
+  ASSERT_EQ(result.criteria.size(), 1u);
+  EXPECT_FALSE(result.criteria[0].met) << "a number that was not measured meets nothing";
+}
+
+TEST_F(MissionRun, ATimeoutFailsItsPhaseAloneWhereOthersMayContinue) {
+  const RunResult result = run(
+      {"rover.controller.work_s=1000", "phases.spray.timeout_s=2", "drone.controller.work_s=6"});
+  EXPECT_EQ(told(result)[2], "spray failed 5.00-7.00");
+  EXPECT_EQ(phase(result, "spray").reason, "rover had not finished after 2 s, its timeout");
+  EXPECT_EQ(told(result)[3], "scout succeeded 5.00-11.00");
+  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+}
+
+TEST_F(MissionRun, AnAbortStopsWhatRuns) {
+  const RunResult result = run({"rover.controller.work_s=1000", "phases.spray.timeout_s=2",
+                                "phases.spray.on_failure=abort", "drone.controller.work_s=6"});
+  EXPECT_EQ(told(result)[3], "scout stopped 5.00-7.00");
+  EXPECT_EQ(phase(result, "scout").reason, "'spray' failed, which ends the mission");
+}
+
+TEST_F(MissionRun, ACrashLeavesTheOthersAtWork) {
+  const RunResult result = run({"drone.crash_s=5.5", "phases.scout.on_failure=continue"});
+  EXPECT_EQ(phase(result, "scout").state, PhaseState::kFailed);
+  EXPECT_THAT(phase(result, "scout").reason, HasSubstr("drone crashed at 5.500 s"));
+  EXPECT_EQ(told(result)[2], "spray succeeded 5.00-9.00");
+  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+}
+
+TEST_F(MissionRun, AMissedCriterionFailsItsPhase) {
+  const RunResult result = run({"phases.build_map.criteria=[{metric: rows, min: 16}]"});
+  EXPECT_EQ(phase(result, "build_map").state, PhaseState::kFailed);
+  EXPECT_EQ(phase(result, "build_map").reason, "missed rows = 3 (at least 16)");
+  ASSERT_EQ(phase(result, "build_map").criteria.size(), 1u);
+}
+
+TEST_F(MissionRun, TheEndOfTheRunFailsWhatRunsAndNamesWhatWasNotReached) {
+  const RunResult result = run({"duration_s=3"});
+  EXPECT_EQ(phase(result, "build_map").reason, "the run's duration of 3 s was over");
+  EXPECT_EQ(phase(result, "spray").state, PhaseState::kNotStarted);
+  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+}
+
+TEST_F(MissionRun, WeatherIsWaitedFor) {
+  const RunResult calm = run({"phases.survey.weather={max_wind_mps: 1, over_s: 5, wait_s: 0}"});
+  EXPECT_NEAR(phase(calm, "survey").begin->s(), 4.0, 0.01) << "the first five readings";
+  EXPECT_EQ(calm.status, RunStatus::kAllMet);
+}
+
+TEST_F(MissionRun, VerdictsAreTestCases) {
+  run({"phases.build_map.job.fails=true"});
+  const std::string xml = text_of("junit.xml");
+  EXPECT_THAT(xml, HasSubstr("<testsuite name=\"graph\" tests=\"6\" failures=\"2\" errors=\"0\" "
+                             "skipped=\"2\""));
+  EXPECT_THAT(xml, HasSubstr("<testcase classname=\"graph.phases\" name=\"build_map\" "
+                             "time=\"3.000\"><failure message=\"the pictures are too dark\"/>"));
+  EXPECT_THAT(xml, HasSubstr("name=\"spray\" time=\"0.000\"><skipped message=\"blocked: waits for "
+                             "'build_map', which failed\"/>"));
+}
+
+TEST_F(MissionRun, TheSummaryTellsThePhases) {
+  run();
+  const nlohmann::json phases = summary()["phases"];
+  ASSERT_EQ(phases.size(), 4u);
+  EXPECT_EQ(phases[1]["name"], "build_map");
+  EXPECT_EQ(phases[1]["kind"], "job");
+  EXPECT_EQ(phases[1]["job"], "count_rows");
+  EXPECT_EQ(phases[1]["state"], "succeeded");
+  EXPECT_EQ(phases[1]["after"], (nlohmann::json{"survey"}));
+  EXPECT_EQ(phases[1]["product"]["kind"], "map");
+  EXPECT_EQ(phases[2]["vehicles"], (nlohmann::json{"rover"}));
+  EXPECT_TRUE(phases[2]["metrics"]["rover"].contains("time_s"));
+}
+
+TEST_F(MissionRun, TimesOfAPhaseCountFromItsBegin) {
+  const RunResult result = run();
+  // 4 s of work; without that it would be 9 s of the run.
+  EXPECT_NEAR(result.metrics.at("rover").at("time_s"), 4.0, 0.1);
+}
+
+TEST_F(MissionRun, AVehicleMayWorkInSeveralPhasesOneAfterTheOther) {
+  const RunResult result =
+      run({"phases.again={vehicles: [plane], after: [scout]}", "drone.controller.work_s=1"});
+  EXPECT_EQ(told(result).back(), "again succeeded 6.00-8.00");
+  EXPECT_EQ(result.status, RunStatus::kAllMet);
+}
+
+TEST_F(MissionRun, FaultsOfPartsAreFoundBeforeAnythingRuns) {
+  const auto fault_of = [this](const char* set) -> std::string {
+    try {
+      run({set});
+    } catch (const ConfigError& fault) {
+      return fault.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(fault_of("criteria=[{metric: rover.tme_s, max: 1}]"),
+              HasSubstr("did you mean 'rover.time_s'?"));
+  EXPECT_THAT(fault_of("phases.spray.criteria=[{metric: rover.tme_s, max: 1}]"),
+              HasSubstr("did you mean 'rover.time_s'?"));
+  EXPECT_THAT(fault_of("traffic={reserve_alleys: [rover, drone]}"),
+              HasSubstr("neither guidance nor controller of 'rover' reads the signal 'authority', "
+                        "so it cannot wait for an alley"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "events.jsonl"));
+}
+
+TEST_F(MissionRun, HowNearOthersCameIsMeasured) {
+  const RunResult result = run();
+  // Boxes of 1 m on a line, 1 m apart.
+  EXPECT_EQ(result.metrics.at("rover").at("min_vehicle_distance_m"), 0.0);
+  EXPECT_EQ(run({"drone.spawn.x_m=4"}).metrics.at("drone").at("min_vehicle_distance_m"), 2.0);
+}
+
+}  // namespace
+}  // namespace vinerow

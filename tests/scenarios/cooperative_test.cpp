@@ -1,0 +1,102 @@
+/// Paper A whole on four rows: flight, cloud, map, then two vehicles in the rows; and what becomes
+/// of the mission when one of its phases is broken.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "engine/sim/run.h"
+#include "tests/scenarios/command.h"
+#include "tests/support/folder_test.h"
+#include "tools/parts/register_all.h"
+
+namespace vinerow {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class CooperativeMission : public test::FolderTest {
+ protected:
+  CooperativeMission() : FolderTest("cooperative") { register_all(registry_); }
+
+  RunResult run(std::vector<std::string> sets = {}) {
+    io::Overrides overrides;
+    overrides.sets = std::move(sets);
+    RunOptions options;
+    options.out = folder_;
+    options.pictures = false;
+    const RunResult result = run_scenario(
+        io::load_scenario(test::scenario_file("cooperative_small"), registry_, overrides),
+        registry_, options);
+    for (const PhaseReport& phase : result.phases) {
+      std::printf("%-12s %-11s %s\n", phase.name.c_str(), to_string(phase.state),
+                  phase.reason.c_str());
+    }
+    return result;
+  }
+  static const PhaseReport& phase(const RunResult& result, const std::string& name) {
+    for (const PhaseReport& report : result.phases) {
+      if (report.name == name) return report;
+    }
+    throw std::logic_error(name);
+  }
+
+  Registry registry_;
+};
+
+TEST_F(CooperativeMission, FromFlightToRowsEveryPhaseSucceedsAndTwiceTheSameBits) {
+  const RunResult result = run();
+  EXPECT_EQ(result.status, RunStatus::kAllMet);
+  for (const PhaseReport& report : result.phases) {
+    EXPECT_EQ(report.state, PhaseState::kSucceeded) << report.name << ": " << report.reason;
+  }
+  for (const CriterionResult& criterion : result.criteria) {
+    EXPECT_TRUE(criterion.met) << criterion.name << ": " << criterion.value;
+  }
+  EXPECT_EQ(phase(result, "build_map").numbers.at("rows_found"), 4.0);
+  // The rover follows where the quadrotor has been: it waits for the first alley.
+  EXPECT_GT(result.metrics.at("rover").at("min_vehicle_distance_m"), 1.0);
+  const RunResult again = run();
+  EXPECT_EQ(again.digest, result.digest);
+}
+
+TEST_F(CooperativeMission, TooMuchWindKeepsTheSurveyFromBeginning) {
+  const RunResult result = run({"world.wind.mean_speed_mps=9"});
+  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  EXPECT_EQ(phase(result, "survey").state, PhaseState::kFailed);
+  EXPECT_THAT(phase(result, "survey").reason, StartsWith("no window of weak wind came"));
+  EXPECT_EQ(phase(result, "spray").state, PhaseState::kBlocked);
+}
+
+TEST_F(CooperativeMission, AMapWithARowMissingIsNotWorkedOn) {
+  const RunResult result = run({"phases.build_cloud.job.missing_rows=[2]"});
+  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  EXPECT_EQ(phase(result, "build_map").state, PhaseState::kFailed);
+  EXPECT_THAT(phase(result, "build_map").reason, HasSubstr("missed rows = 3 (at least 4)"));
+  EXPECT_EQ(phase(result, "scout").state, PhaseState::kBlocked);
+  EXPECT_EQ(phase(result, "spray").state, PhaseState::kBlocked);
+}
+
+TEST_F(CooperativeMission, ABlockedRoverFailsAloneAtItsTimeout) {
+  const RunResult result = run(
+      {"world.obstacles=[{name: pallet, alley: 1, distance_m: 20, lateral_m: 0, size_m: [1.2, 0.8, "
+       "0.6]}]"});
+  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  EXPECT_EQ(phase(result, "spray").state, PhaseState::kFailed);
+  EXPECT_THAT(phase(result, "spray").reason, HasSubstr("rover had not finished"));
+  EXPECT_EQ(phase(result, "scout").state, PhaseState::kSucceeded)
+      << "the quadrotor flies over it and home";
+}
+
+TEST_F(CooperativeMission, ACrashLeavesTheOtherAtWork) {
+  // A rotor stops between the rows.
+  const RunResult result = run({"drone.faults=[{kind: rotor_failure, rotor: 1, at_s: 330, remaining: 0}]"});
+  EXPECT_EQ(phase(result, "scout").state, PhaseState::kFailed);
+  EXPECT_THAT(phase(result, "scout").reason, HasSubstr("drone crashed"));
+  EXPECT_NE(phase(result, "spray").state, PhaseState::kStopped);
+}
+
+}  // namespace
+}  // namespace vinerow

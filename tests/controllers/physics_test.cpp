@@ -4,9 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "controllers/register.h"
+#include "engine/math/angles.h"
 #include "tests/support/paths.h"
 #include "vinerow/testing.h"
 
@@ -56,6 +62,91 @@ TEST(PathFollowerOnThePhysicalRover, DrivesWithGyroAndCourse) {
 TEST(PathFollowerOnThePhysicalRover, DrivesDubinsTurnsAndSkips) {
   expect_good({"rover.planner.turn=dubins", "rover.planner.turn_radius_m=1.25"}, 0.03);
   expect_good({"rover.planner.order=skip"}, 0.03);
+}
+
+/// A registered controller that is told how far it may go: to stop_m while time_s < until_s.
+struct Halt {
+  double stop_m, until_s;
+};
+class Halted final : public Controller {
+ public:
+  Halted(std::unique_ptr<Controller> inner, std::vector<Halt> halts)
+      : inner_(std::move(inner)), halts_(std::move(halts)) {}
+  void connect(Ports& ports) override {
+    authority_ = ports.write<MovementAuthority>("authority");
+    inner_->connect(ports);
+  }
+  void step(Time now) override {
+    MovementAuthority authority;
+    authority.stop_at_m = std::numeric_limits<double>::infinity();
+    for (const Halt& halt : halts_) {
+      if (now.s() < halt.until_s) authority.stop_at_m = std::min(authority.stop_at_m, halt.stop_m);
+    }
+    authority_.write(now, authority);
+    inner_->step(now);
+  }
+  bool finished() const override { return inner_->finished(); }
+
+ private:
+  std::unique_ptr<Controller> inner_;
+  std::vector<Halt> halts_;
+  SignalWriter<MovementAuthority> authority_;
+};
+
+/// Stands uphill in the first alley and downhill in the second, in rows straight up a slope of
+/// 14 deg, which is Parcel F's steepest.
+void expect_halts_on_a_slope(const std::string& vehicle, const std::string& type,
+                             const std::string& parameters) {
+  // First alley 24 m up, then a turn of a few metres, then down.
+  const std::vector<Halt> halts = {{12.0, 60.0}, {45.0, 140.0}};
+  const auto make = [&](const ParameterSet& set, const ControllerContext& context) {
+    Registry registry;
+    register_controllers(registry);
+    return std::make_unique<Halted>(registry.make_controller(type, set, context), halts);
+  };
+  Registry registry;
+  register_controllers(registry);
+  PartSpec spec = registry.spec(PartKind::kController, type);
+  spec.name = "halted_" + type;
+  auto run = vinerow::testing::SmallWorld()
+                 .world("vineyard",
+                        "row_count: 5, row_length_m: 24, row_bearing_deg: 80, uphill_bearing_deg: "
+                        "80, relief_m: 6.2, waves_m: 0")
+                 .vehicle("rover", vehicle, "spawn: {alley: 0, offset_m: 2.0}")
+                 .planner("rover", "coverage", "alleys: [0, 2], approach: false")
+                 .controller("rover", spec, make, parameters)
+                 .duration_s(300.0)
+                 .build();
+  for (const Halt& halt : halts) {
+    double farthest_m = 0.0;
+    while (run.time_s() < halt.until_s - 12.0) {
+      run.run_for_s(0.1);
+      if (run.time_s() > 1.0) {
+        farthest_m = std::max(farthest_m, run.signal<FollowerState>("rover/follower").distance_m);
+      }
+    }
+    const Eigen::Vector3d stood = run.truth("rover").X_WB.p;
+    const Eigen::Vector3d up_W = run.truth("rover").X_WB.q * Eigen::Vector3d::UnitZ();
+    EXPECT_GT(std::acos(up_W.z()), rad_from_deg(13.0));
+    run.run_for_s(10.0);
+    const FollowerState& state = run.signal<FollowerState>("rover/follower");
+    EXPECT_GE(state.distance_m, halt.stop_m - 0.3);
+    EXPECT_LE(std::max(farthest_m, state.distance_m), halt.stop_m + 0.1);
+    EXPECT_LT((run.truth("rover").X_WB.p - stood).norm(), 0.01);
+    EXPECT_FALSE(state.finished);
+    run.run_for_s(6.0);
+    EXPECT_GT(run.signal<FollowerState>("rover/follower").distance_m, halt.stop_m + 1.0);
+  }
+  run.run_to_end();
+  EXPECT_TRUE(run.finished());
+}
+
+TEST(FourWheelSteeringOnTheSlope, StandsWhereItsAuthorityEnds) {
+  expect_halts_on_a_slope("four_wheel_steering_rover", "four_wheel_steering", "");
+}
+
+TEST(PathFollowerOnTheSlope, StandsWhereItsAuthorityEnds) {
+  expect_halts_on_a_slope("diff_drive_rover", "path_follower", "");
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 /// that has more, because a quantity per area means little there. Areas are exact (to a hundredth
 /// of a patch where a row bends), their sum always.
 ///
-/// Cost: Parcel F's 16 rows (tests/benchmarks/payload_bench.cpp) in a fraction of a second, once;
-/// find() below 0.1 us; no heap after building.
+/// Cost: Parcel F's 16 rows (94 thousand patches) 0.2 s, once; find() some 0.1 us; no heap after
+/// building.
 
 #include <Eigen/Core>
 #include <array>

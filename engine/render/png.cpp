@@ -68,6 +68,32 @@ Result<Pixels> read_png(const std::string& file) {
   return pixels;
 }
 
+std::string encode_png(const Pixels& pixels) {
+  bool opaque = true;
+  for (std::size_t i = 3; opaque && i < pixels.rgba.size(); i += 4) opaque = pixels.rgba[i] == 255;
+  std::vector<std::uint8_t> rgb;
+  if (opaque) {
+    rgb.reserve(pixels.rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < pixels.rgba.size(); i += 4) {
+      rgb.insert(rgb.end(), {pixels.rgba[i], pixels.rgba[i + 1], pixels.rgba[i + 2]});
+    }
+  }
+  const std::uint8_t* data = opaque ? rgb.data() : pixels.rgba.data();
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(pixels.width);
+  header.height = static_cast<png_uint_32>(pixels.height);
+  header.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, data, 0, nullptr)) {
+    throw std::runtime_error(fmt::format("an image of {} x {} pixels cannot be encoded: {}",
+                                         pixels.width, pixels.height, header.message));
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
 std::string image_digest(const Image& image) {
   Hasher hasher;
   hasher.add(image.width);

@@ -1,0 +1,295 @@
+/// What a report is drawn with: axes, lines, pictures, tables of meanings, verdicts.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <regex>
+#include <sstream>
+
+#include "engine/core/error.h"
+#include "engine/math/deviation.h"
+#include "engine/render/png.h"
+#include "tests/scenarios/command.h"
+#include "tools/parts/register_all.h"
+#include "tools/vinerow/report/axis.h"
+#include "tools/vinerow/report/canopy_strips.h"
+#include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/line_plot.h"
+#include "tools/vinerow/report/metric_table.h"
+#include "tools/vinerow/report/mission_map.h"
+#include "tools/vinerow/report/pictures.h"
+#include "tools/vinerow/report/units.h"
+#include "tools/vinerow/report/verdict.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Points of the first polyline with a label, in pixels.
+std::vector<Eigen::Vector2d> line_points(const std::string& svg) {
+  std::smatch found;
+  EXPECT_TRUE(
+      std::regex_search(svg, found, std::regex("data-label=\"[^\"]*\" points=\"([^\"]*)\"")));
+  std::istringstream text(found[1].str());
+  std::vector<Eigen::Vector2d> points;
+  for (std::string pair; text >> pair;) {
+    const std::size_t comma = pair.find(',');
+    points.emplace_back(std::stod(pair.substr(0, comma)), std::stod(pair.substr(comma + 1)));
+  }
+  return points;
+}
+
+TEST(ReportAxis, MapsValuesStraightBetweenItsEnds) {
+  const Axis axis({2.0, 10.0}, 100.0, 500.0, 5);
+  EXPECT_DOUBLE_EQ(axis.px(2.0), 100.0);
+  EXPECT_DOUBLE_EQ(axis.px(4.0), 200.0);
+  EXPECT_DOUBLE_EQ(axis.px(10.0), 500.0);
+  const Axis upwards({-1.0, 1.0}, 300.0, 0.0, 5);
+  EXPECT_DOUBLE_EQ(upwards.px(0.5), 75.0);
+}
+
+TEST(ReportAxis, TakesRoundTicks) {
+  const auto texts = [](double low, double high, int most) {
+    const Axis axis({low, high}, 0.0, 1.0, most);
+    std::vector<std::string> out;
+    for (const double tick : axis.ticks()) out.push_back(axis.text(tick));
+    return out;
+  };
+  // The step is the smallest of 1, 2 and 5 times a power of ten with no more steps than allowed.
+  EXPECT_THAT(texts(0.0, 1.0, 6), ElementsAre("0.0", "0.2", "0.4", "0.6", "0.8", "1.0"));
+  EXPECT_THAT(texts(-0.013, 0.014, 6), ElementsAre("−0.010", "−0.005", "0.000", "0.005", "0.010"));
+  EXPECT_THAT(texts(0.0, 2600.0, 6), ElementsAre("0", "500", "1000", "1500", "2000", "2500"));
+  EXPECT_THAT(texts(0.03, 0.17, 4), ElementsAre("0.05", "0.10", "0.15"));
+}
+
+TEST(ReportPlot, DrawsALineWhereItsAxesSay) {
+  LinePlot plot;
+  plot.title = "ramp";
+  plot.y_label = "m";
+  plot.lines = {{"ramp", {{0.0, 5.0, 10.0}, {0.0, 1.0, 5.0}}, "s0"}};
+  PlotFrame frame;
+  frame.width = 600, frame.height = 300, frame.left = 100, frame.right = 0, frame.top = 0;
+  frame.bottom = 50;
+  // y from -0.25 to 5.25: a twentieth of its span is added on either side.
+  const auto y_px = [](double y) { return 250.0 - (y + 0.25) / 5.5 * 250.0; };
+  const std::vector<Eigen::Vector2d> points = line_points(draw(plot, frame));
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_NEAR(points[0].x(), 100.0, 0.005);
+  EXPECT_NEAR(points[1].x(), 350.0, 0.005);
+  EXPECT_NEAR(points[2].x(), 600.0, 0.005);
+  EXPECT_NEAR(points[0].y(), y_px(0.0), 0.005);
+  EXPECT_NEAR(points[1].y(), y_px(1.0), 0.005);
+  EXPECT_NEAR(points[2].y(), y_px(5.0), 0.005);
+}
+
+TEST(ReportPlot, ShowsLimitsThatAreNearAndLeavesFarOnesOut) {
+  LinePlot plot;
+  plot.lines = {{"error", {{0.0, 1.0}, {-0.1, 0.1}}, "s0"}};
+  plot.limits = {{0.5, "limit"}};
+  EXPECT_GT(y_range(plot).high, 0.5);
+  EXPECT_THAT(figure(plot), HasSubstr("class=\"limit\""));
+  plot.limits = {{50.0, "limit"}};
+  EXPECT_LT(y_range(plot).high, 0.2);
+  EXPECT_THAT(figure(plot), Not(HasSubstr("limit")));
+}
+
+TEST(ReportPlot, BreaksTheLineAtAGapAndDrawsNothingOfNothing) {
+  const double nan = std::nan("");
+  LinePlot plot;
+  plot.lines = {{"a", {{0, 1, 2, 3, 4}, {1, 1, nan, 2, 2}}, "s0"}};
+  const std::string svg = draw(plot);
+  const std::regex line("<polyline class=\"line s0\"");
+  EXPECT_EQ(std::distance(std::sregex_iterator(svg.begin(), svg.end(), line), {}), 2);
+  plot.lines = {{"a", {{0, 1}, {nan, nan}}, "s0"}};
+  EXPECT_TRUE(plot.empty());
+  EXPECT_EQ(figure(plot), "");
+}
+
+TEST(ReportDecimate, KeepsEveryExtreme) {
+  Samples line;
+  for (int i = 0; i < 100'000; ++i) line.add(0.01 * i, std::sin(0.003 * i));
+  // Peaks of one sample, which plain thinning would lose.
+  const std::vector<std::pair<int, double>> peaks = {{777, 9.0}, {50'001, -7.0}, {99'998, 4.0}};
+  for (const auto& [at, value] : peaks) line.y[at] = value;
+  const Samples few = decimate(line, 1500);
+  EXPECT_LE(few.size(), 1502u);
+  EXPECT_GE(few.size(), 1000u);
+  EXPECT_TRUE(std::is_sorted(few.x.begin(), few.x.end()));
+  EXPECT_EQ(few.x.front(), line.x.front());
+  EXPECT_EQ(few.x.back(), line.x.back());
+  for (const auto& [at, value] : peaks) {
+    const auto found = std::find(few.x.begin(), few.x.end(), line.x[at]);
+    ASSERT_NE(found, few.x.end());
+    EXPECT_EQ(few.y[found - few.x.begin()], value);
+  }
+  // Every point of the many lies between the lowest and the highest of the few around it.
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    while (k + 1 < few.size() && few.x[k + 1] <= line.x[i]) ++k;
+    const std::size_t from = k < 4 ? 0 : k - 4, to = std::min(k + 5, few.size());
+    EXPECT_GE(line.y[i], *std::min_element(few.y.begin() + from, few.y.begin() + to));
+    EXPECT_LE(line.y[i], *std::max_element(few.y.begin() + from, few.y.begin() + to));
+  }
+}
+
+TEST(ReportDecimate, KeepsGapsAndShortLines) {
+  const double nan = std::nan("");
+  const Samples line = {{0, 1, 2, 3, 4, 5}, {nan, 1, nan, nan, 3, 4}};
+  const Samples few = decimate(line);
+  ASSERT_EQ(few.size(), 4u);
+  EXPECT_EQ(few.x[0], 1.0);
+  EXPECT_TRUE(std::isnan(few.y[1]));
+  EXPECT_EQ(few.y[2], 3.0);
+  EXPECT_EQ(few.y[3], 4.0);
+  EXPECT_EQ(decimate({{1, 2}, {nan, nan}}).size(), 0u);
+}
+
+TEST(ReportMap, SimplifiesALineWithinItsTolerance) {
+  std::vector<Eigen::Vector2d> line;
+  for (int i = 0; i <= 2000; ++i) {
+    const double s = 0.01 * i;
+    line.emplace_back(s, std::sin(s) + (i % 2 ? 0.004 : 0.0));
+  }
+  const auto few = simplified(line, 0.01);
+  EXPECT_LT(few.size(), 150u);
+  EXPECT_EQ(few.front(), line.front());
+  EXPECT_EQ(few.back(), line.back());
+  const PolylineDistance distance(few);
+  for (const Eigen::Vector2d& p : line) EXPECT_LE(distance.nearest(p).distance_m, 0.01 + 1e-12);
+  EXPECT_EQ(simplified({{0, 0}, {1, 1}, {2, 2}, {5, 5}}, 1e-9).size(), 2u);
+}
+
+TEST(ReportPictures, ShrinkByTheMeanAndComeBackAsTheyWere) {
+  const test::ScratchFolder folder("report_png");
+  render::Pixels pixels(4, 2);
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      const std::uint8_t value = static_cast<std::uint8_t>(10 * (x + 4 * y));
+      std::uint8_t* at = pixels.at(x, y);
+      at[0] = value, at[1] = 100, at[2] = static_cast<std::uint8_t>(255 - value), at[3] = 255;
+    }
+  }
+  const render::Pixels small = shrunk(pixels, 2);
+  ASSERT_EQ(small.width, 2);
+  ASSERT_EQ(small.height, 1);
+  EXPECT_EQ(small.at(0, 0)[0], (0 + 10 + 40 + 50) / 4);
+  EXPECT_EQ(small.at(1, 0)[0], (20 + 30 + 60 + 70) / 4);
+  EXPECT_EQ(small.at(1, 0)[1], 100);
+  for (const std::uint8_t alpha : {255, 7}) {
+    pixels.at(1, 1)[3] = alpha;
+    const std::string bytes = render::encode_png(pixels);
+    EXPECT_EQ(bytes, render::encode_png(pixels));
+    const auto back = render::read_png(folder.file("x.png", bytes));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->rgba, pixels.rgba);
+  }
+}
+
+TEST(ReportNumbers, AreWrittenForPeople) {
+  EXPECT_EQ(number_text(0.0123456), "0.01235");
+  EXPECT_EQ(number_text(-3.0), "−3");
+  EXPECT_EQ(number_text(1234567.0), "1\u202f234\u202f567");
+  EXPECT_EQ(number_text(4321.4), "4321");
+  EXPECT_EQ(number_text(std::nan("")), "not measured");
+  EXPECT_EQ(duration_text(8.04), "8.0 s");
+  EXPECT_EQ(duration_text(59.7), "1 min 0 s");
+  EXPECT_EQ(duration_text(483.5), "8 min 4 s");
+  EXPECT_EQ(duration_text(7300), "2 h 1 min");
+  EXPECT_EQ(escaped("a<b & \"c\"\x01"), "a&lt;b &amp; &quot;c&quot;");
+  EXPECT_EQ(unit_of("row_speed_mean_mps"), "m/s");
+  EXPECT_EQ(unit_of("relative_accuracy_per_m"), "1/m");
+  EXPECT_EQ(unit_of("alleys_driven"), "");
+  EXPECT_EQ(unit_of("sprayer_litres_per_ha"), "l/ha");
+  EXPECT_EQ(words_of("axle_front_steer_rad"), "axle front steer");
+}
+
+TEST(ReportMeanings, AreThereForEveryMetricOfTheProgram) {
+  Registry registry;
+  register_all(registry);
+  for (const std::string& metric : registry.names(PartKind::kMetric)) {
+    for (std::string name : registry.spec(PartKind::kMetric, metric).writes) {
+      const std::size_t comma = name.find(',');
+      if (comma != std::string::npos) continue;  // a sentence, below
+      for (const auto& [pattern, example] :
+           {std::pair<std::string, std::string>{"<wheel>", "fl"}, {"<source>", "range"}}) {
+        const std::size_t at = name.find(pattern);
+        if (at != std::string::npos) name.replace(at, pattern.size(), example);
+      }
+      const MetricMeaning meaning = metric_meaning(name);
+      EXPECT_TRUE(meaning.known) << metric << " gives " << name;
+      EXPECT_NE(meaning.definition, "") << name;
+    }
+  }
+  for (const char* name : {"ekf_lateral_rms_m", "paper_c_nees_mean", "ekf_nis_range_mean",
+                           "no_map_consistent", "paper_c_ellipsoid_containment_share"}) {
+    EXPECT_TRUE(metric_meaning(name).known) << name;
+  }
+  EXPECT_THAT(metric_meaning("ekf_lateral_rms_m").title, HasSubstr("observer ekf"));
+  EXPECT_EQ(metric_meaning("relative_accuracy_per_m").source, "paper B, eq. 8");
+  EXPECT_FALSE(metric_meaning("grapes_eaten").known);
+  EXPECT_EQ(metric_meaning("grapes_eaten").title, "grapes eaten");
+}
+
+RunFolder folder_of(const std::string& summary) {
+  RunFolder run;
+  run.summary = Json::parse(summary);
+  return run;
+}
+
+TEST(ReportVerdict, SaysInASentenceWhatFailed) {
+  const Verdict met = make_verdict(folder_of(
+      R"({"exit_status": 0, "finished": true, "criteria": [{"metric": "rover.slip_max", "kind": "max", "value": 0.01, "limit": 0.1, "met": true}]})"));
+  EXPECT_EQ(met.kind, Verdict::Kind::kMet);
+  EXPECT_EQ(met.headline, "The one requirement is met");
+
+  const Verdict failed = make_verdict(folder_of(R"({"exit_status": 1, "criteria": [
+      {"metric": "rover.cross_track_max_m", "kind": "max", "value": 0.13, "limit": 0.1, "met": false},
+      {"metric": "plane.covered_share", "kind": "min", "value": 0.934, "limit": 0.99, "met": false},
+      {"metric": "rover.finished", "kind": "min", "value": 0, "limit": 1, "met": false},
+      {"metric": "rover.slip_max", "kind": "max", "value": null, "limit": 1, "met": false},
+      {"metric": "rover.contact_count", "kind": "max", "value": 0, "limit": 0, "met": true}]})"));
+  EXPECT_EQ(failed.kind, Verdict::Kind::kFailed);
+  EXPECT_EQ(failed.headline, "Failed: 4 of 5 requirements missed");
+  EXPECT_EQ(failed.sentence,
+            "Rover: largest distance from the row's middle line is 0.13 m, at most 0.1 m is "
+            "allowed; plane: parcel photographed is 93.4 %, at least 99 % is required; rover: "
+            "mission completed: no; and 1 more below.");
+
+  const Verdict crashed = make_verdict(folder_of(
+      R"({"exit_status": 1, "criteria": [], "crashes": [{"vehicle": "drone", "time_s": 12.34, "text": "hit the ground at 2.3 m/s"}]})"));
+  EXPECT_EQ(crashed.sentence, "Drone crashed after 12 s: hit the ground at 2.3 m/s.");
+
+  const Verdict broken = make_verdict(
+      folder_of(R"({"exit_status": 3, "error": "rover.controller wrote NaN", "criteria": []})"));
+  EXPECT_EQ(broken.kind, Verdict::Kind::kBrokenOff);
+  const Verdict open = make_verdict(folder_of(R"({"exit_status": 0, "criteria": []})"));
+  EXPECT_EQ(open.kind, Verdict::Kind::kOpen);
+}
+
+TEST(ReportCanopy, WeighsPatchesByTheirArea) {
+  const test::ScratchFolder folder("report_canopy");
+  const CanopyFile canopy = read_canopy(folder.file(
+      "a.json",
+      R"({"vehicle": "rover", "payload": "sprayer", "quantity": "deposit", "unit": "ml/m2",
+          "wanted": 10, "step_m": 0.5, "band_m": 0.25, "patches": [
+          [0, 1, 0, 2, 0, 0, 1, 1.0, 12], [0, -1, 0, 2, 0, 0, 1, 2.0, 6], [1, 1, 3, 1, 0, 0, 1, 1.0, 0]]})"));
+  EXPECT_DOUBLE_EQ(canopy.area_m2(), 4.0);
+  EXPECT_DOUBLE_EQ(canopy.covered_share(), 0.25);
+  EXPECT_DOUBLE_EQ(canopy.mean_amount(), (12.0 + 2.0 * 6.0) / 4.0);
+  const std::string broken = folder.file("b.json", R"({"vehicle": "rover"})");
+  try {
+    read_canopy(broken);
+    ADD_FAILURE() << "must be refused";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("b.json: is no canopy coverage: "));
+    EXPECT_THAT(error.what(), HasSubstr("payload"));
+  }
+}
+
+}  // namespace
+}  // namespace vinerow::tools::report

@@ -1,0 +1,192 @@
+#include "tools/vinerow/report/canopy_strips.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "engine/core/error.h"
+#include "engine/render/png.h"
+#include "tools/vinerow/colour_scale.h"
+#include "tools/vinerow/report/axis.h"
+#include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/svg.h"
+#include "tools/vinerow/report/units.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kWidth = 1000, kLeft = 120, kRight = 10, kStrip = 18, kGap = 5, kBottom = 44;
+/// More strips make a page of their own; those that nothing reached are left out first.
+constexpr std::size_t kMostStrips = 80;
+
+using StripKey = std::pair<int, int>;  ///< row, and 0 for its left side, 1 for its right
+using Strips = std::map<StripKey, std::vector<const CanopyPatchAmount*>>;
+
+Strips strips_of(const CanopyFile& canopy) {
+  Strips strips;
+  for (const CanopyPatchAmount& patch : canopy.patches) {
+    strips[{patch.row, patch.side > 0 ? 0 : 1}].push_back(&patch);
+  }
+  if (strips.size() <= kMostStrips) return strips;
+  std::erase_if(strips, [](const auto& strip) {
+    return std::none_of(strip.second.begin(), strip.second.end(),
+                        [](const CanopyPatchAmount* patch) { return patch->amount > 0.0; });
+  });
+  while (strips.size() > kMostStrips) strips.erase(std::prev(strips.end()));
+  return strips;
+}
+
+/// One pixel a patch; clear where the row has no canopy.
+render::Pixels strip_pixels(const std::vector<const CanopyPatchAmount*>& patches, int columns,
+                            int bands, double full) {
+  render::Pixels pixels(columns, bands);
+  for (const CanopyPatchAmount* patch : patches) {
+    const Rgb colour = viridis(full > 0.0 ? patch->amount / full : 0.0);
+    std::uint8_t* at = pixels.at(patch->along, bands - 1 - patch->band);
+    for (std::size_t c = 0; c < 3; ++c) at[c] = static_cast<std::uint8_t>(colour[c]);
+    at[3] = 255;
+  }
+  return pixels;
+}
+
+std::string strips_svg(const CanopyFile& canopy, double full) {
+  const Strips strips = strips_of(canopy);
+  int columns = 1, bands = 1;
+  for (const CanopyPatchAmount& patch : canopy.patches) {
+    columns = std::max(columns, patch.along + 1);
+    bands = std::max(bands, patch.band + 1);
+  }
+  const double bottom = static_cast<double>(strips.size()) * (kStrip + kGap);
+  const Axis x({0.0, columns * canopy.step_m}, kLeft, kWidth - kRight, 10);
+  Svg svg(kWidth, bottom + kBottom, "canopy",
+          fmt::format("{} of {} on both sides of every row", canopy.quantity, canopy.payload));
+  for (const double tick : x.ticks()) {
+    svg.line(x.px(tick), 0, x.px(tick), bottom + 4, "grid");
+    svg.text(x.px(tick), bottom + 19, x.text(tick), "tick mid");
+  }
+  svg.text(0.5 * (x.from_px() + x.to_px()), bottom + 38, "along the row, m", "label mid");
+  double y = 0.0;
+  for (const auto& [key, patches] : strips) {
+    svg.text(kLeft - 8, y + 13,
+             fmt::format("row {}, {}", key.first, key.second == 0 ? "left" : "right"), "tick end");
+    svg.image(x.from_px(), y, x.to_px() - x.from_px(), kStrip,
+              render::encode_png(strip_pixels(patches, columns, bands, full)));
+    y += kStrip + kGap;
+  }
+  return svg.finish();
+}
+
+std::string colour_legend(const CanopyFile& canopy, double full) {
+  render::Pixels bar(64, 1);
+  for (int i = 0; i < 64; ++i) {
+    const Rgb colour = viridis(i / 63.0);
+    for (std::size_t c = 0; c < 3; ++c) bar.at(i, 0)[c] = static_cast<std::uint8_t>(colour[c]);
+    bar.at(i, 0)[3] = 255;
+  }
+  Svg svg(1000, 34, "canopy", "scale of colours");
+  svg.text(kLeft, 22, "0", "tick end");
+  svg.image(kLeft + 8, 8, 260, 18, render::encode_png(bar));
+  const bool is_wanted = canopy.wanted > 0.0;
+  svg.text(kLeft + 276, 22,
+           fmt::format("{} {} {}", number_text(full), canopy.unit,
+                       is_wanted ? "or more: enough" : "(the most)"),
+           "tick");
+  return svg.finish();
+}
+
+std::string payload_section(const CanopyFile& canopy) {
+  double full = canopy.wanted;
+  for (const CanopyPatchAmount& patch : canopy.patches) {
+    if (canopy.wanted <= 0.0) full = std::max(full, patch.amount);
+  }
+  const auto card = [](const std::string& value, const std::string& what) {
+    return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", value, what);
+  };
+  std::string out = fmt::format("<h3>{} of {}: {}</h3>\n<div class=\"cards\">\n",
+                                escaped(sentence_case(canopy.payload)), escaped(canopy.vehicle),
+                                escaped(canopy.quantity));
+  out += card(fmt::format("{:.1f} %", 100.0 * canopy.covered_share()),
+              "of the canopy has enough of it");
+  out +=
+      card(number_text(canopy.mean_amount()) + " " + escaped(canopy.unit), "mean over the canopy");
+  if (canopy.wanted > 0.0) {
+    out += card(number_text(canopy.wanted) + " " + escaped(canopy.unit), "is enough");
+  }
+  out += card(fmt::format("{} m²", number_text(canopy.area_m2())), "canopy surface in all");
+  out += "</div>\n<figure class=\"plot\">\n<h4>Both sides of every row, unrolled</h4>\n";
+  out += colour_legend(canopy, full) + strips_svg(canopy, full);
+  return out +
+         "<figcaption>Each strip is one side of a row as it is seen from its alley, bottom of "
+         "the canopy below; left and right are those of who looks along the row from its "
+         "first point. Heights are stretched. Clear: no canopy there.</figcaption>\n</figure>\n";
+}
+
+}  // namespace
+
+double CanopyFile::area_m2() const {
+  double sum_m2 = 0.0;
+  for (const CanopyPatchAmount& patch : patches) sum_m2 += patch.area_m2;
+  return sum_m2;
+}
+
+double CanopyFile::covered_share() const {
+  double covered_m2 = 0.0;
+  for (const CanopyPatchAmount& patch : patches) {
+    if (patch.amount >= wanted && patch.amount > 0.0) covered_m2 += patch.area_m2;
+  }
+  return patches.empty() ? std::numeric_limits<double>::quiet_NaN() : covered_m2 / area_m2();
+}
+
+double CanopyFile::mean_amount() const {
+  double sum = 0.0;
+  for (const CanopyPatchAmount& patch : patches) sum += patch.amount * patch.area_m2;
+  return patches.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / area_m2();
+}
+
+CanopyFile read_canopy(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  CanopyFile canopy;
+  try {
+    const Json json = Json::parse(in);
+    canopy.vehicle = json.at("vehicle");
+    canopy.payload = json.at("payload");
+    canopy.quantity = json.at("quantity");
+    canopy.unit = json.at("unit");
+    canopy.wanted = json.at("wanted");
+    canopy.step_m = json.at("step_m");
+    canopy.band_m = json.at("band_m");
+    for (const Json& p : json.at("patches")) {
+      canopy.patches.push_back({p.at(0), p.at(1), p.at(2), p.at(3), p.at(7), p.at(8)});
+      if (canopy.patches.back().along < 0 || canopy.patches.back().band < 0) {
+        throw ConfigError(
+            fmt::format("{}: is no canopy coverage: patch {} lies before its row's "
+                        "first point or below the ground",
+                        file.string(), canopy.patches.size() - 1));
+      }
+    }
+  } catch (const Json::exception& error) {
+    throw ConfigError(fmt::format("{}: is no canopy coverage: {}", file.string(), error.what()));
+  }
+  return canopy;
+}
+
+std::string canopy_section(const RunFolder& run) {
+  const fs::path folder = run.path / "canopy";
+  if (!fs::is_directory(folder)) return "";
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::string out;
+  for (const fs::path& file : files) out += payload_section(read_canopy(file));
+  return out;
+}
+
+}  // namespace vinerow::tools::report

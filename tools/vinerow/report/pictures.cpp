@@ -1,0 +1,202 @@
+#include "tools/vinerow/report/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "engine/core/error.h"
+#include "engine/render/png.h"
+#include "tools/vinerow/report/base64.h"
+#include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/units.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFrames = 36;
+/// A file as small as this is taken as it is.
+constexpr std::uintmax_t kSmall_bytes = 250'000;
+
+std::vector<fs::path> png_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".png") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// "<camera>_<milliseconds>" of a frame's name; an empty camera where it is not of that form.
+struct FrameName {
+  std::string camera;
+  double time_s = 0.0;
+};
+
+FrameName frame_name(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const std::size_t at = stem.rfind('_');
+  const bool fits = at != std::string::npos && at + 1 < stem.size() && stem.size() - at <= 16 &&
+                    stem.find_first_not_of("0123456789", at + 1) == std::string::npos;
+  if (!fits) return {};
+  return {stem.substr(0, at), 1e-3 * static_cast<double>(std::stoll(stem.substr(at + 1)))};
+}
+
+const io::CameraConfig* camera_of(const RunFolder& run, const std::string& name) {
+  if (!run.scenario) return nullptr;
+  for (const io::CameraConfig& camera : run.scenario->pictures.cameras) {
+    if (camera.name == name) return &camera;
+  }
+  return nullptr;
+}
+
+std::string frame_caption(const RunFolder& run, const fs::path& file) {
+  const FrameName name = frame_name(file);
+  if (name.camera.empty()) return file.stem().string();
+  const io::CameraConfig* camera = camera_of(run, name.camera);
+  std::string what = name.camera;
+  if (camera && camera->kind == io::CameraKind::kTop) what += ", seen from above";
+  if (camera && camera->kind == io::CameraKind::kChase) what += ", behind " + camera->vehicle;
+  if (camera && camera->kind == io::CameraKind::kOnBoard)
+    what += ", on board of " + camera->vehicle;
+  if (camera && camera->kind == io::CameraKind::kShots) {
+    what += ", what the camera of " + camera->vehicle + " took";
+  }
+  return fmt::format("{}, after {}", what, duration_text(name.time_s));
+}
+
+std::string read_bytes(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+std::vector<Picture> frame_pictures(const RunFolder& run) {
+  std::vector<Picture> pictures;
+  const std::size_t count = run.frames.size(), shown = std::min(count, kMostFrames);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const fs::path& file = run.frames[i * count / shown];
+    pictures.push_back({file, frame_caption(run, file)});
+  }
+  return pictures;
+}
+
+std::vector<Picture> coverage_pictures(const RunFolder& run) {
+  std::vector<Picture> pictures;
+  for (const fs::path& file : png_files(run.path)) {
+    if (!file.filename().string().starts_with("coverage")) continue;
+    pictures.push_back({file,
+                        "How many pictures of the survey see each place of the parcel, and "
+                        "with what forward overlap"});
+  }
+  return pictures;
+}
+
+std::vector<Picture> product_pictures(const RunFolder& run) {
+  std::vector<Picture> pictures;
+  std::vector<fs::path> folders;
+  if (fs::is_directory(run.path / "products")) {
+    for (const auto& entry : fs::directory_iterator(run.path / "products")) {
+      if (entry.is_directory()) folders.push_back(entry.path());
+    }
+  }
+  std::sort(folders.begin(), folders.end());
+  for (const fs::path& folder : folders) {
+    for (const fs::path& file : png_files(folder)) {
+      pictures.push_back({file, fmt::format("{}: {}", folder.filename().string(),
+                                            words_of(file.stem().string()))});
+    }
+  }
+  return pictures;
+}
+
+const Picture* hero_picture(const RunFolder& run, const std::vector<Picture>& frames) {
+  if (frames.empty()) return nullptr;
+  // A plain view before one with a map's wires and estimates drawn over it.
+  for (const bool plain : {true, false}) {
+    if (!run.scenario) break;
+    for (const io::CameraConfig& camera : run.scenario->pictures.cameras) {
+      if (camera.kind == io::CameraKind::kTop || camera.kind == io::CameraKind::kShots) continue;
+      if (plain && (camera.show_map || camera.show_estimate || camera.show_grid)) continue;
+      std::vector<const Picture*> taken;
+      for (const Picture& picture : frames) {
+        if (frame_name(picture.file).camera == camera.name) taken.push_back(&picture);
+      }
+      if (!taken.empty()) return taken[(taken.size() - 1) / 2];
+    }
+  }
+  return &frames[(frames.size() - 1) / 2];
+}
+
+int fitting_width(const std::vector<Picture>& pictures, std::size_t budget_bytes) {
+  std::uintmax_t bytes = 0;
+  for (const Picture& picture : pictures) {
+    std::error_code failed;
+    const std::uintmax_t size = fs::file_size(picture.file, failed);
+    if (!failed) bytes += size;
+  }
+  for (const int width : {1280, 1024, 800, 640}) {
+    // Bytes go with the area of pictures that are 1280 wide.
+    const double share = std::pow(width / 1280.0, 2);
+    if (share * static_cast<double>(bytes) <= static_cast<double>(budget_bytes)) return width;
+  }
+  return 480;
+}
+
+std::string embedded(const Picture& picture, int most_width) {
+  auto pixels = render::read_png(picture.file.string());
+  if (!pixels) throw ConfigError(pixels.reason());
+  std::string bytes;
+  int width = pixels->width, height = pixels->height;
+  if (width > most_width) {
+    const render::Pixels small = shrunk(*pixels, most_width);
+    width = small.width;
+    height = small.height;
+    bytes = render::encode_png(small);
+  } else {
+    bytes = fs::file_size(picture.file) <= kSmall_bytes ? read_bytes(picture.file)
+                                                        : render::encode_png(*pixels);
+  }
+  return fmt::format(
+      "<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"/>", width,
+      height, escaped(picture.caption), base64(bytes));
+}
+
+std::string picture_figure(const Picture& picture, int most_width) {
+  return fmt::format("<figure class=\"picture\">{}<figcaption>{}</figcaption></figure>\n",
+                     embedded(picture, most_width), escaped(sentence_case(picture.caption)));
+}
+
+render::Pixels shrunk(const render::Pixels& pixels, int width) {
+  const double scale = static_cast<double>(pixels.width) / width;
+  const int height = std::max(1, static_cast<int>(std::lround(pixels.height / scale)));
+  const double scale_y = static_cast<double>(pixels.height) / height;
+  render::Pixels out(width, height);
+  for (int j = 0; j < height; ++j) {
+    for (int i = 0; i < width; ++i) {
+      double sum[4] = {0, 0, 0, 0}, area = 0.0;
+      const double left = i * scale, right = (i + 1) * scale;
+      const double top = j * scale_y, bottom = (j + 1) * scale_y;
+      for (int y = static_cast<int>(top); y < std::min<double>(bottom, pixels.height); ++y) {
+        const double tall = std::min<double>(bottom, y + 1) - std::max<double>(top, y);
+        for (int x = static_cast<int>(left); x < std::min<double>(right, pixels.width); ++x) {
+          const double share = tall * (std::min<double>(right, x + 1) - std::max<double>(left, x));
+          for (int c = 0; c < 4; ++c) sum[c] += share * pixels.at(x, y)[c];
+          area += share;
+        }
+      }
+      for (int c = 0; c < 4; ++c) {
+        out.at(i, j)[c] = static_cast<std::uint8_t>(std::lround(sum[c] / area));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace vinerow::tools::report

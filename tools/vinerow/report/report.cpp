@@ -1,0 +1,248 @@
+#include "tools/vinerow/report/report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "engine/core/error.h"
+#include "tools/vinerow/report/action_plots.h"
+#include "tools/vinerow/report/canopy_strips.h"
+#include "tools/vinerow/report/estimate_plots.h"
+#include "tools/vinerow/report/fleet.h"
+#include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/mission_map.h"
+#include "tools/vinerow/report/motion_plots.h"
+#include "tools/vinerow/report/page_style.h"
+#include "tools/vinerow/report/pictures.h"
+#include "tools/vinerow/report/replay.h"
+#include "tools/vinerow/report/replay_run.h"
+#include "tools/vinerow/report/run_facts.h"
+#include "tools/vinerow/report/run_folder.h"
+#include "tools/vinerow/report/time_line.h"
+#include "tools/vinerow/report/units.h"
+#include "tools/vinerow/report/verdict.h"
+
+namespace vinerow::tools {
+namespace report {
+namespace {
+
+struct Chapter {
+  std::string id;
+  std::string title;
+  std::string content;
+};
+
+/// All that chapters are made of.
+struct Material {
+  RunFolder run;
+  std::vector<VehicleLog> vehicles;
+  std::vector<Track> tracks;
+  std::vector<Picture> frames, coverage, products;
+  int picture_width = 1280;
+};
+
+Material read_material(const std::filesystem::path& folder, const Registry& registry) {
+  Material m;
+  m.run = read_run_folder(folder, registry);
+  m.vehicles = read_vehicles(m.run);
+  for (const VehicleLog& vehicle : m.vehicles) m.tracks.push_back(make_track(vehicle));
+  m.frames = frame_pictures(m.run);
+  m.coverage = coverage_pictures(m.run);
+  m.products = product_pictures(m.run);
+  std::vector<Picture> all = m.frames;
+  for (const auto* more : {&m.coverage, &m.products})
+    all.insert(all.end(), more->begin(), more->end());
+  m.picture_width = fitting_width(all, kPictureBudget_bytes);
+  return m;
+}
+
+std::string hero(const Material& m) {
+  const Picture* picture = hero_picture(m.run, m.frames);
+  const auto whole = whole_view(m.run, m.vehicles);
+  const auto parcel = parcel_view(m.run, m.vehicles);
+  std::string out;
+  if (picture != nullptr) {
+    out +=
+        fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+                    embedded(*picture, m.picture_width), escaped(sentence_case(picture->caption)));
+  }
+  MapStyle style;
+  style.with_axes = false;
+  style.with_plans = m.vehicles.empty();
+  const bool alone = picture == nullptr && !parcel;
+  style.width = alone ? 1200 : 640;
+  style.least_height = alone ? 300 : 414;
+  style.most_height = alone ? 400 : 414;
+  const auto add = [&](const std::optional<MapView>& view, const std::string& label) {
+    if (!view) return;
+    style.label = label;
+    out += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+                       mission_map(m.run, m.vehicles, *view, style),
+                       map_legend(m.run, m.vehicles, style));
+  };
+  if (picture == nullptr || !parcel) add(whole, "the mission from above");
+  add(parcel, "the rows from above");
+  if (out.empty()) return "";
+  return fmt::format("<div class=\"hero{}\">\n{}</div>\n", alone || !whole ? "" : " both", out);
+}
+
+/// Phases, else what the vehicles did when.
+std::string time_lines(const Material& m) {
+  const std::vector<TimeRow> phases = phase_rows(m.run);
+  if (!phases.empty()) {
+    return "<div class=\"scroll\">" + time_line(phases, m.run.end_s(), "phases of the mission") +
+           "</div>\n";
+  }
+  const std::vector<TimeRow> rows = activity_rows(m.vehicles, m.tracks);
+  if (rows.empty()) return "";
+  return "<div class=\"scroll\">" + time_line(rows, m.run.end_s(), "what the vehicles did when") +
+         "</div>\n" + activity_legend(rows);
+}
+
+std::string first_screen(const Material& m) {
+  const std::string description = m.run.scenario ? m.run.scenario->description : "";
+  std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n",
+                                escaped(title_of(m.run.text("scenario"))), escaped(description));
+  return out + verdict_box(make_verdict(m.run)) + key_numbers(m.run, m.vehicles) + hero(m) +
+         time_lines(m);
+}
+
+std::string map_chapter(const Material& m) {
+  const auto whole = whole_view(m.run, m.vehicles);
+  if (!whole) return "";
+  MapStyle style;
+  style.most_height = 680;
+  const auto map = [&](const MapView& view, const std::string& label, const std::string& caption) {
+    style.label = label;
+    return fmt::format("<figure class=\"plot map\">\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
+                       map_legend(m.run, m.vehicles, style),
+                       mission_map(m.run, m.vehicles, view, style), caption);
+  };
+  std::string out =
+      map(*whole, "map of the mission: rows, plans and tracks, north up",
+          "True tracks over the planned ways, to scale, north up. As paper A, figures 9, "
+          "18 a and 20 a.");
+  if (const auto parcel = parcel_view(m.run, m.vehicles)) {
+    out += map(*parcel, "map of the parcel: rows, plans and tracks, north up",
+               "The same between the rows, enlarged.");
+  }
+  return out;
+}
+
+std::string way_figures(const Material& m, const VehicleLog& vehicle, const Track& track) {
+  const std::vector<VehicleLog> alone = {vehicle};
+  std::string out;
+  MapStyle style;
+  style.width = 640;
+  style.least_height = style.most_height = 330;
+  const auto add = [&](const std::optional<MapView>& view, const std::string& title,
+                       const std::string& caption) {
+    if (!view) return;
+    style.label = title;
+    out += fmt::format(
+        "<figure class=\"plot\">\n<h4>{}</h4>\n{}{}<figcaption>{}</figcaption>\n</figure>\n", title,
+        map_legend(m.run, alone, style), mission_map(m.run, alone, *view, style), caption);
+  };
+  if (m.vehicles.size() > 1) {
+    add(own_view(vehicle), "Plan and track",
+        "Planned way (dashed) and true track (line). As paper A, figures 18 a and 20 a.");
+  }
+  if (!vehicle.has_wings) {
+    style.with_ends = false;
+    add(first_turn_view(track), "The first turn",
+        "Planned way (dashed) and true track (line), enlarged. As paper A, figures 18 b and 20 c.");
+  }
+  return out;
+}
+
+std::string plots_chapter(const Material& m) {
+  if (!m.run.log) {
+    return "<p>The run wrote no log, so there are no plots of it: <code>vinerow run</code> without "
+           "<code>--no-log</code> writes one.</p>\n";
+  }
+  std::string out;
+  const LinePlot separation = separation_plot(m.vehicles);
+  PlotFrame wide;
+  wide.width = 1200;
+  out += figure(separation, wide);
+  for (std::size_t i = 0; i < m.vehicles.size(); ++i) {
+    const VehicleLog& vehicle = m.vehicles[i];
+    std::string figures = way_figures(m, vehicle, m.tracks[i]);
+    for (const LinePlot& plot : motion_plots(m.run, vehicle, m.tracks[i])) figures += figure(plot);
+    for (const LinePlot& plot : estimate_plots(vehicle, m.run.world.get())) figures += figure(plot);
+    for (const LinePlot& plot : action_plots(vehicle, m.tracks[i])) figures += figure(plot);
+    if (figures.empty()) figures = "<p>It never began its work.</p>\n";
+    out += fmt::format("<h3>{}</h3>\n<div class=\"figures\">\n{}</div>\n", escaped(vehicle.name),
+                       figures);
+  }
+  return out;
+}
+
+std::string pictures_chapter(const Material& m) {
+  const Picture* hero = hero_picture(m.run, m.frames);
+  std::string out;
+  for (const auto* pictures : {&m.coverage, &m.products, &m.frames}) {
+    for (const Picture& picture : *pictures) {
+      // The first screen shows that one.
+      if (&picture != hero) out += picture_figure(picture, m.picture_width);
+    }
+  }
+  if (out.empty()) return "";
+  out = "<div class=\"figures\">\n" + out + "</div>\n";
+  if (m.frames.size() < m.run.frames.size()) {
+    out += fmt::format("<p>{} of the run's {} frames; the others are in its folder frames.</p>\n",
+                       m.frames.size(), m.run.frames.size());
+  }
+  return out;
+}
+
+/// The run in three dimensions, to orbit, scrub and follow.
+std::string replay_chapter(const RunFolder& run) {
+  if (!run.log || !run.world) return "";
+  const LogTrace trace = read_trace(*run.log, run.vehicles);
+  ReplayInput input{&*run.scenario, run.world.get(), &run.models, &trace, {}};
+  input.phases = phases_of_summary(run.summary.dump(), run.path / "summary.json", trace.last.s());
+  return replay_section(input);
+}
+
+std::string page(const Material& m) {
+  const std::vector<Chapter> chapters = {
+      {"verdicts", "Verdicts", criteria_table(m.run) + metrics_table(m.run)},
+      {"phases", "Phases", phase_table(m.run)},
+      {"map", "Map of the mission", map_chapter(m)},
+      {"plots", "Plots", plots_chapter(m)},
+      {"canopy", "Canopy", canopy_section(m.run)},
+      {"pictures", "Pictures", pictures_chapter(m)},
+      {"replay", "Replay in three dimensions", replay_chapter(m.run)},
+      {"parameters", "Parameters and versions", facts(m.run)},
+      {"timings", "Timings", timings(m.run)}};
+  std::string out = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "<title>{}: report of the run</title>\n<style>{}</style>\n</head>\n<body>\n<nav><div>\n",
+      escaped(title_of(m.run.text("scenario"))), page_style());
+  for (const Chapter& chapter : chapters) {
+    if (chapter.content.empty()) continue;
+    out += fmt::format("<a href=\"#{}\">{}</a>\n", chapter.id, chapter.title);
+  }
+  out += "</div></nav>\n<main>\n" + first_screen(m);
+  for (const Chapter& chapter : chapters) {
+    out += section(chapter.id, chapter.title, chapter.content);
+  }
+  return out + "</main>\n<script>//<![CDATA[" + page_script() +
+         "//]]></script>\n</body>\n</html>\n";
+}
+
+}  // namespace
+}  // namespace report
+
+void write_report(const std::filesystem::path& run_folder, const Registry& registry,
+                  const std::filesystem::path& out_file) {
+  const std::string page = report::page(report::read_material(run_folder, registry));
+  std::ofstream out(out_file, std::ios::binary);
+  out << page;
+  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", out_file.string()));
+}
+
+}  // namespace vinerow::tools

@@ -1,0 +1,95 @@
+#include "tools/vinerow/report/run_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/units.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+std::string plain(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  return value.is_number() ? number_text(value.get<double>()) : value.dump();
+}
+
+}  // namespace
+
+std::string title_of(const std::string& scenario) {
+  std::string words = scenario;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return sentence_case(words);
+}
+
+std::string facts(const RunFolder& run) {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const std::string& what, const std::string& value) {
+    rows.push_back({what, escaped(value)});
+  };
+  add("scenario", run.text("scenario"));
+  add("verdict of the run", run.text("status"));
+  add("digest of all signals", run.text("digest"));
+  for (const char* key : {"seed", "physics_step_s", "steps"}) {
+    const auto found = run.summary.find(key);
+    if (found != run.summary.end()) add(words_of(key), found->dump());
+  }
+  const auto versions = run.summary.find("versions");
+  if (versions != run.summary.end() && versions->is_object()) {
+    for (const auto& [name, value] : versions->items()) add(name, plain(value));
+  }
+  const auto planning = run.summary.find("planning");
+  if (planning != run.summary.end() && planning->is_object()) {
+    for (const auto& [vehicle, numbers] : planning->items()) {
+      for (const auto& [name, value] : numbers.items()) {
+        const std::string unit = unit_of(name);
+        add(vehicle + ", planning: " + words_of(name),
+            plain(value) + (unit.empty() ? "" : " " + unit));
+      }
+    }
+  }
+  for (const Json& note : list_in(run.summary, "notes")) add("note", plain(note));
+  if (!run.text("picture_note").empty()) add("pictures", "none: " + run.text("picture_note"));
+  std::string out = table({}, rows, "facts");
+  if (!run.resolved_yaml.empty()) {
+    out +=
+        "<details><summary>The scenario as it was run, with every default written out"
+        "</summary>\n<pre>" +
+        escaped(run.resolved_yaml) + "</pre></details>\n";
+  }
+  return out;
+}
+
+std::string timings(const RunFolder& run) {
+  std::string out = fmt::format(
+      "<p>The only part of this page that differs from machine to machine. {} simulated in {:.2f} "
+      "s: "
+      "<strong id=\"real-time-factor\">{:.0f} ×</strong> real time, pictures and building the "
+      "world "
+      "apart.</p>\n",
+      duration_text(std::max(0.0, run.end_s())), run.number("wall_s"),
+      run.number("real_time_factor"));
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& phase : list_in(run.summary, "phases")) {
+    const auto wall = phase.find("wall_s");
+    if (wall == phase.end() || phase.value("kind", "") != "job") continue;
+    rows.push_back(
+        {"phase " + escaped(phase.value("name", "")), "", "", number_cell(number_of(*wall)), ""});
+  }
+  for (const Json& task : list_in(run.summary, "cost")) {
+    const auto number = [&](const char* key) {
+      return number_cell(number_of(task.value(key, Json())));
+    };
+    rows.push_back({"<code>" + escaped(task.value("task", "")) + "</code>", number("period_s"),
+                    number("ticks"), number("wall_s"), number("us_per_tick")});
+  }
+  return out + (rows.empty()
+                    ? ""
+                    : table({"task", "period, s", "ticks", "computing time, s", "µs a tick"}, rows,
+                            "cost"));
+}
+
+}  // namespace vinerow::tools::report

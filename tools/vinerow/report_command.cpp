@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include "engine/core/error.h"
+#include "engine/sim/plugin_loader.h"
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/report/report.h"
+
+namespace vinerow::tools {
+
+void add_report_command(CLI::App& app, int& exit_status) {
+  struct Arguments {
+    std::filesystem::path run, out;
+    std::vector<std::filesystem::path> plugins;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "report", "write all that a run tells as one page: verdicts, map, plots, pictures");
+  command->add_option("run", arguments->run, "folder of a run")->required();
+  command->add_option("--out", arguments->out,
+                      "page to write (default: report.html in the folder)");
+  command->add_option("--plugin", arguments->plugins, "load a plug-in beside those the run names")
+      ->allow_extra_args(false);
+  command->callback([arguments, &exit_status] {
+    if (!std::filesystem::is_directory(arguments->run)) {
+      throw ConfigError(fmt::format("{}: is no folder", arguments->run.string()));
+    }
+    Registry registry = make_registry(arguments->plugins);
+    const std::filesystem::path scenario = arguments->run / "scenario.resolved.yaml";
+    if (std::filesystem::is_regular_file(scenario)) {
+      for (const auto& plugin : io::load_plugin_list(scenario)) load_plugin(plugin, registry);
+    }
+    const std::filesystem::path out =
+        arguments->out.empty() ? arguments->run / "report.html" : arguments->out;
+    write_report(arguments->run, registry, out);
+    fmt::print("{}\n", out.string());
+    exit_status = 0;
+  });
+}
+
+}  // namespace vinerow::tools

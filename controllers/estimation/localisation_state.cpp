@@ -67,6 +67,28 @@ bool LocalisationState::correct(const Vector& h, double innovation, double r) {
   return true;
 }
 
+void LocalisationState::set_fix_error(const SlowError& horizontal_m, const SlowError& vertical_m,
+                                      bool anew) {
+  const auto set = [&](int i, const SlowError& before, const SlowError& now) {
+    if (anew || !(before.std > 0.0)) {
+      x_[i] = 0.0;
+      P_.row(i).setZero();
+      P_.col(i).setZero();
+      P_(i, i) = now.std * now.std;
+      return;
+    }
+    const double scale = now.std / before.std;
+    x_[i] *= scale;
+    P_.row(i) *= scale;
+    P_.col(i) *= scale;
+  };
+  set(kFix, noise_.fix_horizontal_m, horizontal_m);
+  set(kFix + 1, noise_.fix_horizontal_m, horizontal_m);
+  set(kFix + 2, noise_.fix_vertical_m, vertical_m);
+  noise_.fix_horizontal_m = horizontal_m;
+  noise_.fix_vertical_m = vertical_m;
+}
+
 bool LocalisationState::is_sound() const {
   return x_.allFinite() && P_.allFinite() && P_.diagonal().minCoeff() >= 0.0 &&
          P_.topLeftCorner<3, 3>().diagonal().minCoeff() > 0.0;

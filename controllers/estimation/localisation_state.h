@@ -51,6 +51,10 @@ class LocalisationState {
   Eigen::Vector3d velocity_error_W() const { return x_.segment<3>(kVelocity); }
   double heading_error_rad() const { return x_[kHeading]; }
   Eigen::Vector3d fix_error_W() const { return x_.segment<3>(kFix); }
+  /// The fixes' slow error from now on. Of the same source it grows and shrinks with its standard
+  /// deviation, as with a receiver's dilution; of another (`anew`) it is one that nothing is known
+  /// of yet.
+  void set_fix_error(const SlowError& horizontal_m, const SlowError& vertical_m, bool anew);
   Eigen::Vector3d map_shift_W() const { return x_.segment<3>(kMap); }
   bool is_sound() const;
   /// Moves the position, for hypotheses beside this one.

@@ -31,7 +31,9 @@ MapLocalisationParams read_params(const ParameterSet& parameters) {
   params.map_shift_std_m = parameters.number("map_shift_std_m");
   params.gate_sigma = parameters.number("gate_sigma");
   params.fix_gate_sigma = parameters.number("fix_gate_sigma");
+  params.fix_slow_share = parameters.number("fix_slow_share");
   params.huber_sigma = parameters.number("huber_sigma");
+  params.walls_tell_height = parameters.boolean("walls_tell_height");
   params.max_range_m = parameters.number("max_range_m");
   params.false_share = parameters.number("false_share");
   params.bank = static_cast<int>(parameters.integer("bank"));
@@ -111,7 +113,9 @@ class MapLocalisation final : public Estimator {
     law_.predict(now, told.X_WB.q * told.v_WB_B, told.X_WB.q);
     if (!gps_name_.empty() && gps_.is_newer_than(seen_fix_)) {
       const GnssFix& fix = gps_.value();
-      if (fix.valid) law_.correct_fix(gps_.stamp(), fix.p_W, fix.std_m, p_BA_);
+      if (fix.valid) {
+        law_.correct_fix(gps_.stamp(), fix.p_W, fix.std_m, p_BA_, static_cast<int>(fix.mode));
+      }
     }
     while (const auto plane = ground_.read(now, known_ins_.X_WB.q, law_.state().p_W())) {
       law_.correct_plane(plane->measured, plane->normal_W, plane->offset_m, plane->std_m);
@@ -263,6 +267,10 @@ PartSpec map_localisation_spec() {
       number_parameter("fix_walk_std_m", "m", 0.7, 0.0, 100.0,
                        "1 sigma of the fixes' slow error, east and north; up 1.5 times as much"),
       positive_parameter("fix_walk_time_s", "s", 60.0, "its correlation time"),
+      number_parameter("fix_slow_share", "", 0.0, 0.0, 0.999,
+                       "share of the variance that a fix states which is slow error, another one "
+                       "in each of the receiver's modes, as with RTK; 0: a fix states its white "
+                       "error alone, and fix_walk_std_m holds"),
       number_parameter("map_shift_std_m", "m", 0.0, 0.0, 100.0,
                        "1 sigma of a shift of the whole map, beside what its maker states"),
       choice_parameter("place", "on_map", {"on_map", "in_world"},
@@ -272,6 +280,9 @@ PartSpec map_localisation_spec() {
       positive_parameter("gate_sigma", "", 3.5, "echoes farther from their prediction are false"),
       positive_parameter("fix_gate_sigma", "", 5.0, "so are fixes"),
       positive_parameter("huber_sigma", "", 1.5, "echoes farther off than this weigh less"),
+      boolean_parameter("walls_tell_height", true,
+                        "whether echoes off walls that lean correct the height; false on maps of "
+                        "point clouds, whose walls lean otherwise than the true ones"),
       number_parameter("false_share", "", 0.1, 1e-6, 0.9,
                        "share of the echoes that no wall explains, for the alleys' weights"),
       integer_parameter("bank", 5, 1, 8, "filters at most, one per alley in question"),

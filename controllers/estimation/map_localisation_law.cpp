@@ -122,13 +122,21 @@ double MapLocalisationLaw::take_echo(Filter& filter, const Past& past,
     gradient += (spread.slope - gradient.dot(along_W)) * along_W;
     rough_m2 = spread.variance_m2;
   }
+  double height_m2 = 0.0;  // of the echo, by a height that it must not correct
+  if (!params_.walls_tell_height) {
+    State::Vector up = State::Vector::Zero();
+    up[State::kPosition + 2] = gradient.z();
+    up[State::kMap + 2] = -gradient.z();
+    height_m2 = std::max(0.0, state.innovation_variance(up, 0.0));
+    gradient.z() = 0.0;
+  }
   State::Vector h = State::Vector::Zero();
   h.segment<3>(State::kPosition) = gradient;
   h.segment<3>(State::kMap) = -gradient;
   h[State::kHeading] = -prediction->gradient_yaw(X_MB.p);
   double r = range_variance(*prediction, X_MB.p, map_.accuracy.surface_std_m, inflation,
                             sensor.bound_m, params_.heading_white_std_rad) +
-             inflation * rough_m2;
+             inflation * rough_m2 + height_m2;
   const double innovation = range_m - expected_m;
   const double s = state.innovation_variance(h, r);
   const double sigmas = std::abs(innovation) / std::sqrt(s);
@@ -142,7 +150,7 @@ double MapLocalisationLaw::take_echo(Filter& filter, const Past& past,
     ++counters_.echoes;
     const double alone = range_variance(*prediction, X_MB.p, map_.accuracy.surface_std_m, 1.0,
                                         sensor.bound_m, params_.heading_white_std_rad) +
-                         rough_m2;
+                         rough_m2 + height_m2;
     range_nis_ = innovation * innovation / state.innovation_variance(h, alone);
   }
   if (sigmas > params_.huber_sigma) r *= sigmas / params_.huber_sigma;
@@ -184,13 +192,29 @@ double MapLocalisationLaw::take_fix(Filter& filter, const Past& past,
   return log_likelihood;
 }
 
+Eigen::Vector3d MapLocalisationLaw::split_fix(const Eigen::Vector3d& std_m, int mode) {
+  if (!(params_.fix_slow_share > 0.0)) return std_m;
+  const double slow = std::sqrt(params_.fix_slow_share);
+  LocalisationNoise& noise = params_.noise;
+  noise.fix_horizontal_m.std = slow * std_m.head<2>().norm() / std::sqrt(2.0);
+  noise.fix_vertical_m.std = slow * std_m.z();
+  const bool is_another = !has_fix_ || mode != fix_mode_;
+  fix_mode_ = mode;
+  for (int i = 0; i < count_; ++i) {
+    filters_[i].state.set_fix_error(noise.fix_horizontal_m, noise.fix_vertical_m, is_another);
+  }
+  return std::sqrt(1.0 - params_.fix_slow_share) * std_m;
+}
+
 void MapLocalisationLaw::correct_fix(Time measured, const Eigen::Vector3d& p_W,
-                                     const Eigen::Vector3d& std_m, const Eigen::Vector3d& p_BA) {
+                                     const Eigen::Vector3d& stated_m, const Eigen::Vector3d& p_BA,
+                                     int mode) {
   Past past;
-  if (!has_started() || !p_W.allFinite() || !std_m.allFinite() || !recall(measured, past)) {
+  if (!has_started() || !p_W.allFinite() || !stated_m.allFinite() || !recall(measured, past)) {
     ++counters_.refused;
     return;
   }
+  const Eigen::Vector3d std_m = split_fix(stated_m, mode);
   const Eigen::Vector3d way_since_W = way_W_ - past.way_W;
   for (int i = 0; i < count_; ++i) {
     filters_[i].log_gain = take_fix(filters_[i], past, way_since_W, p_W, std_m, p_BA, i == best_);

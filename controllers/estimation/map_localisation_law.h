@@ -28,9 +28,15 @@ struct MapLocalisationParams {
   double heading_white_std_rad = 0.0035;  ///< part of the heading's error that changes every tick
   double gate_sigma = 3.5;                ///< of echoes; beyond it they count as false
   double fix_gate_sigma = 5.0;
+  /// Of a fix's stated variance what moves slowly; the rest is white. 0: a fix states its white
+  /// error alone, and `noise` tells the slow one.
+  double fix_slow_share = 0.0;
   double huber_sigma = 1.5;  ///< of echoes; from here on they weigh less
   double most_along = 0.7;   ///< |normal . row|: facets that face more along the row tell nothing
-  double max_range_m = 4.0;  ///< farther predictions are not used
+  /// Whether walls that lean tell the height. Where the map's lean otherwise than the true ones,
+  /// all of them are wrong the same way, which no mean of many echoes takes away.
+  bool walls_tell_height = true;
+  double max_range_m = 4.0;      ///< farther predictions are not used
   double least_speed_mps = 0.3;  ///< slower than this the map's error counts as changing no slower
   double false_share = 0.1;      ///< of echoes that no wall explains, for the bank's weights
   double map_shift_std_m =
@@ -70,8 +76,9 @@ class MapLocalisationLaw {
   void predict(Time now, const Eigen::Vector3d& v_W, const Eigen::Quaterniond& q_WB);
   /// @param measured  when; no older than kMemory ticks  @param p_W  of the antenna
   /// @param p_BA  the antenna in B
+  /// @param mode  of the receiver: with `fix_slow_share` each has a slow error of its own
   void correct_fix(Time measured, const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m,
-                   const Eigen::Vector3d& p_BA);
+                   const Eigen::Vector3d& p_BA, int mode = 0);
   /// A height of the body's origin in W, as from a barometer or a rangefinder that looks down.
   void correct_height(Time measured, double z_m, double std_m) {
     correct_plane(measured, Eigen::Vector3d::UnitZ(), z_m, std_m);
@@ -127,6 +134,8 @@ class MapLocalisationLaw {
   double take_fix(Filter& filter, const Past& past, const Eigen::Vector3d& way_since_W,
                   const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m,
                   const Eigen::Vector3d& p_BA, bool is_best);
+  /// Takes over what the fix states of its slow error. @returns its white part, 1 sigma
+  Eigen::Vector3d split_fix(const Eigen::Vector3d& std_m, int mode);
   /// About the last fix, where there was one. The likeliest filter stays as one of the bank, so
   /// that weights decide between it and what is new.
   void begin_anew();
@@ -150,6 +159,7 @@ class MapLocalisationLaw {
   int past_next_ = 0;
   Fix last_fix_;
   bool has_fix_ = false;
+  int fix_mode_ = 0;  // of the last fix
   double gated_share_ = 0.0;
   std::vector<std::optional<Time>> last_range_;  // of each sensor
   Counters counters_;

@@ -9,8 +9,32 @@
 #include "engine/math/angles.h"
 
 namespace vinerow {
+namespace {
+
+constexpr double kReach_m = 1.0;  // to each side of where the terrain's slope is wanted
+
+}  // namespace
+
+GroundPlane RowGround::on_terrain(const Eigen::Vector2d& p_W) const {
+  const HeightField& terrain = *terrain_;
+  const Eigen::Vector2d low = terrain.corner_W,
+                        high = low + Eigen::Vector2d(terrain.width_m(), terrain.depth_m());
+  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
+  for (int axis = 0; axis < 2; ++axis) {
+    Eigen::Vector2d before = p_W, after = p_W;
+    before[axis] = std::max(p_W[axis] - kReach_m, low[axis]);
+    after[axis] = std::min(p_W[axis] + kReach_m, high[axis]);
+    normal_W[axis] =
+        (terrain.height_m(before.x(), before.y()) - terrain.height_m(after.x(), after.y())) /
+        (after[axis] - before[axis]);
+  }
+  normal_W.normalize();
+  const Eigen::Vector3d ground_W(p_W.x(), p_W.y(), terrain.height_m(p_W.x(), p_W.y()));
+  return {normal_W, normal_W.dot(ground_W), 0.0};
+}
 
 std::optional<GroundPlane> RowGround::at(const Eigen::Vector3d& p_W) const {
+  if (terrain_ && terrain_->contains(p_W.x(), p_W.y())) return on_terrain(p_W.head<2>());
   const auto [first, second] = lines_.nearest_rows(p_W);
   if (!std::isfinite(second.distance_m)) return std::nullopt;
   Eigen::Vector3d normal_W = first.edge_W.cross(second.p_W - first.p_W);

@@ -1,6 +1,6 @@
 #pragma once
-/// The ground between mapped rows, as a plane: what a rangefinder that looks down sees, and what
-/// wheels roll on.
+/// The ground of a map of rows, as a plane: what a rangefinder that looks down sees, and what
+/// wheels roll on. Maps that have a terrain tell it there; of others the rows' lines do.
 
 #include <Eigen/Core>
 #include <optional>
@@ -14,19 +14,25 @@ namespace vinerow {
 struct GroundPlane {
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
   double offset_m = 0.0;
-  double away_m = 0.0;  ///< from the strip between the two rows, seen from above: 0 in an alley
+  double away_m = 0.0;  ///< from where the map knows the ground, seen from above: its terrain, or
+                        ///< the strip between the two rows; 0 in an alley
 };
 
 class RowGround {
  public:
-  /// Copies the rows' lines.
-  explicit RowGround(const RowMap& map) : lines_(map) {}
+  /// Copies the terrain and the rows' lines.
+  explicit RowGround(const RowMap& map) : terrain_(map.terrain), lines_(map) {}
 
-  /// Through the nearest piece of the nearest row's line and the nearest point of the next row's.
+  /// On the terrain the plane through the ground below, as steep as the ground is over the length
+  /// of a vehicle. Elsewhere through the nearest piece of the nearest row's line and the nearest
+  /// point of the next row's.
   /// @returns nothing where the map has fewer than two rows, or they meet there
   std::optional<GroundPlane> at(const Eigen::Vector3d& p_W) const;
 
  private:
+  GroundPlane on_terrain(const Eigen::Vector2d& p_W) const;
+
+  std::optional<HeightField> terrain_;
   RowLineIndex lines_;
 };
 

@@ -40,6 +40,54 @@ TEST(RowGround, TellsHowFarOffTheRowsItIs) {
   EXPECT_NEAR(away_m(-4.0, 8.0), 5.0, 1e-9);   // 4 m and 3 m off a corner
 }
 
+/// A hill between the ends of straight lines: z = x (40 - x) / 100 + y / 10, four metres above the
+/// lines in their middle.
+RowMap make_hill_map() {
+  RowMap map;
+  for (const double y : {0.0, 2.5}) {
+    PlantRow row;
+    row.id = static_cast<int>(map.rows.size());
+    row.line_W = {{0.0, y, 0.1 * y}, {40.0, y, 0.1 * y}};
+    map.rows.push_back(row);
+  }
+  HeightField terrain;
+  terrain.columns = 101, terrain.rows = 41;
+  terrain.cell_m = 0.5;
+  terrain.corner_W = {-5.0, -5.0};
+  for (int j = 0; j < terrain.rows; ++j) {
+    for (int i = 0; i < terrain.columns; ++i) {
+      const double x = terrain.corner_W.x() + 0.5 * i, y = terrain.corner_W.y() + 0.5 * j;
+      terrain.heights_m.push_back(static_cast<float>(x * (40.0 - x) / 100.0 + y / 10.0));
+    }
+  }
+  map.terrain = terrain;
+  return map;
+}
+
+TEST(RowGround, IsTheMapsTerrainWhereItHasOne) {
+  const RowGround rows(make_hill_map());
+  for (const double x : {-3.2, 8.3, 20.0, 31.7, 44.0}) {
+    for (const double y : {-3.0, 1.25, 9.0}) {
+      const auto ground = rows.at({x, y, 10.0});
+      ASSERT_TRUE(ground);
+      const Eigen::Vector3d on_W(x, y, x * (40.0 - x) / 100.0 + y / 10.0);
+      // Chords of 0.5 m cut 0.25^2 / 100 m off the parabola.
+      EXPECT_NEAR(ground->normal_W.dot(on_W), ground->offset_m, 1e-3);
+      const Eigen::Vector3d steep(-(40.0 - 2.0 * x) / 100.0, -0.1, 1.0);
+      EXPECT_LT((ground->normal_W - steep.normalized()).norm(), 1e-3);
+      EXPECT_EQ(ground->away_m, 0.0) << "the terrain is known there, whatever the rows say";
+    }
+  }
+  // At its very edge, and beyond it, where the lines go on.
+  const auto edge = rows.at({-5.0, -5.0, 0.0});
+  ASSERT_TRUE(edge);
+  EXPECT_NEAR(edge->normal_W.dot(Eigen::Vector3d(-5.0, -5.0, -2.75)), edge->offset_m, 1e-6);
+  const auto beyond = rows.at({50.0, 1.25, 0.0});
+  ASSERT_TRUE(beyond);
+  EXPECT_NEAR(beyond->normal_W.dot(Eigen::Vector3d(50.0, 1.25, 0.125)), beyond->offset_m, 1e-9);
+  EXPECT_NEAR(beyond->away_m, 10.0, 1e-9);
+}
+
 TEST(RowGround, OneRowTellsNoPlane) {
   const RowMap map = make_row_mesh_map({.rows = 1, .length_m = 40.0}, RandomStream(1, "", "map"));
   EXPECT_FALSE(RowGround(map).at({0, 0, 1}));

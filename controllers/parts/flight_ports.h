@@ -44,10 +44,15 @@ class FlightPorts {
   Wrench write(Time now, const Wrench& wanted);
   /// What was written last, rad/s.
   const std::vector<double>& speeds_radps() const { return actuator_values_.values; }
-  /// Rotors off.
+  /// Rotors off. After a landing they slow down within kWindDown_s, all alike, so that a vehicle
+  /// that stands on a slope by one foot is laid down onto the others instead of falling over them.
   void write_off(Time now);
 
  private:
+  static constexpr double kWindDown_s = 2.0;
+
+  /// @returns false once the rotors stand
+  bool wind_down(Time now);
   void write_values(Time now, const Wrench& wanted, const Wrench& reached);
   void write_follower(Time now);
 
@@ -55,6 +60,9 @@ class FlightPorts {
   RotorMixer mixer_;
   bool has_ended_ = false;
   bool has_lifted_off_ = false;
+  bool winds_down_ = false;
+  Time landed_;
+  std::vector<double> landed_radps_;  // the rotors then
   NamedValues actuator_values_;
   NamedValues wrench_values_;
   SignalReader<Odometry> estimate_;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "engine/math/angles.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"
@@ -62,6 +64,20 @@ TEST(QuadrotorMission, AllSixteenRowsAndHomeOverTheVines) {
   expect_mission_within_limits(run, 15.0);
   // 3 m above ground and canopy, less what wind and terrain following take.
   EXPECT_GE(run.metric("drone", "return_clearance_min_m"), 2.9);
+}
+
+TEST(QuadrotorMission, StandsOnTheHillsideAfterItsLanding) {
+  // The headland is 20 deg steep there: with its rotors stopped at once it falls over.
+  TestRun run = TestRun::from_file(
+      scenario_file(kTwoRows),
+      {"drone.planner.alleys=[0]", "stop_when_finished=false", "duration_s=116"});
+  run.run_to_end();
+  EXPECT_EQ(run.metric("drone", "finished"), 1.0);
+  EXPECT_EQ(run.metric("drone", "crashed"), 0.0);
+  const Odometry truth = run.truth("drone");
+  const double tilt_rad = std::acos((truth.X_WB.q * Eigen::Vector3d::UnitZ()).z());
+  EXPECT_NEAR(deg_from_rad(tilt_rad), 20.0, 4.0) << "it lies against the slope";
+  EXPECT_LT(truth.v_WB_B.norm(), 0.01);
 }
 
 TEST(QuadrotorMission, TheObserverTakesTheWindOutOfTheRow) {

@@ -1,0 +1,1 @@
+"""What tools/results is made of."""

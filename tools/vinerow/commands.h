@@ -26,6 +26,8 @@ void add_coverage_command(CLI::App& app, int& exit_status);
 void add_survey_command(CLI::App& app, int& exit_status);
 void add_cloud_command(CLI::App& app, int& exit_status);
 void add_map_command(CLI::App& app, int& exit_status);
+void add_replay_command(CLI::App& app, int& exit_status);
+void add_report_command(CLI::App& app, int& exit_status);
 
 /// Options that every command which reads a scenario has.
 struct ScenarioArguments {

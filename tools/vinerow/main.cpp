@@ -1,5 +1,5 @@
 /// The command: `vinerow run | validate | list | schema | render | info | grid | trim | coverage |
-/// survey | cloud | map`.
+/// survey | cloud | map | replay | report`.
 
 #include <fmt/format.h>
 
@@ -33,6 +33,8 @@ int main(int argc, char** argv) {
   vinerow::tools::add_survey_command(app, exit_status);
   vinerow::tools::add_cloud_command(app, exit_status);
   vinerow::tools::add_map_command(app, exit_status);
+  vinerow::tools::add_replay_command(app, exit_status);
+  vinerow::tools::add_report_command(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,13 @@
+#pragma once
+/// Bytes as text inside a page. Source: RFC 4648, "The Base16, Base32, and Base64 Data Encodings",
+/// section 4.
+
+#include <string>
+#include <string_view>
+
+namespace vinerow::tools {
+
+/// With padding, without line breaks.
+std::string base64(std::string_view bytes);
+
+}  // namespace vinerow::tools

@@ -1,0 +1,250 @@
+"use strict";
+// The world, the vehicles and the lines drawn over it. z is up, as in the log: glTF's y up is turned back.
+(function (root) {
+  const Replay = (root.VinerowReplay = root.VinerowReplay || {});
+
+  // Trails as in the run's pictures; more vehicles start again.
+  Replay.kColours = ["#ffb80d", "#ff4db3", "#4df2e6", "#7db4ff", "#b6f24d", "#ff8a5c"];
+  // Nearer than this the finest leaves are drawn, then the middle ones.
+  const kLevels = [22, 320];
+  // Lines hover this much above what they follow.
+  const kHover = 0.07;
+  // Rotors turn so fast, as far as the eye can tell.
+  const kSpinTurns = 7.3;
+
+  function worldMaterial(own, materials, cards) {
+    if (cards) return materials.leaves[cards].material;
+    if (!materials.plain.has(own)) {
+      const plain = new THREE.MeshLambertMaterial({ color: own.color, side: own.side });
+      plain.vertexColors = own.vertexColors;
+      materials.plain.set(own, plain);
+    }
+    return materials.plain.get(own);
+  }
+
+  /** Moves what hangs in the file's tree to where it stands in W. */
+  function settle(object, parent) {
+    object.matrix.copy(object.matrixWorld);
+    object.matrixAutoUpdate = false;
+    parent.add(object);
+  }
+
+  class Scene {
+    /** @param gltf what GLTFLoader made @param index the page's @param tracks of data.js */
+    constructor(gltf, index, tracks, textures) {
+      this.scene = new THREE.Scene();
+      this.sun = Replay.addLight(this.scene, index.light);
+      this.sky = Replay.makeSky(index.light, textures);
+      this.scene.add(this.sky);
+      this.world = new THREE.Group();
+      this.canopy = new THREE.Group();
+      this.plans = new THREE.Group();
+      this.trails = new THREE.Group();
+      this.scene.add(this.world, this.canopy, this.plans, this.trails);
+      this.levels = [];
+      this.lineMaterials = [];
+      this.arrangeWorld(gltf, index, textures);
+      this.vehicles = tracks.map((track, v) => this.addVehicle(track, v));
+    }
+
+    arrangeWorld(gltf, index, textures) {
+      gltf.scene.rotation.x = Math.PI / 2;
+      gltf.scene.updateMatrixWorld(true);
+      const materials = { ground: Replay.makeGroundMaterial(index.ground, textures), leaves: {}, plain: new Map() };
+      for (const name of ["leaf", "spray", "clump"]) materials.leaves[name] = Replay.makeLeafMaterial(textures[name]);
+      const found = [], groups = new Map();
+      this.links = new Map();
+      gltf.scene.traverse((object) => {
+        if (object.userData.part) found.push(object);
+      });
+      for (const object of found) {
+        const data = object.userData;
+        if (data.part === "link") {
+          this.links.set(data.vehicle + "/" + data.link, object);
+          object.traverse((mesh) => {
+            if (mesh.isMesh) mesh.castShadow = mesh.receiveShadow = true;
+          });
+          continue;
+        }
+        object.receiveShadow = true;
+        if (data.part === "terrain" || data.part === "surroundings" || data.surface === "terrain") {
+          const isGround = data.part !== "world";
+          object.material = isGround ? materials.ground : worldMaterial(object.material, materials);
+          object.receiveShadow = data.part !== "surroundings";
+          settle(object, this.world);
+          continue;
+        }
+        object.material = worldMaterial(object.material, materials, data.cards);
+        if (data.cards) object.customDepthMaterial = materials.leaves[data.cards].depth;
+        object.castShadow = data.surface !== "wire";
+        const foliage = data.surface === "canopy" || data.cards;
+        settle(object, foliage ? this.canopy : this.world);
+        if (data.group !== undefined) {
+          if (!groups.has(data.group)) groups.set(data.group, []);
+          groups.get(data.group)[data.level] = object;
+        }
+      }
+      for (const levels of groups.values()) {
+        const coarsest = levels[levels.length - 1];
+        coarsest.geometry.computeBoundingSphere();
+        const centre = coarsest.geometry.boundingSphere.center.clone().applyMatrix4(coarsest.matrix);
+        this.levels.push({ levels, centre });
+      }
+    }
+
+    addVehicle(track, v) {
+      const vehicle = {
+        track, name: track.name, colour: Replay.kColours[track.entry.index % Replay.kColours.length],
+        group: new THREE.Group(), links: [], position: new THREE.Vector3(), quaternion: new THREE.Quaternion(),
+        yaw: 0, speed: 0,
+      };
+      this.scene.add(vehicle.group);
+      track.links.forEach((link, l) => {
+        const object = this.links.get(track.entry.index + "/" + l);
+        if (!object) return;
+        object.matrixAutoUpdate = false;
+        vehicle.group.add(object);
+        vehicle.links.push({ l, object, link, disc: link.axis ? addDisc(object, link.axis) : null });
+      });
+      vehicle.trail = this.addTrail(vehicle, v);
+      vehicle.plans = track.plans.map((plan) => this.addPlan(vehicle, plan));
+      return vehicle;
+    }
+
+    addLine(parent, pairs, colour, width, opacity) {
+      const geometry = new THREE.LineSegmentsGeometry();
+      geometry.setPositions(pairs);
+      const material = new THREE.LineMaterial({ color: new THREE.Color(colour).getHex(), linewidth: width });
+      material.transparent = opacity < 1;
+      material.opacity = opacity;
+      material.fog = false;
+      // Lines are signs: their colours are those of the screen.
+      material.fragmentShader = material.fragmentShader.replace("#include <tonemapping_fragment>", "").replace("#include <encodings_fragment>", "");
+      this.lineMaterials.push(material);
+      const line = new THREE.LineSegments2(geometry, material);
+      line.frustumCulled = false;
+      parent.add(line);
+      return line;
+    }
+
+    /** Pairs of points; as many are drawn as have been passed. */
+    addTrail(vehicle, v) {
+      const track = vehicle.track, n = track.times.length, down = track.entry.foot_m - kHover - 0.01 * v;
+      const pairs = new Float32Array(6 * Math.max(n - 1, 1));
+      for (let i = 0; i + 1 < n; ++i) {
+        for (let end = 0; end < 2; ++end) {
+          for (let c = 0; c < 3; ++c) {
+            pairs[6 * i + 3 * end + c] = track.positions[3 * (i + end) + c] - (c === 2 && !track.entry.flies ? down : 0);
+          }
+        }
+      }
+      const line = this.addLine(this.trails, pairs, vehicle.colour, 3.5, 0.95);
+      line.renderOrder = 2;
+      return line;
+    }
+
+    addPlan(vehicle, plan) {
+      const count = plan.points.length / 3, pairs = new Float32Array(6 * (count - 1));
+      for (let i = 0; i + 1 < count; ++i) {
+        for (let k = 0; k < 6; ++k) pairs[6 * i + k] = plan.points[3 * i + k] + (k % 3 === 2 ? 0.6 * kHover : 0);
+      }
+      const line = this.addLine(this.plans, pairs, "#ffffff", 1.6, 0.6);
+      line.renderOrder = 1;
+      line.visible = false;
+      return line;
+    }
+
+    /** Everything at a time, s since the run's start. */
+    setTime(t) {
+      for (const vehicle of this.vehicles) {
+        const at = vehicle.track.bracket(t), p = [0, 0, 0], q = [0, 0, 0, 1];
+        vehicle.track.poseAt(at, p, q);
+        vehicle.position.fromArray(p);
+        vehicle.quaternion.fromArray(q);
+        vehicle.yaw = Math.atan2(2 * (q[3] * q[2] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2]));
+        vehicle.speed = vehicle.track.speedAt(at);
+        vehicle.height = vehicle.track.heightAt(at);
+        vehicle.group.position.copy(vehicle.position);
+        vehicle.group.quaternion.copy(vehicle.quaternion);
+        for (const part of vehicle.links) this.setLink(vehicle.track, part, at, t);
+        const passed = Math.min(at.index + (at.share > 0.5 ? 1 : 0), vehicle.track.times.length - 1);
+        vehicle.trail.geometry.maxInstancedCount = passed;
+        vehicle.trail.visible = passed > 0;
+        const current = vehicle.track.planAt(t);
+        vehicle.plans.forEach((line, i) => (line.visible = i === current));
+      }
+    }
+
+    setLink(track, part, at, t) {
+      const p = [0, 0, 0], q = [0, 0, 0, 1];
+      const spins = track.linkPoseAt(at, part.l, p, q);
+      const rotation = new THREE.Quaternion().fromArray(q);
+      if (part.link.axis) {
+        const axis = new THREE.Vector3().fromArray(part.link.axis);
+        if (spins) rotation.multiply(new THREE.Quaternion().setFromAxisAngle(axis, 2 * Math.PI * ((kSpinTurns * t) % 1)));
+        part.disc.visible = spins;
+      }
+      part.object.matrix.compose(new THREE.Vector3().fromArray(p), rotation, new THREE.Vector3(1, 1, 1));
+    }
+
+    /** Before a picture: what is near is drawn finer. @param share of the distances, 1 or less */
+    prepare(camera, width, height, share) {
+      for (const { levels, centre } of this.levels) {
+        const distance = camera.position.distanceTo(centre);
+        let wanted = distance < kLevels[0] * share ? 0 : distance < kLevels[1] * share ? 1 : 2;
+        wanted = Math.min(wanted, levels.length - 1);
+        while (!levels[wanted]) ++wanted;  // the page does not hold the finest
+        levels.forEach((object, i) => (object.visible = i === wanted));
+      }
+      for (const material of this.lineMaterials) material.resolution.set(width, height);
+    }
+
+    /** Places that a view of the whole shows: rows, and vehicles at a time; all trails where there are no rows. */
+    home(ground, t) {
+      const places = [];
+      const add = (array, at, up) => places.push(new THREE.Vector3(array[at], array[at + 1], array[at + 2] + up));
+      const height = ground.canopy_top_m || 0;
+      for (const line of ground.rows) {
+        for (const at of [0, line.length - 3]) {
+          add(line, at, 0);
+          add(line, at, height);
+        }
+      }
+      const rows = new THREE.Box3().setFromPoints(places), centre = rows.getCenter(new THREE.Vector3());
+      const reach = 0.75 * rows.getSize(new THREE.Vector3()).length(), alone = places.length === 0;
+      for (const vehicle of this.vehicles) {
+        const track = vehicle.track, p = [0, 0, 0];
+        track.poseAt(track.bracket(t), p, [0, 0, 0, 1]);
+        if (alone || new THREE.Vector3().fromArray(p).distanceTo(centre) < reach) add(p, 0, 1);
+        for (let i = 0; alone && i < track.times.length; ++i) add(track.positions, 3 * i, 0);
+      }
+      if (places.length === 0) {
+        const box = ground.terrain_box || [[-10, -10, 0], [10, 10, 3]];
+        for (let k = 0; k < 8; ++k) places.push(new THREE.Vector3(box[k & 1][0], box[(k >> 1) & 1][1], box[k >> 2][2]));
+      }
+      return places;
+    }
+  }
+
+  /** What a rotor looks like when the eye cannot follow its blades. */
+  function addDisc(object, axis) {
+    const box = new THREE.Box3(), along = new THREE.Vector3().fromArray(axis);
+    object.traverse((mesh) => {
+      if (!mesh.isMesh) return;
+      mesh.geometry.computeBoundingBox();
+      mesh.updateMatrix();
+      box.union(mesh.geometry.boundingBox.clone().applyMatrix4(mesh.matrix));
+    });
+    if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
+    const size = box.getSize(new THREE.Vector3()), radius = 0.5 * Math.max(size.x, size.y, size.z);
+    const disc = new THREE.Mesh(
+      new THREE.CircleBufferGeometry(radius, 40),
+      new THREE.MeshBasicMaterial({ color: 0x20262b, transparent: true, opacity: 0.16, side: THREE.DoubleSide, depthWrite: false }));
+    disc.position.copy(along).multiplyScalar(box.getCenter(new THREE.Vector3()).dot(along));
+    disc.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), along);
+    object.add(disc);
+    return disc;
+  }
+
+  Replay.Scene = Scene;
+})(typeof window === "undefined" ? globalThis : window);

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 
+#include "engine/core/error.h"
 #include "engine/sim/run.h"
 #include "tools/vinerow/commands.h"
+#include "tools/vinerow/report/report.h"
 
 namespace vinerow::tools {
 namespace {
@@ -62,7 +65,13 @@ void print_phase(const PhaseReport& phase) {
     fmt::print(" {:8.1f} to {:8.1f} s", phase.begin->s(), phase.end->s());
   }
   fmt::print("{}{}\n", phase.reason.empty() ? "" : "  ", phase.reason);
-  for (const std::string& note : phase.notes) fmt::print("             {}\n", note);
+  constexpr std::size_t kShown = 3;
+  for (std::size_t i = 0; i < std::min(kShown, phase.notes.size()); ++i) {
+    fmt::print("             {}\n", phase.notes[i]);
+  }
+  if (phase.notes.size() > kShown) {
+    fmt::print("             and {} more in summary.json\n", phase.notes.size() - kShown);
+  }
 }
 
 void print_result(const RunResult& result, const std::filesystem::path& out, bool with_log) {
@@ -98,13 +107,24 @@ void map_coverage_of(const std::filesystem::path& out, const Registry& registry)
   for (const std::filesystem::path& file : files) fmt::print("coverage {}\n", file.string());
 }
 
+/// A report that cannot be written takes nothing from the run's verdict.
+void report_on(const std::filesystem::path& out, const Registry& registry) {
+  const std::filesystem::path report = out / "report.html";
+  try {
+    write_report(out, registry, report);
+    fmt::print("report   {}\n", report.string());
+  } catch (const ConfigError& error) {
+    fmt::print(stderr, "vinerow: no report: {}\n", error.what());
+  }
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_status) {
   struct Arguments {
     ScenarioArguments scenario;
     std::filesystem::path out;
-    bool no_log = false, no_pictures = false, quiet = false;
+    bool no_log = false, no_pictures = false, no_report = false, quiet = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
@@ -114,6 +134,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
                       "folder for the results (default: runs/<scenario name>)");
   command->add_flag("--no-log", arguments->no_log, "write no log (and so no pictures)");
   command->add_flag("--no-pictures", arguments->no_pictures, "draw no pictures");
+  command->add_flag("--no-report", arguments->no_report, "write no report.html");
   command->add_flag("--quiet", arguments->quiet, "no progress");
   command->callback([arguments, &exit_status] {
     Registry registry;
@@ -132,6 +153,9 @@ void add_run_command(CLI::App& app, int& exit_status) {
     const bool with_log = options.log && scenario.record.enabled;
     print_result(result, options.out, with_log);
     if (with_log && options.pictures) map_coverage_of(options.out, registry);
+    if (!arguments->no_report) {
+      report_on(options.out, registry);
+    }
     exit_status = static_cast<int>(result.status);
   });
 }

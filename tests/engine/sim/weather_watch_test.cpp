@@ -24,7 +24,7 @@ std::pair<double, Verdict> wait(const io::WeatherWindow& window, const WorldMode
   for (int k = 0; k < 1'000'000; ++k) {
     const Time now{k * 10'000'000ll};
     const Verdict verdict = watch.look(now);
-    if (verdict != Verdict::kWait) return {now.s(), verdict};
+    if (verdict != Verdict::kWait) return {0.01 * std::round(100.0 * now.s()), verdict};
   }
   return {-1.0, Verdict::kWait};
 }

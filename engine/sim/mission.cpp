@@ -359,6 +359,7 @@ void Mission::finish(std::size_t i, Time now) {
     fail(i, now, "missed " + join(missed, " and "));
     return;
   }
+  if (!phases_[i].cameras.empty()) report.product = phases_[i].cameras.front().product();
   settle(i, now, PhaseState::kSucceeded, "");
 }
 

@@ -8,9 +8,12 @@
 #include "engine/io/geo.h"
 #include "engine/math/angles.h"
 #include "engine/math/polygon.h"
+#include "tools/vinerow/report/html.h"
 
 namespace vinerow::tools {
 namespace {
+
+using report::escaped;
 
 constexpr const char* kStyle = R"(
 :root { color-scheme: light; }
@@ -40,29 +43,6 @@ ul { padding-left: 20px; }
 footer { margin-top: 48px; font-size: 13px; color: #787c7a; }
 @media print { body { background: #fff; } main { max-width: none; padding: 0; } figure, tr, .card { break-inside: avoid; } }
 )";
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 /// "7 012 345", with narrow spaces that do not break.
 std::string grouped(std::int64_t number) {

@@ -11,8 +11,8 @@ namespace vinerow::render {
 /// Reads any PNG as 8-bit RGBA, top row first. @returns the pixels, or why there are none
 Result<Pixels> read_png(const std::string& file);
 
-/// A PNG file in memory, without alpha where every pixel is opaque; small more than fast to make. No
-/// time stamps: the same pixels give the same bytes. @pre width and height >= 1
+/// A PNG file in memory, without alpha where every pixel is opaque; small more than fast to make.
+/// No time stamps: the same pixels give the same bytes. @pre width and height >= 1
 std::string encode_png(const Pixels& pixels);
 
 }  // namespace vinerow::render

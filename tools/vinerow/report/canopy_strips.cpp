@@ -21,12 +21,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kWidth = 1000, kLeft = 120, kRight = 10, kStrip = 18, kGap = 5, kBottom = 44;
+constexpr double kWidth = 1000, kLeft = 120, kRight = 10, kStrip = 26, kGap = 4, kBottom = 44;
 /// More strips make a page of their own; those that nothing reached are left out first.
 constexpr std::size_t kMostStrips = 80;
 
 using StripKey = std::pair<int, int>;  ///< row, and 0 for its left side, 1 for its right
 using Strips = std::map<StripKey, std::vector<const CanopyPatchAmount*>>;
+
+/// "ml/m²" of "ml/m2".
+std::string spelled(std::string unit) {
+  const std::size_t at = unit.rfind("m2");
+  return at == std::string::npos ? unit : unit.replace(at, 2, "m²");
+}
 
 Strips strips_of(const CanopyFile& canopy) {
   Strips strips;
@@ -73,7 +79,7 @@ std::string strips_svg(const CanopyFile& canopy, double full) {
   svg.text(0.5 * (x.from_px() + x.to_px()), bottom + 38, "along the row, m", "label mid");
   double y = 0.0;
   for (const auto& [key, patches] : strips) {
-    svg.text(kLeft - 8, y + 13,
+    svg.text(kLeft - 8, y + 17,
              fmt::format("row {}, {}", key.first, key.second == 0 ? "left" : "right"), "tick end");
     svg.image(x.from_px(), y, x.to_px() - x.from_px(), kStrip,
               render::encode_png(strip_pixels(patches, columns, bands, full)));
@@ -157,7 +163,7 @@ CanopyFile read_canopy(const fs::path& file) {
     canopy.vehicle = json.at("vehicle");
     canopy.payload = json.at("payload");
     canopy.quantity = json.at("quantity");
-    canopy.unit = json.at("unit");
+    canopy.unit = spelled(json.at("unit"));
     canopy.wanted = json.at("wanted");
     canopy.step_m = json.at("step_m");
     canopy.band_m = json.at("band_m");

@@ -49,6 +49,18 @@ Samples distance_of(const VehicleLog& a, const VehicleLog& b) {
   return samples;
 }
 
+/// While both are at work.
+Samples during(const Samples& samples, const Track& a, const Track& b) {
+  Samples both;
+  if (a.empty() || b.empty()) return both;
+  const double from_s = std::max(a.t_s.front(), b.t_s.front());
+  const double to_s = std::min(a.t_s.back(), b.t_s.back());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples.x[i] >= from_s && samples.x[i] <= to_s) both.add(samples.x[i], samples.y[i]);
+  }
+  return both;
+}
+
 void add_waits(const VehicleLog& vehicle, std::vector<PlotSpan>& spans) {
   for (std::size_t i = 0; i < vehicle.authority.times.size(); ++i) {
     if (vehicle.authority.values[i].holder.empty()) continue;
@@ -102,23 +114,27 @@ std::string key_numbers(const RunFolder& run, const std::vector<VehicleLog>& veh
   return out + "</div>\n";
 }
 
-LinePlot separation_plot(const std::vector<VehicleLog>& vehicles) {
+LinePlot separation_plot(const std::vector<VehicleLog>& vehicles,
+                         const std::vector<Track>& tracks) {
   LinePlot plot;
   plot.title = "Distance between the vehicles";
   plot.y_label = "middle to middle, m";
-  plot.caption = "Shaded: a vehicle waits for an alley that another one has.";
+  plot.caption =
+      "True distance between their middles while both are at work. Shaded: one waits for an alley "
+      "that another one has.";
   plot.spans_label = "a vehicle waits for another";
   plot.least_span = 1.0;
   for (std::size_t a = 0; a < vehicles.size(); ++a) {
     add_waits(vehicles[a], plot.spans);
     for (std::size_t b = a + 1; b < vehicles.size(); ++b) {
-      Samples samples = distance_of(vehicles[a], vehicles[b]);
+      Samples samples = during(distance_of(vehicles[a], vehicles[b]), tracks[a], tracks[b]);
       if (samples.size() == 0) continue;
       plot.lines.push_back({vehicles[a].name + " to " + vehicles[b].name, std::move(samples),
                             fmt::format("s{}", plot.lines.size() % 8)});
     }
   }
-  if (plot.spans.empty()) plot.caption = "True distance between the middles of the vehicles.";
+  if (plot.spans.empty())
+    plot.caption = "True distance between their middles while both are at work.";
   return plot;
 }
 

@@ -6,6 +6,7 @@
 
 #include "tools/vinerow/report/line_plot.h"
 #include "tools/vinerow/report/run_folder.h"
+#include "tools/vinerow/report/track.h"
 #include "tools/vinerow/report/vehicle_log.h"
 
 namespace vinerow::tools::report {
@@ -14,9 +15,10 @@ namespace vinerow::tools::report {
 /// real-time factor from the element "real-time-factor".
 std::string key_numbers(const RunFolder& run, const std::vector<VehicleLog>& vehicles);
 
-/// Distance between the middles of every two vehicles over time, with the stretches in which one
-/// waits for an alley that the other has; empty for fewer than two.
-LinePlot separation_plot(const std::vector<VehicleLog>& vehicles);
+/// Distance between the middles of every two vehicles while both are at work, with the stretches in
+/// which one waits for an alley that the other has; empty where no two are.
+/// @param tracks  one of each vehicle
+LinePlot separation_plot(const std::vector<VehicleLog>& vehicles, const std::vector<Track>& tracks);
 
 /// Least distance between the middles of two vehicles at the instants of the log, m; NaN for fewer
 /// than two.

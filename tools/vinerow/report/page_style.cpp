@@ -117,6 +117,7 @@ table { border-collapse: collapse; width: 100%; font-size: 14px; background: var
 th, td { padding: 6px 10px; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
 th { font-weight: 600; color: var(--soft); font-size: 13px; vertical-align: bottom; }
 td.num { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
+table.facts td:first-child { width: 260px; color: var(--soft); }
 td.none { color: var(--soft); }
 table.criteria td:nth-child(2) { min-width: 250px; } table.criteria td:last-child { min-width: 260px; color: var(--soft); }
 .badge { display: inline-block; padding: 0 9px; border-radius: 10px; font-size: 13px; font-weight: 600; background: var(--grid); color: var(--soft); white-space: nowrap; }

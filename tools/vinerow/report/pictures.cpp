@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
 
 #include "engine/core/error.h"
+#include "engine/math/polygon.h"
 #include "engine/render/png.h"
 #include "tools/vinerow/report/base64.h"
 #include "tools/vinerow/report/html.h"
@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostFrames = 36;
 /// A file as small as this is taken as it is.
 constexpr std::uintmax_t kSmall_bytes = 250'000;
+constexpr double kMoves_mps = 0.05;
 
 std::vector<fs::path> png_files(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -70,6 +71,30 @@ std::string frame_caption(const RunFolder& run, const fs::path& file) {
   return fmt::format("{}, after {}", what, duration_text(name.time_s));
 }
 
+/// How much of the run a frame shows; more is better, any of one line more than all below it.
+int score_of(const RunFolder& run, const io::CameraConfig* camera, double time_s,
+             const std::vector<VehicleLog>& vehicles) {
+  if (camera == nullptr) return 0;
+  int score = 0;
+  const bool aslant =
+      camera->kind != io::CameraKind::kTop && camera->kind != io::CameraKind::kShots;
+  const bool plain = !camera->show_map && !camera->show_estimate && !camera->show_grid;
+  score += aslant ? 10'000 : 0;
+  score += plain ? 5'000 : 0;
+  for (const VehicleLog& vehicle : vehicles) {
+    if (vehicle.truth.empty()) continue;
+    const Odometry truth = odometry_at(vehicle.truth, Time{} + duration_from_s(time_s));
+    const bool moves = truth.v_WB_B.norm() > kMoves_mps;
+    score += moves ? 1 : 0;
+    if (vehicle.name != camera->vehicle) continue;
+    const bool in_parcel =
+        run.world && contains(run.world->rows.boundary_W, truth.X_WB.p.head<2>());
+    score += moves ? 1'000 : 0;
+    score += in_parcel ? 500 : 0;
+  }
+  return score;
+}
+
 std::string read_bytes(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -116,22 +141,18 @@ std::vector<Picture> product_pictures(const RunFolder& run) {
   return pictures;
 }
 
-const Picture* hero_picture(const RunFolder& run, const std::vector<Picture>& frames) {
-  if (frames.empty()) return nullptr;
-  // A plain view before one with a map's wires and estimates drawn over it.
-  for (const bool plain : {true, false}) {
-    if (!run.scenario) break;
-    for (const io::CameraConfig& camera : run.scenario->pictures.cameras) {
-      if (camera.kind == io::CameraKind::kTop || camera.kind == io::CameraKind::kShots) continue;
-      if (plain && (camera.show_map || camera.show_estimate || camera.show_grid)) continue;
-      std::vector<const Picture*> taken;
-      for (const Picture& picture : frames) {
-        if (frame_name(picture.file).camera == camera.name) taken.push_back(&picture);
-      }
-      if (!taken.empty()) return taken[(taken.size() - 1) / 2];
-    }
+const Picture* hero_picture(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
+                            const std::vector<Picture>& frames) {
+  std::vector<const Picture*> best;
+  int best_score = -1;
+  for (const Picture& picture : frames) {
+    const FrameName name = frame_name(picture.file);
+    const int score = score_of(run, camera_of(run, name.camera), name.time_s, vehicles);
+    if (score > best_score) best.clear();
+    best_score = std::max(best_score, score);
+    if (score == best_score) best.push_back(&picture);
   }
-  return &frames[(frames.size() - 1) / 2];
+  return best.empty() ? nullptr : best[(best.size() - 1) / 2];
 }
 
 int fitting_width(const std::vector<Picture>& pictures, std::size_t budget_bytes) {

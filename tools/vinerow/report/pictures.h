@@ -8,6 +8,7 @@
 #include "engine/io/scenario.h"
 #include "engine/render/pixels.h"
 #include "tools/vinerow/report/run_folder.h"
+#include "tools/vinerow/report/vehicle_log.h"
 
 namespace vinerow::tools::report {
 
@@ -17,7 +18,7 @@ struct Picture {
 };
 
 /// Pictures of all that a page holds together, PNG files.
-constexpr std::size_t kPictureBudget_bytes = 6'000'000;
+constexpr std::size_t kPictureBudget_bytes = 5'000'000;
 
 /// frames/*.png, coverage*.png, and those in products/*/, each with what it shows. Of more than 36
 /// frames as many, evenly.
@@ -25,9 +26,11 @@ std::vector<Picture> frame_pictures(const RunFolder& run);
 std::vector<Picture> coverage_pictures(const RunFolder& run);
 std::vector<Picture> product_pictures(const RunFolder& run);
 
-/// The picture that shows a stranger what the run is about: the middle frame of the scenario's
-/// first camera that does not look from straight above. Null where there is none.
-const Picture* hero_picture(const RunFolder& run, const std::vector<Picture>& frames);
+/// The picture that shows a stranger what the run is about: of a camera that does not look from
+/// straight above, nothing drawn over it if there is such a one, its vehicle at work in the parcel
+/// and as many as can be moving; the middle one of equals. Null where there is none.
+const Picture* hero_picture(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
+                            const std::vector<Picture>& frames);
 
 /// The width at which pictures of these files stay inside a budget, 1280 at most.
 int fitting_width(const std::vector<Picture>& pictures, std::size_t budget_bytes);

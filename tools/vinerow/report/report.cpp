@@ -58,7 +58,7 @@ Material read_material(const std::filesystem::path& folder, const Registry& regi
 }
 
 std::string hero(const Material& m) {
-  const Picture* picture = hero_picture(m.run, m.frames);
+  const Picture* picture = hero_picture(m.run, m.vehicles, m.frames);
   const auto whole = whole_view(m.run, m.vehicles);
   const auto parcel = parcel_view(m.run, m.vehicles);
   std::string out;
@@ -162,7 +162,7 @@ std::string plots_chapter(const Material& m) {
            "<code>--no-log</code> writes one.</p>\n";
   }
   std::string out;
-  const LinePlot separation = separation_plot(m.vehicles);
+  const LinePlot separation = separation_plot(m.vehicles, m.tracks);
   PlotFrame wide;
   wide.width = 1200;
   out += figure(separation, wide);
@@ -180,7 +180,7 @@ std::string plots_chapter(const Material& m) {
 }
 
 std::string pictures_chapter(const Material& m) {
-  const Picture* hero = hero_picture(m.run, m.frames);
+  const Picture* hero = hero_picture(m.run, m.vehicles, m.frames);
   std::string out;
   for (const auto* pictures : {&m.coverage, &m.products, &m.frames}) {
     for (const Picture& picture : *pictures) {

@@ -17,6 +17,23 @@ std::string plain(const Json& value) {
   return value.is_number() ? number_text(value.get<double>()) : value.dump();
 }
 
+/// What planners counted, of every vehicle.
+std::string planning_table(const RunFolder& run) {
+  const auto planning = run.summary.find("planning");
+  if (planning == run.summary.end() || !planning->is_object()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [vehicle, numbers] : planning->items()) {
+    for (const auto& [name, value] : numbers.items()) {
+      rows.push_back({escaped(vehicle), escaped(words_of(name)), number_cell(number_of(value)),
+                      escaped(unit_of(name))});
+    }
+  }
+  return rows.empty()
+             ? ""
+             : "<details><summary>What the planners counted</summary>\n" +
+                   table({"vehicle", "number", "value", "unit"}, rows, "planning") + "</details>\n";
+}
+
 }  // namespace
 
 std::string title_of(const std::string& scenario) {
@@ -41,19 +58,9 @@ std::string facts(const RunFolder& run) {
   if (versions != run.summary.end() && versions->is_object()) {
     for (const auto& [name, value] : versions->items()) add(name, plain(value));
   }
-  const auto planning = run.summary.find("planning");
-  if (planning != run.summary.end() && planning->is_object()) {
-    for (const auto& [vehicle, numbers] : planning->items()) {
-      for (const auto& [name, value] : numbers.items()) {
-        const std::string unit = unit_of(name);
-        add(vehicle + ", planning: " + words_of(name),
-            plain(value) + (unit.empty() ? "" : " " + unit));
-      }
-    }
-  }
   for (const Json& note : list_in(run.summary, "notes")) add("note", plain(note));
   if (!run.text("picture_note").empty()) add("pictures", "none: " + run.text("picture_note"));
-  std::string out = table({}, rows, "facts");
+  std::string out = table({}, rows, "facts") + planning_table(run);
   if (!run.resolved_yaml.empty()) {
     out +=
         "<details><summary>The scenario as it was run, with every default written out"

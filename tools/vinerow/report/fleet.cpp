@@ -16,6 +16,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// The metric `clearance` looks no farther.
 constexpr double kClearanceReach_m = 3.0;
 
+/// Vehicles that work together for less only take over from each other.
+constexpr double kTogether_s = 5.0;
+
 std::string card(const std::string& value, const std::string& what) {
   return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", value, what);
 }
@@ -55,6 +58,7 @@ Samples during(const Samples& samples, const Track& a, const Track& b) {
   if (a.empty() || b.empty()) return both;
   const double from_s = std::max(a.t_s.front(), b.t_s.front());
   const double to_s = std::min(a.t_s.back(), b.t_s.back());
+  if (to_s - from_s < kTogether_s) return both;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (samples.x[i] >= from_s && samples.x[i] <= to_s) both.add(samples.x[i], samples.y[i]);
   }

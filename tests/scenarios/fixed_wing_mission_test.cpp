@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "engine/sim/run.h"
+#include "engine/sim/judge.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
 #include "tests/support/data.h"

@@ -33,7 +33,6 @@ FlightPorts::FlightPorts(const ControllerContext& context, const std::string& ty
                                                 name_of(context, type));
   }
   actuator_values_.values.assign(craft_.rotors.size(), 0.0);
-  landed_radps_.assign(craft_.rotors.size(), 0.0);
   for (const char* kind : {"wanted", "reachable"}) {
     wrench_values_.names.push_back(fmt::format("{}_thrust_N", kind));
     for (const char* axis : {"x", "y", "z"}) {
@@ -53,7 +52,7 @@ void FlightPorts::connect(Ports& ports) {
 
 bool FlightPorts::is_flying() const {
   if (!has_estimate() || !has_reference()) return false;
-  return reference().phase != Phase::kWait && reference().phase != Phase::kDone;
+  return is_done() ? has_flown_ : reference().phase != Phase::kWait;
 }
 
 TrajectoryPoint FlightPorts::reference_at(Time now) const {
@@ -93,35 +92,36 @@ Wrench FlightPorts::write(Time now, const Wrench& wanted) {
       (odometry.X_WB.q * odometry.v_WB_B).z() > kClimb_mps) {
     has_lifted_off_ = true;
   }
-  winds_down_ = false;
-  const Wrench reached = mixer_.mix(wanted, actuator_values_.values);
-  write_values(now, wanted, reached);
+  const Wrench faded = fade(now, wanted);
+  if (landed_ && (now - *landed_).s() >= kWindDown_s) {
+    write_off(now);
+    return {};
+  }
+  has_flown_ = true;
+  const Wrench reached = mixer_.mix(faded, actuator_values_.values);
+  write_values(now, faded, reached);
   return reached;
 }
 
-bool FlightPorts::wind_down(Time now) {
-  std::vector<double>& speeds = actuator_values_.values;
-  if (!winds_down_) {
-    if (std::all_of(speeds.begin(), speeds.end(), [](double w) { return w == 0.0; })) return false;
-    winds_down_ = true;
+Wrench FlightPorts::fade(Time now, const Wrench& wanted) {
+  if (!is_done()) {
+    landed_.reset();
+    return wanted;
+  }
+  if (!landed_) {
     landed_ = now;
-    landed_radps_ = speeds;
+    landed_thrust_N_ = mixer_.wrench_of(actuator_values_.values).thrust_N;
   }
-  // Thrust and torques, which go with the square of the speeds, fade evenly.
-  const double left = 1.0 - (now - landed_).s() / kWindDown_s;
-  for (std::size_t i = 0; i < speeds.size(); ++i) {
-    speeds[i] = left > 0.0 ? landed_radps_[i] * std::sqrt(left) : 0.0;
-  }
-  return left > 0.0;
+  const double left = std::max(0.0, 1.0 - (now - *landed_).s() / kWindDown_s);
+  Wrench faded = wanted;
+  faded.thrust_N = left * std::min(wanted.thrust_N, landed_thrust_N_);
+  for (int axis = 0; axis < 3; ++axis) faded.torque_B[axis] *= left;
+  return faded;
 }
 
 void FlightPorts::write_off(Time now) {
   has_lifted_off_ = false;
-  if (is_done() && wind_down(now)) {
-    write_values(now, {}, mixer_.wrench_of(actuator_values_.values));
-    return;
-  }
-  winds_down_ = false;
+  has_flown_ = false;
   has_ended_ = is_done();
   std::fill(actuator_values_.values.begin(), actuator_values_.values.end(), 0.0);
   write_values(now, {}, {});

@@ -3,6 +3,7 @@
 /// "actuators" (rotor speeds), "wrench" (NamedValues: wanted and reachable thrust and torques) and
 /// "follower" out.
 
+#include <optional>
 #include <vector>
 
 #include "controllers/parts/rotor_mixer.h"
@@ -25,7 +26,8 @@ class FlightPorts {
     return reference_.has_value() && !reference_.value().points.empty();
   }
   const ReferenceTrajectory& reference() const { return reference_.value(); }
-  /// The reference asks for turning rotors (neither waiting nor done).
+  /// The reference asks for turning rotors (neither waiting nor done), or they wind down after a
+  /// flight: see write().
   bool is_flying() const;
   bool is_done() const {
     return has_reference() && reference().phase == ReferenceTrajectory::Phase::kDone;
@@ -40,7 +42,10 @@ class FlightPorts {
   /// what the ground carries. As of the last write().
   bool has_lifted_off() const { return has_lifted_off_; }
 
-  /// Mixes and writes. No heap. @returns what the rotors can make of it
+  /// Mixes and writes. Once the reference is done what is wanted fades within kWindDown_s, then the
+  /// rotors are off: a vehicle that has landed on a slope stands on one foot, held by its rotors,
+  /// and is laid down onto the others instead of falling over them. No heap.
+  /// @returns what the rotors can make of it
   Wrench write(Time now, const Wrench& wanted);
   /// What was written last, rad/s.
   const std::vector<double>& speeds_radps() const { return actuator_values_.values; }
@@ -49,10 +54,9 @@ class FlightPorts {
   void write_off(Time now);
 
  private:
-  static constexpr double kWindDown_s = 2.0;
+  static constexpr double kWindDown_s = 3.0;
 
-  /// @returns false once the rotors stand
-  bool wind_down(Time now);
+  Wrench fade(Time now, const Wrench& wanted);
   void write_values(Time now, const Wrench& wanted, const Wrench& reached);
   void write_follower(Time now);
 
@@ -60,9 +64,9 @@ class FlightPorts {
   RotorMixer mixer_;
   bool has_ended_ = false;
   bool has_lifted_off_ = false;
-  bool winds_down_ = false;
-  Time landed_;
-  std::vector<double> landed_radps_;  // the rotors then
+  bool has_flown_ = false;  // since the rotors were off
+  std::optional<Time> landed_;
+  double landed_thrust_N_ = 0.0;
   NamedValues actuator_values_;
   NamedValues wrench_values_;
   SignalReader<Odometry> estimate_;

@@ -73,7 +73,19 @@ TEST(QuadrotorMpc, KeepsTheRotorsOffOutsideFlight) {
   loop.set_phase(Phase::kHover);
   loop.tick();
   for (const double speed : loop.rotors()) EXPECT_GT(speed, 100.0);
+  // Landed: what lifts fades within three seconds of 20 ticks, and never grows above what it was.
+  const auto lift = [&] {
+    double sum = 0.0;
+    for (const double speed : loop.rotors()) sum += speed * speed;
+    return sum;
+  };
+  const double landed = lift();
   loop.set_phase(Phase::kDone);
+  for (int tick = 0; tick < 60; ++tick) {
+    loop.tick();
+    EXPECT_LE(lift(), (1.0 - tick / 60.0) * landed * (1.0 + 1e-9)) << tick;
+    EXPECT_FALSE(loop.controller().finished()) << tick;
+  }
   loop.tick();
   for (const double speed : loop.rotors()) EXPECT_EQ(speed, 0.0);
   EXPECT_TRUE(loop.controller().finished());

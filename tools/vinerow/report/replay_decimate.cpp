@@ -88,16 +88,33 @@ TriangleMesh thin_cards(const TriangleMesh& mesh, int keep_every) {
   return out;
 }
 
-HeightField thin_height_field(const HeightField& field, int most_samples) {
+namespace {
+
+int samples_with(int samples, int stride) {
+  return (samples - 2) / stride + 2;
+}
+
+float sample(const HeightField& field, int i, int j) {
+  i = std::min(i, field.columns - 1);
+  j = std::min(j, field.rows - 1);
+  return field.heights_m[static_cast<std::size_t>(j) * field.columns + i];
+}
+
+}  // namespace
+
+int stride_for(const HeightField& field, int most_samples) {
   VINEROW_DEMAND(most_samples >= 9);
-  const auto samples_with = [](int samples, int stride) { return (samples - 2) / stride + 2; };
   int stride = 1;
   while (static_cast<std::int64_t>(samples_with(field.columns, stride)) *
              samples_with(field.rows, stride) >
          most_samples) {
     ++stride;
   }
-  if (stride == 1) return field;
+  return stride;
+}
+
+HeightField thin_height_field(const HeightField& field, int stride) {
+  VINEROW_DEMAND(stride >= 1);
   HeightField out;
   out.columns = samples_with(field.columns, stride);
   out.rows = samples_with(field.rows, stride);
@@ -105,11 +122,23 @@ HeightField thin_height_field(const HeightField& field, int most_samples) {
   out.corner_W = field.corner_W;
   for (int j = 0; j < out.rows; ++j) {
     for (int i = 0; i < out.columns; ++i) {
-      const int from_i = std::min(i * stride, field.columns - 1);
-      const int from_j = std::min(j * stride, field.rows - 1);
-      out.heights_m.push_back(
-          field.heights_m[static_cast<std::size_t>(from_j) * field.columns + from_i]);
+      out.heights_m.push_back(sample(field, i * stride, j * stride));
     }
+  }
+  return out;
+}
+
+HeightField crop_height_field(const HeightField& field, const Eigen::Vector2i& first,
+                              const Eigen::Vector2i& last) {
+  VINEROW_DEMAND(first.x() >= 0 && first.y() >= 0 && last.x() < field.columns &&
+                 last.y() < field.rows && first.x() < last.x() && first.y() < last.y());
+  HeightField out;
+  out.columns = last.x() - first.x() + 1;
+  out.rows = last.y() - first.y() + 1;
+  out.cell_m = field.cell_m;
+  out.corner_W = field.corner_W + field.cell_m * first.cast<double>();
+  for (int j = first.y(); j <= last.y(); ++j) {
+    for (int i = first.x(); i <= last.x(); ++i) out.heights_m.push_back(sample(field, i, j));
   }
   return out;
 }

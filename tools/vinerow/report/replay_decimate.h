@@ -19,7 +19,14 @@ TriangleMesh cluster_vertices(const TriangleMesh& mesh, double cell_m);
 TriangleMesh thin_cards(const TriangleMesh& mesh, int keep_every);
 
 /// Every k-th sample of a field, with its last row and column repeated where k does not divide
-/// them: k is the least that leaves at most `most_samples` (>= 9). Heights are the field's own.
-HeightField thin_height_field(const HeightField& field, int most_samples);
+/// them. Heights are the field's own. @pre stride >= 1
+HeightField thin_height_field(const HeightField& field, int stride);
+
+/// The least stride that leaves at most `most_samples` (>= 9).
+int stride_for(const HeightField& field, int most_samples);
+
+/// Samples first to last (both included) of each direction.
+HeightField crop_height_field(const HeightField& field, const Eigen::Vector2i& first,
+                              const Eigen::Vector2i& last);
 
 }  // namespace vinerow::tools

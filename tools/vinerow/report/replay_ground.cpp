@@ -1,7 +1,10 @@
 #include "tools/vinerow/report/replay_ground.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "tools/vinerow/report/replay_decimate.h"
 
 namespace vinerow::tools {
 namespace {
@@ -33,36 +36,24 @@ render::GpuVertex vertex_at(const HeightField& field, int i, int j) {
   return vertex;
 }
 
-/// A curtain below the outer edges hides cracks between the field and the country around it.
-/// @param edges  which of south, east, north and west are outer ones
-void add_skirts(render::PreparedMesh& mesh, int columns, int rows, const bool (&edges)[4],
-                double depth_m) {
-  const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (columns + 1) + i); };
-  for (int side = 0; side < 4; ++side) {
-    if (!edges[side]) continue;
-    const int steps = side % 2 == 0 ? columns : rows;
-    for (int k = 0; k <= steps; ++k) {
-      // Counter-clockwise around the mesh, so that the curtain faces outward.
-      const std::uint32_t top = side == 0   ? at(k, 0)
-                                : side == 1 ? at(columns, k)
-                                : side == 2 ? at(columns - k, rows)
-                                            : at(0, rows - k);
-      const auto below = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.vertices.push_back(mesh.vertices[top]);
-      mesh.vertices.back().position[2] -= static_cast<float>(depth_m);
-      if (k == 0) continue;
-      const std::uint32_t before = side == 0   ? at(k - 1, 0)
-                                   : side == 1 ? at(columns, k - 1)
-                                   : side == 2 ? at(columns - k + 1, rows)
-                                               : at(0, rows - k + 1);
-      mesh.indices.insert(mesh.indices.end(), {before, below - 1, below, before, below, top});
-    }
+bool inside(const CellRange& range, int i, int j) {
+  return i >= range.first.x() && j >= range.first.y() && i < range.last.x() && j < range.last.y();
+}
+
+/// A curtain below one edge of the triangles hides the crack between them and what lies beyond.
+void add_curtain(render::PreparedMesh& mesh, std::uint32_t from, std::uint32_t to, double depth_m) {
+  const auto below = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const std::uint32_t top : {from, to}) {
+    render::GpuVertex vertex = mesh.vertices[top];
+    vertex.position[2] -= static_cast<float>(depth_m);
+    mesh.vertices.push_back(vertex);
   }
+  mesh.indices.insert(mesh.indices.end(), {from, below, below + 1, from, below + 1, to});
 }
 
 }  // namespace
 
-std::vector<render::PreparedMesh> terrain_meshes(const HeightField& field) {
+std::vector<render::PreparedMesh> terrain_meshes(const HeightField& field, const CellRange& hole) {
   std::vector<render::PreparedMesh> meshes;
   for (int j0 = 0; j0 < field.rows - 1; j0 += kMostCells) {
     for (int i0 = 0; i0 < field.columns - 1; i0 += kMostCells) {
@@ -79,19 +70,65 @@ std::vector<render::PreparedMesh> terrain_meshes(const HeightField& field) {
       const auto at = [&](int i, int j) {
         return static_cast<std::uint32_t>(j * (columns + 1) + i);
       };
+      const auto is_there = [&](int i, int j) {
+        return i >= 0 && j >= 0 && i < field.columns - 1 && j < field.rows - 1 &&
+               !inside(hole, i, j);
+      };
       for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
-          mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1),
-                                                   at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+          if (inside(hole, i0 + i, j0 + j)) continue;
+          const std::uint32_t corners[] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+          mesh.indices.insert(mesh.indices.end(), {corners[0], corners[1], corners[2], corners[0],
+                                                   corners[2], corners[3]});
+          // South, east, north, west: counter-clockwise, so that curtains face outward.
+          constexpr int kBeyond[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+          for (int side = 0; side < 4; ++side) {
+            if (is_there(i0 + i + kBeyond[side][0], j0 + j + kBeyond[side][1])) continue;
+            add_curtain(mesh, corners[side], corners[(side + 1) % 4], 0.5 + field.cell_m);
+          }
         }
       }
-      const bool edges[] = {j0 == 0, i0 + columns == field.columns - 1, j0 + rows == field.rows - 1,
-                            i0 == 0};
-      add_skirts(mesh, columns, rows, edges, 0.5 + field.cell_m);
       meshes.push_back(std::move(mesh));
     }
   }
   return meshes;
+}
+
+ReplayTerrain thin_terrain(const HeightField& field, const Eigen::AlignedBox2d& focus_W,
+                           int most_samples) {
+  ReplayTerrain terrain;
+  if (stride_for(field, most_samples) == 1) {
+    terrain.coarse = field;
+    return terrain;
+  }
+  // A third for the country, two thirds for the focus; a power of two, for the fine stride divides
+  // it.
+  const int stride = static_cast<int>(
+      std::bit_ceil(static_cast<unsigned>(stride_for(field, std::max(most_samples / 3, 9)))));
+  terrain.coarse = thin_height_field(field, stride);
+  if (focus_W.isEmpty()) return terrain;
+  // The fine field begins and ends at samples of the coarse one, so that no cells overlap.
+  const auto cell_of = [&](const Eigen::Vector2d& p_W, bool up) {
+    const Eigen::Array2d share = (p_W - field.corner_W).array() / terrain.coarse.cell_m;
+    const Eigen::Array2d whole = up ? Eigen::Array2d(share.ceil()) : Eigen::Array2d(share.floor());
+    const Eigen::Array2d most((field.columns - 1) / stride, (field.rows - 1) / stride);
+    return Eigen::Vector2i(whole.max(0.0).min(most).matrix().cast<int>());
+  };
+  terrain.hole = {cell_of(focus_W.min(), false), cell_of(focus_W.max(), true)};
+  if ((terrain.hole.last - terrain.hole.first).minCoeff() < 1) {
+    terrain.hole = {};
+    return terrain;
+  }
+  const HeightField whole =
+      crop_height_field(field, stride * terrain.hole.first, stride * terrain.hole.last);
+  const int fine = static_cast<int>(
+      std::bit_ceil(static_cast<unsigned>(stride_for(whole, std::max(2 * most_samples / 3, 9)))));
+  if (fine >= stride) {
+    terrain.hole = {};
+    return terrain;
+  }
+  terrain.fine = thin_height_field(whole, fine);
+  return terrain;
 }
 
 }  // namespace vinerow::tools

@@ -98,27 +98,37 @@ class SceneMaker {
   void add_ground() {
     const WorldModel& world = *input_.world;
     if (!world.terrain) return;
-    const HeightField field = thin_height_field(*world.terrain, limits_.terrain_samples);
-    if (field.cell_m > world.terrain->cell_m) {
+    const ReplayTerrain terrain = thin_terrain(*world.terrain, focus(), limits_.terrain_samples);
+    if (terrain.coarse.cell_m > world.terrain->cell_m) {
+      const double near_m = terrain.fine ? terrain.fine->cell_m : terrain.coarse.cell_m;
+      const std::string elsewhere =
+          terrain.fine
+              ? fmt::format(" around the rows and every {:.2g} m elsewhere", terrain.coarse.cell_m)
+              : "";
       notes_.push_back(
-          fmt::format("the ground is drawn with a point every {:.2g} m, it has one "
-                      "every {:.2g} m",
-                      field.cell_m, world.terrain->cell_m));
+          fmt::format("the ground is drawn with a point every {:.2g} m{}", near_m, elsewhere));
     }
     GlbMaterial material;
     material.name = "ground";
     material.colour = {0.12f, 0.13f, 0.06f};
     const int ground = scene_.add_material(material);
     int number = 0;
-    for (const render::PreparedMesh& mesh : terrain_meshes(field)) {
+    std::vector<render::PreparedMesh> meshes = terrain_meshes(terrain.coarse, terrain.hole);
+    if (terrain.fine) {
+      for (render::PreparedMesh& mesh : terrain_meshes(*terrain.fine)) {
+        meshes.push_back(std::move(mesh));
+      }
+    }
+    for (const render::PreparedMesh& mesh : meshes) {
+      if (mesh.indices.empty()) continue;
       const std::string name = fmt::format("terrain_{}", number++);
       scene_.add_node(name, scene_.add_mesh(name, mesh, ground, false, false), Pose{},
                       {{"part", "terrain"}});
     }
+    const HeightField& field = *world.terrain;
     const Eigen::AlignedBox2d rectangle(
         field.corner_W,
-        Eigen::Vector2d(world.terrain->corner_W +
-                        Eigen::Vector2d(world.terrain->width_m(), world.terrain->depth_m())));
+        Eigen::Vector2d(field.corner_W + Eigen::Vector2d(field.width_m(), field.depth_m())));
     number = 0;
     for (const render::PreparedMesh& mesh :
          render::make_surroundings(rectangle, &*world.terrain, 0.0)) {
@@ -126,6 +136,23 @@ class SceneMaker {
       scene_.add_node(name, scene_.add_mesh(name, mesh, ground, false, false), Pose{},
                       {{"part", "surroundings"}});
     }
+  }
+
+  /// Rows and a headland around them; what is driven or flown low over where there are none.
+  Eigen::AlignedBox2d focus() const {
+    constexpr double kHeadland_m = 14.0;
+    Eigen::AlignedBox2d box;
+    for (const PlantRow& row : input_.world->rows.rows) {
+      for (const Eigen::Vector3d& p : row.line_W) box.extend(p.head<2>());
+    }
+    if (box.isEmpty()) {
+      for (const auto& [name, trace] : input_.trace->vehicles) {
+        for (const Odometry& truth : trace.truth.values) box.extend(truth.X_WB.p.head<2>());
+      }
+    }
+    if (box.isEmpty()) return box;
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kHeadland_m);
+    return {Eigen::Vector2d(box.min() - margin), Eigen::Vector2d(box.max() + margin)};
   }
 
   void add_world() {

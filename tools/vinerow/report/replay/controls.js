@@ -60,7 +60,7 @@
         const width = Math.max(phase.end - phase.begin, 0);
         let lane = ends.findIndex((end) => end <= phase.begin + 1e-9);
         if (lane < 0) lane = ends.push(0) - 1;
-        ends[lane] = phase.begin + Math.max(width, 0.012 * duration_s);
+        ends[lane] = phase.begin + width;
         const bar = element("div", "vr-phase vr-" + phase.state, width > 0 ? phase.name : "");
         if (width === 0) bar.classList.add("vr-moment");
         bar.style.left = (100 * phase.begin) / duration_s + "%";
@@ -219,19 +219,33 @@
       find("camera").value = followed < 0 ? "free" : (player.eye.behind ? "behind " : "with ") + followed;
     }
 
-    /** Names stand over the vehicles; those out of sight are left out. */
+    /** Names stand over the vehicles, or at the edge of the picture towards those out of sight. */
     placeLabels(camera) {
       const { player } = this, width = player.stage.clientWidth, height = player.stage.clientHeight;
+      const foot = this.find("bar").offsetHeight;
+      const tangent = Math.tan((0.5 * camera.fov * Math.PI) / 180);
       player.scene.vehicles.forEach((vehicle, v) => {
         const label = this.labels[v], top = vehicle.position.clone();
+        label.style.display = player.show.labels ? "" : "none";
+        if (!player.show.labels) return;
         top.z += Math.max(vehicle.track.entry.top_m, 0) + 0.25;
-        const depth = top.clone().applyMatrix4(camera.matrixWorldInverse).z;
-        top.project(camera);
-        const shown = player.show.labels && depth < 0 && Math.abs(top.x) < 1.05 && Math.abs(top.y) < 1.05;
-        label.style.display = shown ? "" : "none";
-        if (!shown) return;
-        const x = (0.5 + 0.5 * top.x) * width, y = (0.5 - 0.5 * top.y) * height;
-        label.style.transform = "translate(" + x.toFixed(1) + "px," + (y - 9).toFixed(1) + "px) translate(-50%,-100%)";
+        top.applyMatrix4(camera.matrixWorldInverse);
+        const depth = Math.max(Math.abs(top.z), 1e-3);
+        let x = top.x / (depth * tangent * camera.aspect), y = top.y / (depth * tangent);
+        const away = top.z >= 0 || Math.abs(x) > 1 || Math.abs(y) > 1;
+        if (away) {
+          const scale = 1 / Math.max(Math.abs(x), Math.abs(y), 1e-6);
+          x *= scale;
+          y *= scale;
+        }
+        label.classList.toggle("vr-away", away);
+        let left = (0.5 + 0.5 * x) * width, low = (0.5 - 0.5 * y) * height - 9;
+        if (away) {
+          const reach = 0.5 * label.offsetWidth + 6;
+          left = Math.min(Math.max(left, reach), width - reach);
+          low = Math.min(Math.max(low, 30), height - foot - 12);
+        }
+        label.style.transform = "translate(" + left.toFixed(1) + "px," + low.toFixed(1) + "px) translate(-50%,-100%)";
       });
     }
   }

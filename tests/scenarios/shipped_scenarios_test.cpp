@@ -31,9 +31,10 @@ std::vector<std::string> shipped_scenarios() {
 /// rows do.
 std::vector<std::string> with_few_rows(const io::Scenario& scenario) {
   if (scenario.world.type != "vineyard") return {};
-  return scenario.world.parameters.integer("row_count") > 16
-             ? std::vector<std::string>{"world.row_count=4"}
-             : std::vector<std::string>{};
+  const bool is_large = scenario.world.parameters.integer("row_count") > 16;
+  // A mission's vehicles are built on row meshes once before it begins.
+  return is_large || !scenario.phases.empty() ? std::vector<std::string>{"world.row_count=4"}
+                                              : std::vector<std::string>{};
 }
 
 /// Of a mission: whether its phase waits for another.

@@ -126,8 +126,13 @@ void Mission::build_job(Phase& phase) {
   context.plan = [this](const std::string& vehicle, std::shared_ptr<const RowMap> map) {
     return plan_for(vehicle, std::move(map));
   };
-  phase.job =
-      run_.registry.make_job(phase.config->job->type, phase.config->job->parameters, context);
+  const io::PartConfig& job = *phase.config->job;
+  try {
+    phase.job = run_.registry.make_job(job.type, job.parameters, context);
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: phases.{}.job ({}): {}", job.where.text(),
+                                  phase.config->name, job.type, error.what()));
+  }
 }
 
 void Mission::rehearse() {

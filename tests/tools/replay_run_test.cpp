@@ -217,7 +217,7 @@ TEST_F(ReplaySection, TellsWhatItLeavesOut) {
   ReplayLimits tight;
   tight.leaf_bytes = tight.solid_bytes = 30'000;
   tight.terrain_samples = 400;
-  tight.track_bytes = 1'000;
+  tight.track_bytes = 60;
   tight.plan_points = 3;
   const std::string small = replay_section(run.input(), tight), whole = replay_section(run.input());
   const json notes = ReplayPage(small).index["notes"];

@@ -33,10 +33,10 @@ struct ReplayInput {
 /// Limits that keep a page quick to open. What goes beyond them is made coarser, and a note says
 /// so.
 struct ReplayLimits {
-  std::size_t leaf_bytes = 2'200'000;   ///< meshes of leaves
+  std::size_t leaf_bytes = 1'900'000;   ///< meshes of leaves
   std::size_t solid_bytes = 3'000'000;  ///< all other meshes but the terrain
-  int terrain_samples = 50'000;
-  std::size_t track_bytes = 2'500'000;  ///< poses over time
+  int terrain_samples = 40'000;
+  std::size_t track_bytes = 1'600'000;  ///< poses over time
   std::size_t plan_points = 60'000;     ///< of all plans
 };
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/render/terrain_mesh.h"
 #include "tools/vinerow/report/replay_decimate.h"
 
 namespace vinerow::tools {
@@ -89,6 +90,29 @@ std::vector<render::PreparedMesh> terrain_meshes(const HeightField& field, const
         }
       }
       meshes.push_back(std::move(mesh));
+    }
+  }
+  return meshes;
+}
+
+std::vector<render::PreparedMesh> surroundings_meshes(const HeightField& field) {
+  const Eigen::AlignedBox2d box(
+      field.corner_W,
+      Eigen::Vector2d(field.corner_W + Eigen::Vector2d(field.width_m(), field.depth_m())));
+  std::vector<render::PreparedMesh> meshes = render::make_surroundings(box, &field, 0.0);
+  for (render::PreparedMesh& mesh : meshes) {
+    const auto at_border = [&](std::uint32_t i) {
+      const Eigen::Vector2d p(mesh.vertices[i].position[0], mesh.vertices[i].position[1]);
+      const Eigen::Array2d near_low = (p - box.min()).array().abs();
+      const Eigen::Array2d near_high = (p - box.max()).array().abs();
+      return std::min(near_low.minCoeff(), near_high.minCoeff()) < 1e-3 &&
+             box.exteriorDistance(p) < 1e-3;
+    };
+    const std::size_t corners = mesh.indices.size();
+    for (std::size_t k = 0; k < corners; ++k) {
+      const std::uint32_t from = mesh.indices[k];
+      const std::uint32_t to = mesh.indices[k % 3 == 2 ? k - 2 : k + 1];
+      if (at_border(from) && at_border(to)) add_curtain(mesh, from, to, 0.5 + field.cell_m);
     }
   }
   return meshes;

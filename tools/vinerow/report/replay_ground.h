@@ -22,6 +22,9 @@ struct CellRange {
 std::vector<render::PreparedMesh> terrain_meshes(const HeightField& field,
                                                  const CellRange& hole = {});
 
+/// The country around a field, as the renderer has it, with a curtain below where it meets it.
+std::vector<render::PreparedMesh> surroundings_meshes(const HeightField& field);
+
 /// A field drawn by about `most_samples`: fine around what matters and coarse elsewhere.
 struct ReplayTerrain {
   HeightField coarse;

@@ -9,7 +9,6 @@
 
 #include "engine/render/builtin_textures.h"
 #include "engine/render/culling.h"
-#include "engine/render/terrain_mesh.h"
 #include "tools/vinerow/report/replay_decimate.h"
 #include "tools/vinerow/report/replay_glb.h"
 #include "tools/vinerow/report/replay_ground.h"
@@ -125,13 +124,8 @@ class SceneMaker {
       scene_.add_node(name, scene_.add_mesh(name, mesh, ground, false, false), Pose{},
                       {{"part", "terrain"}});
     }
-    const HeightField& field = *world.terrain;
-    const Eigen::AlignedBox2d rectangle(
-        field.corner_W,
-        Eigen::Vector2d(field.corner_W + Eigen::Vector2d(field.width_m(), field.depth_m())));
     number = 0;
-    for (const render::PreparedMesh& mesh :
-         render::make_surroundings(rectangle, &*world.terrain, 0.0)) {
+    for (const render::PreparedMesh& mesh : surroundings_meshes(*world.terrain)) {
       const std::string name = fmt::format("surroundings_{}", number++);
       scene_.add_node(name, scene_.add_mesh(name, mesh, ground, false, false), Pose{},
                       {{"part", "surroundings"}});

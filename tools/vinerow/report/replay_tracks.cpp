@@ -18,15 +18,12 @@ using nlohmann::json;
 
 static_assert(std::endian::native == std::endian::little, "tracks copy memory as little-endian");
 
-constexpr double kMostRate_Hz = 10.0;
+constexpr double kMostRate_Hz = 10.0, kLeastRate_Hz = 0.1;
 /// A link that moves less than this against its vehicle is fixed to it.
 constexpr double kFixed_m = 5e-4, kFixed_rad = 2e-3;
 /// A link whose samples are farther apart than this, three times out of four, turns too fast to be
 /// told from them.
 constexpr double kSpin_rad = 1.0;
-/// About what a sample of a vehicle with a dozen moving links takes.
-constexpr std::size_t kSampleBytes = 20 + 12 * 10;
-
 template <class T>
 std::size_t append(std::string& bytes, const std::vector<T>& values) {
   while (bytes.size() % 4 != 0) bytes += '\0';
@@ -223,7 +220,6 @@ ReplayTracks make_replay_tracks(const ReplayInput& input, const ReplayLimits& li
   ReplayTracks tracks;
   tracks.index["vehicles"] = json::array();
   std::vector<std::size_t> shown;
-  double total_s = 0.0;
   for (std::size_t v = 0; v < input.vehicles->size(); ++v) {
     const std::string& name = input.scenario->vehicles[v].name;
     const auto trace = input.trace->vehicles.find(name);
@@ -233,19 +229,25 @@ ReplayTracks make_replay_tracks(const ReplayInput& input, const ReplayLimits& li
       continue;
     }
     shown.push_back(v);
-    total_s += (trace->second.truth.times.back() - trace->second.truth.times.front()).s();
   }
   if (input.vehicles->empty()) tracks.notes.push_back("the run has no vehicles");
 
-  const double most_samples =
-      static_cast<double>(limits.track_bytes) / static_cast<double>(kSampleBytes);
-  const double rate_Hz = std::min(kMostRate_Hz, most_samples / std::max(total_s, 1e-3));
+  double rate_Hz = kMostRate_Hz;
+  const auto sample_all = [&] {
+    tracks.bytes.clear();
+    tracks.index["vehicles"] = json::array();
+    for (const std::size_t v : shown) {
+      tracks.index["vehicles"].push_back(vehicle_index(input, v, rate_Hz, tracks.bytes));
+    }
+  };
+  sample_all();
+  while (tracks.bytes.size() > limits.track_bytes && rate_Hz > kLeastRate_Hz) {
+    rate_Hz *= 0.5;
+    sample_all();
+  }
   if (rate_Hz < kMostRate_Hz) {
     tracks.notes.push_back(
         fmt::format("poses are shown {:.2g} times a second and straight between", rate_Hz));
-  }
-  for (const std::size_t v : shown) {
-    tracks.index["vehicles"].push_back(vehicle_index(input, v, rate_Hz, tracks.bytes));
   }
   add_plans(input, limits, tracks);
   return tracks;

@@ -193,6 +193,7 @@
         player.eye.free();
         player.eye.go(eye, look, true);
       }
+      if (["0", "1", "2"].includes(wanted.quality)) player.setQuality(Number(wanted.quality));
       if (wanted.speed && Replay.kSpeeds.includes(Number(wanted.speed))) player.speed = Number(wanted.speed);
       for (const name of (wanted.hide || "").split(",")) {
         const box = player.stage.querySelector("[data-show='" + name.replace(/[^a-z]/g, "") + "']");

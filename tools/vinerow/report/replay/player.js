@@ -50,6 +50,9 @@
       }
       options.context = context;
       this.renderer = new THREE.WebGLRenderer(options);
+      const names = context.getExtension("WEBGL_debug_renderer_info");
+      const name = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : "";
+      if (/swiftshader|llvmpipe|software|basic render/i.test(name)) this.quality = 1;
       this.renderer.gammaOutput = true;
       this.renderer.gammaFactor = 2.2;
       this.renderer.toneMapping = THREE.ACESFilmicToneMapping;
@@ -79,6 +82,7 @@
       }).observe(this.stage);
       window.addEventListener("beforeprint", () => this.draw());
       this.stage.dataset.state = "ready";
+      this.tick(0);
       let last = null;
       const frame = (now) => {
         const dt = last === null ? 0 : Math.min((now - last) / 1000, 0.2);
@@ -151,8 +155,12 @@
       const mean = this.costs.slice(4).reduce((a, b) => a + b, 0) / (this.costs.length - 4);
       this.costs = [];
       if (mean < 70) return;
-      this.quality -= 1;
-      if (this.quality === 0) this.scene.sun.castShadow = false;
+      this.setQuality(this.quality - 1);
+    }
+
+    setQuality(quality) {
+      this.quality = quality;
+      this.scene.sun.castShadow = quality > 0;
       this.resize();
     }
   }
@@ -175,11 +183,16 @@
         }
       }, 30);
     };
+    const margin = 300, box = stage.getBoundingClientRect();
+    if (box.top < window.innerHeight + margin && box.bottom > -margin) {
+      begin();
+      return;
+    }
     const watch = new IntersectionObserver((entries) => {
       if (!entries.some((entry) => entry.isIntersecting)) return;
       watch.disconnect();
       begin();
-    }, { rootMargin: "300px" });
+    }, { rootMargin: margin + "px" });
     watch.observe(stage);
   };
 })(window);

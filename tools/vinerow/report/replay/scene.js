@@ -138,7 +138,10 @@
           }
         }
       }
-      const line = this.addLine(this.trails, pairs, vehicle.colour, 3.5, 0.95);
+      const line = this.addLine(this.trails, pairs, vehicle.colour, 3.5, 1);
+      // Where a plan was kept exactly, the trail covers it.
+      line.material.polygonOffset = true;
+      line.material.polygonOffsetUnits = -400;
       line.renderOrder = 2;
       return line;
     }
@@ -148,7 +151,7 @@
       for (let i = 0; i + 1 < count; ++i) {
         for (let k = 0; k < 6; ++k) pairs[6 * i + k] = plan.points[3 * i + k] + (k % 3 === 2 ? 0.6 * kHover : 0);
       }
-      const line = this.addLine(this.plans, pairs, "#ffffff", 1.6, 0.6);
+      const line = this.addLine(this.plans, pairs, "#ffffff", 1.5, 0.55);
       line.renderOrder = 1;
       line.visible = false;
       return line;

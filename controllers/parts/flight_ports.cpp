@@ -92,13 +92,18 @@ Wrench FlightPorts::write(Time now, const Wrench& wanted) {
       (odometry.X_WB.q * odometry.v_WB_B).z() > kClimb_mps) {
     has_lifted_off_ = true;
   }
-  const Wrench faded = fade(now, wanted);
+  Wrench faded = fade(now, wanted);
   if (landed_ && (now - *landed_).s() >= kWindDown_s) {
     write_off(now);
     return {};
   }
   has_flown_ = true;
-  const Wrench reached = mixer_.mix(faded, actuator_values_.values);
+  Wrench reached = mixer_.mix(faded, actuator_values_.values);
+  if (landed_ && reached.thrust_N > faded.thrust_N) {
+    // In the air torques come first and may lift; on the ground that would take the feet's grip.
+    faded.torque_B *= faded.thrust_N / reached.thrust_N;
+    reached = mixer_.mix(faded, actuator_values_.values);
+  }
   write_values(now, faded, reached);
   return reached;
 }
@@ -112,9 +117,12 @@ Wrench FlightPorts::fade(Time now, const Wrench& wanted) {
     landed_ = now;
     landed_thrust_N_ = mixer_.wrench_of(actuator_values_.values).thrust_N;
   }
-  const double left = std::max(0.0, 1.0 - (now - *landed_).s() / kWindDown_s);
+  const double since_s = (now - *landed_).s();
+  const double left = std::max(0.0, 1.0 - since_s / kWindDown_s);
+  const double grip = std::max(0.0, 1.0 - since_s / kGrip_s);
   Wrench faded = wanted;
-  faded.thrust_N = left * std::min(wanted.thrust_N, landed_thrust_N_);
+  faded.thrust_N =
+      std::min(wanted.thrust_N, landed_thrust_N_) * std::max(kLaidDownShare * left, grip);
   for (int axis = 0; axis < 3; ++axis) faded.torque_B[axis] *= left;
   return faded;
 }

@@ -55,6 +55,11 @@ class FlightPorts {
 
  private:
   static constexpr double kWindDown_s = 3.0;
+  /// A vehicle that lies on a slope slides as long as its rotors carry it: within this time they
+  /// leave it to its feet but for the share by which it is laid down softly. With a friction of
+  /// 0.8 feet hold on 21 deg of slope below half the weight: cos(s) - sin(s) / 0.8.
+  static constexpr double kGrip_s = 0.5;
+  static constexpr double kLaidDownShare = 0.4;
 
   Wrench fade(Time now, const Wrench& wanted);
   void write_values(Time now, const Wrench& wanted, const Wrench& reached);

@@ -115,6 +115,9 @@ template const LocalCommand& TestRun::signal<LocalCommand>(const std::string&) c
 template const LineList& TestRun::signal<LineList>(const std::string&) const;
 template const OccupancyGrid& TestRun::signal<OccupancyGrid>(const std::string&) const;
 template const FollowerState& TestRun::signal<FollowerState>(const std::string&) const;
+template const ReferenceTrajectory& TestRun::signal<ReferenceTrajectory>(const std::string&) const;
+template const AirReference& TestRun::signal<AirReference>(const std::string&) const;
+template const MovementAuthority& TestRun::signal<MovementAuthority>(const std::string&) const;
 template const BatteryState& TestRun::signal<BatteryState>(const std::string&) const;
 template const Event& TestRun::signal<Event>(const std::string&) const;
 

@@ -15,7 +15,9 @@ class Estimation final : public Metric {
  public:
   Estimation(const ParameterSet& parameters, const MetricContext& context)
       : from_(duration_from_s(parameters.number("from_s"))),
-        row_reach_m_(parameters.number("row_reach_m")) {
+        row_reach_m_(parameters.number("row_reach_m")),
+        is_rotorcraft_(context.vehicle_description != nullptr &&
+                       context.vehicle_description->numbers.contains("rotor_count")) {
     const auto& nis = parameters.texts("nis");
     const double margin = parameters.number("nees_margin");
     judges_.emplace_back(EstimateJudge::Signals{}, EstimateJudge::Prefixes{}, nis, margin);
@@ -35,11 +37,12 @@ class Estimation final : public Metric {
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
+    if (is_rotorcraft_) reference_ = ports.read_optional<ReferenceTrajectory>("reference");
     for (EstimateJudge& judge : judges_) judge.connect(ports);
   }
 
   void step(Time now) override {
-    if (now - Time{} < from_) return;
+    if (now - Time{} < from_ || has_landed()) return;
     const Odometry& truth = truth_.value();
     const double along_rad = direction_rad(truth);
     for (EstimateJudge& judge : judges_) judge.step(now, truth, along_rad);
@@ -52,6 +55,10 @@ class Estimation final : public Metric {
   }
 
  private:
+  bool has_landed() const {
+    return reference_.has_value() && reference_.value().phase == ReferenceTrajectory::Phase::kDone;
+  }
+
   /// Of the nearest row, towards where the vehicle looks; its own where no row is near.
   double direction_rad(const Odometry& truth) const {
     const double yaw_rad = yaw_from_quaternion(truth.X_WB.q);
@@ -71,9 +78,11 @@ class Estimation final : public Metric {
 
   Duration from_;
   double row_reach_m_;
+  bool is_rotorcraft_;
   std::vector<PolylineDistance> rows_;
   std::vector<EstimateJudge> judges_;  ///< of the estimate, then of the observers
   SignalReader<Odometry> truth_;
+  SignalReader<ReferenceTrajectory> reference_;
 };
 
 }  // namespace

@@ -2,8 +2,9 @@
 /// How far the estimate is from the truth, and whether it knows; likewise of every observer.
 ///
 /// Looked at where the estimate was written at the very instant of the tick, from `from_s` on, so
-/// that nothing is mistaken for an error that is only age. Nothing is measured (NaN) where the
-/// estimate is the truth itself: equal, and with zero covariance. Results:
+/// that nothing is mistaken for an error that is only age. What flies on rotors is judged until its
+/// reference is done: landed below the canopy its rangers see the ground alone. Nothing is measured
+/// (NaN) where the estimate is the truth itself: equal, and with zero covariance. Results:
 ///   estimate_lateral_std_m, _rms_m, _max_m; estimate_longitudinal_std_m, _rms_m, _max_m: across
 ///   and
 ///     along the direction of the nearest true row within `row_reach_m`, elsewhere the true

@@ -21,7 +21,8 @@ using Results = std::map<std::string, double>;
 class Bench {
  public:
   /// Rows along `azimuth_rad`, 2.5 m apart, 40 m long, about the origin.
-  explicit Bench(double azimuth_rad = 0.0, double from_s = 0.0) {
+  explicit Bench(double azimuth_rad = 0.0, double from_s = 0.0, VehicleDescription vehicle = {})
+      : vehicle_(std::move(vehicle)) {
     const Eigen::Rotation2Dd R(azimuth_rad);
     for (const double across : {-1.25, 1.25}) {
       PlantRow row;
@@ -36,6 +37,7 @@ class Bench {
     estimate_ = ports.write<Odometry>("estimate");
     ellipsoid_ = ports.write<PositionEllipsoid>("ellipsoid");
     state_ = ports.write<NamedValues>("estimator_state");
+    reference_ = ports.write<ReferenceTrajectory>("reference");
     MetricContext context;
     context.vehicle_description = &vehicle_;
     context.world = &world_;
@@ -61,6 +63,11 @@ class Bench {
   }
   void write_ellipsoid(const PositionEllipsoid& value) { ellipsoid_.write(now_, value); }
   void write_state(const NamedValues& value) { state_.write(now_, value); }
+  void write_phase(ReferenceTrajectory::Phase phase) {
+    ReferenceTrajectory reference;
+    reference.phase = phase;
+    reference_.write(now_, reference);
+  }
   void look() { metric_->step(now_); }
   Results results() const { return metric_->results(); }
   double result(const std::string& name) const { return metric_->results().at(name); }
@@ -76,6 +83,7 @@ class Bench {
   SignalWriter<Odometry> truth_, estimate_;
   SignalWriter<PositionEllipsoid> ellipsoid_;
   SignalWriter<NamedValues> state_;
+  SignalWriter<ReferenceTrajectory> reference_;
 };
 
 TEST(EstimationMetric, SplitsErrorsAlongAndAcrossTheRows) {
@@ -230,6 +238,24 @@ TEST(EstimationMetric, LeavesOutTheBeginningAndOldEstimates) {
   bench.write_estimate({0.2, 0, 0});
   bench.look();
   EXPECT_NEAR(bench.result("estimate_longitudinal_max_m"), 0.2, 1e-12);
+}
+
+TEST(EstimationMetric, LeavesOutARotorcraftThatHasLanded) {
+  using Phase = ReferenceTrajectory::Phase;
+  const auto largest_m = [](const char* lifted_by) {
+    VehicleDescription vehicle;
+    vehicle.numbers[lifted_by] = 4.0;
+    Bench bench(0.0, 0.0, vehicle);
+    for (const auto& [phase, error_m] : {std::pair(Phase::kLand, 0.1), {Phase::kDone, 0.5}}) {
+      bench.write_truth({0, 0, 0}, 0);
+      bench.write_phase(phase);
+      bench.write_estimate({error_m, 0, 0});
+      bench.look();
+    }
+    return bench.result("estimate_longitudinal_max_m");
+  };
+  EXPECT_NEAR(largest_m("rotor_count"), 0.1, 1e-12);
+  EXPECT_NEAR(largest_m("wing_span_m"), 0.5, 1e-12) << "what has wings has no such reference";
 }
 
 TEST(EstimationMetric, CountsWhatTheEllipsoidContains) {

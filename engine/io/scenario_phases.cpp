@@ -21,6 +21,16 @@ bool holds(const List& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
+/// The vehicle that a job works for, which names it so; empty where it works for none.
+std::string vehicle_of(const PhaseConfig& phase, const Registry& registry) {
+  if (!phase.job) return {};
+  const bool works_for_one =
+      holds(names_of(registry.spec(PartKind::kJob, phase.job->type).parameters), "vehicle");
+  return works_for_one && phase.job->parameters.has("vehicle")
+             ? phase.job->parameters.text("vehicle")
+             : "";
+}
+
 const PhaseConfig* find_phase(const std::vector<PhaseConfig>& phases, const std::string& name) {
   const auto found =
       std::find_if(phases.begin(), phases.end(), [&](const auto& p) { return p.name == name; });
@@ -109,26 +119,19 @@ class PhaseReader {
     if (!job) return;
     ReadPart part = read_part(*job, join_path(path, "job"), PartKind::kJob, context_);
     phase.job = std::move(part.config);
-    // A job of one vehicle names it so.
-    const std::vector<std::string> keys =
-        names_of(context_.registry.spec(PartKind::kJob, phase.job->type).parameters);
-    if (holds(keys, "vehicle") && phase.job->parameters.has("vehicle")) {
-      check_vehicle(phase.job->parameters.text("vehicle"), vehicle_names_, job->mark,
-                    join_path(path, "job.vehicle"));
+    const std::string vehicle = vehicle_of(phase, context_.registry);
+    if (!vehicle.empty()) {
+      check_vehicle(vehicle, vehicle_names_, job->mark, join_path(path, "job.vehicle"));
     }
     written.put("job", std::move(part.resolved));
   }
 
   void check_phase_keys(const YamlNode& node, const std::string& path, const PhaseConfig& phase) {
-    std::vector<std::string> known = names_of(phase_fields());
+    std::vector<std::string> known = io::names_of(phase_fields());
     known.insert(known.end(), {"job", "criteria"});
     for (const ProductPort& port : ports_of(phase, context_.registry)) known.push_back(port.key);
     check_keys(node, path, known, phase.job ? fmt::format("job '{}'", phase.job->type) : "",
                &context_);
-  }
-
-  static std::vector<std::string> names_of(const std::vector<ParameterSpec>& specs) {
-    return io::names_of(specs);
   }
 
   void read_values(const YamlEntry& entry, const std::string& path, PhaseConfig& phase,
@@ -232,6 +235,12 @@ void check_product(const PhaseConfig& phase, const ProductSource& source,
             fmt::format("{}: phase '{}' gives {}{}, must give {}{}", path, giver->name,
                         gives ? article(*gives) : "", gives ? to_string(*gives) : "nothing",
                         article(source.kind), to_string(source.kind)));
+  }
+  const std::string planned_for = vehicle_of(*giver, registry);
+  if (source.kind == ProductKind::kPlan && !planned_for.empty() && phase.vehicles.size() == 1 &&
+      phase.vehicles.front() != planned_for) {
+    fail_at(source.where, fmt::format("{}: phase '{}' plans for '{}', and here '{}' works", path,
+                                      giver->name, planned_for, phase.vehicles.front()));
   }
   if (source.item.empty() ? items.size() > 1 : !holds(items, source.item)) {
     fail_at(source.where,

@@ -95,6 +95,20 @@ TEST(ReportCommand, TellsThePhasesOfAMission) {
   EXPECT_THAT(page, HasSubstr("class=\"bar failed\""));
 }
 
+TEST(ReportCommand, ShowsTheMapThatAJobMade) {
+  const ScratchFolder folder("report_map");
+  const auto run = folder.path() / "run";
+  // As far as the map; of the frames the first alone, small.
+  run_vinerow("run " + scenario_file("cooperative_small") + " --set duration_s=296 --quiet" +
+              " --set pictures.width=64 --set pictures.height=64 --out " + run.string());
+  const std::string page = read_text(run / "report.html");
+  for (const char* picture : {"top.png", "classes.png", "mesh.png", "grid.png"}) {
+    EXPECT_GT(std::filesystem::file_size(run / "products/build_map" / picture), 10'000u) << picture;
+  }
+  EXPECT_THAT(page,
+              HasSubstr("The point cloud, coloured by what its points belong to (build_map)"));
+}
+
 TEST(ReportCommand, RefusesInASentence) {
   const ScratchFolder folder("report_refused");
   const auto refused = [&](const std::string& arguments) {

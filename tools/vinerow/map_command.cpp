@@ -17,8 +17,9 @@
 #include "engine/sim/simulation.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/map_html.h"
-#include "tools/vinerow/map_pictures.h"
+#include "tools/vinerow/map_picture_files.h"
 #include "tools/vinerow/map_truth.h"
+#include "tools/vinerow/report/map_captions.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
 #include "worlds/mapping/cloud/make_cloud_map.h"
 #include "worlds/mapping/cloud/reading/cloud_source.h"
@@ -141,25 +142,11 @@ void export_meshes(const std::vector<RowMesh>& meshes, const std::vector<std::st
 std::vector<ReportPicture> write_pictures(const worlds::CloudMap& map,
                                           const worlds::ParcelCloud& cloud,
                                           const Arguments& arguments, const std::string& title) {
-  make_folder(arguments.out / "pictures");
   std::vector<ReportPicture> pictures;
-  const auto add = [&](const std::string& name, const render::Image& image,
-                       const std::string& caption) {
-    render::write_png((arguments.out / "pictures" / name).string(), image);
-    pictures.push_back({"pictures/" + name, caption});
-  };
-  add("top.png", draw_top(map, cloud, title + ": rows from above"),
-      "Canopy from above with the rows that were found, their numbers and ends.");
-  add("classes.png", draw_classes(map, cloud, title + ": point cloud"),
-      "The point cloud, coloured by what its points belong to.");
-  add("mesh.png", draw_meshes(map, cloud, title + ": row meshes"),
-      "The low-complexity meshes of the rows over the ground, and a stretch of them beside its "
-      "points.");
-  if (!map.map.occupancy.empty()) {
-    add("grid.png", draw_map_grid(map, arguments.options.occupancy, title + ": occupancy grid"),
-        arguments.options.occupancy.virtual_walls
-            ? "The occupancy grid with virtual walls that leave the serpentine as the only way."
-            : "The occupancy grid.");
+  for (const fs::path& file : write_map_pictures(map, cloud, arguments.options.occupancy, title,
+                                                 arguments.out / "pictures")) {
+    pictures.push_back(
+        {"pictures/" + file.filename().string(), map_picture_caption(file.stem().string())});
   }
   return pictures;
 }

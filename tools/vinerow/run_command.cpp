@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/sim/run.h"
 #include "tools/vinerow/commands.h"
+#include "tools/vinerow/map_picture_files.h"
 #include "tools/vinerow/report/report.h"
 
 namespace vinerow::tools {
@@ -107,6 +108,12 @@ void map_coverage_of(const std::filesystem::path& out, const Registry& registry)
   for (const std::filesystem::path& file : files) fmt::print("coverage {}\n", file.string());
 }
 
+void draw_maps_of(const io::Scenario& scenario, const RunResult& result, const Registry& registry) {
+  for (const std::filesystem::path& file : write_job_pictures(scenario, result, registry)) {
+    fmt::print("map      {}\n", file.string());
+  }
+}
+
 /// A report that cannot be written takes nothing from the run's verdict.
 void report_on(const std::filesystem::path& out, const Registry& registry) {
   const std::filesystem::path report = out / "report.html";
@@ -152,7 +159,10 @@ void add_run_command(CLI::App& app, int& exit_status) {
     line.end();
     const bool with_log = options.log && scenario.record.enabled;
     print_result(result, options.out, with_log);
-    if (with_log && options.pictures) map_coverage_of(options.out, registry);
+    if (with_log && options.pictures) {
+      map_coverage_of(options.out, registry);
+      draw_maps_of(scenario, result, registry);
+    }
     if (!arguments->no_report) {
       report_on(options.out, registry);
     }

@@ -116,6 +116,10 @@ INSTANTIATE_TEST_SUITE_P(
               "phases.a: would wait for ever: a waits for a"},
         Fault{"phases:\n  a: {vehicles: [plane], after: [bb]}\n  b: {vehicles: [rover]}\n",
               "scenario:7: phases.a.after: unknown phase 'bb'; did you mean 'b'? (known: a, b)"},
+        Fault{"phases:\n  p: {job: {type: plan, vehicle: rover}}\n  a: {vehicles: [plane], plan: "
+              "from "
+              "p}\n  b: {vehicles: [rover]}\n",
+              "scenario:8: phases.a.plan: phase 'p' plans for 'rover', and here 'plane' works"},
         Fault{"phases:\n  a: {vehicles: [plane]}\n  b: {vehicles: [rovr]}\n",
               "phases.b.vehicles: unknown vehicle 'rovr'; did you mean 'rover'?"},
         Fault{"phases:\n  a: {vehicles: [plane]}\n",

@@ -7,10 +7,11 @@
 #include <fstream>
 
 #include "engine/core/error.h"
-#include "engine/math/polygon.h"
+#include "engine/math/deviation.h"
 #include "engine/render/png.h"
 #include "tools/vinerow/report/base64.h"
 #include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/map_captions.h"
 #include "tools/vinerow/report/units.h"
 
 namespace vinerow::tools::report {
@@ -71,6 +72,20 @@ std::string frame_caption(const RunFolder& run, const fs::path& file) {
   return fmt::format("{}, after {}", what, duration_text(name.time_s));
 }
 
+/// Between rows or beside one: where the work is.
+bool is_at_a_row(const RunFolder& run, const Eigen::Vector3d& p_W) {
+  constexpr double kBeside_m = 2.0;
+  if (!run.world) return false;
+  for (const PlantRow& row : run.world->rows.rows) {
+    std::vector<Eigen::Vector2d> line;
+    for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
+    if (line.size() < 2) continue;
+    if (PolylineDistance(std::move(line)).nearest(p_W.head<2>()).distance_m < kBeside_m)
+      return true;
+  }
+  return false;
+}
+
 /// How much of the run a frame shows; more is better, any of one line more than all below it.
 int score_of(const RunFolder& run, const io::CameraConfig* camera, double time_s,
              const std::vector<VehicleLog>& vehicles) {
@@ -87,10 +102,8 @@ int score_of(const RunFolder& run, const io::CameraConfig* camera, double time_s
     const bool moves = truth.v_WB_B.norm() > kMoves_mps;
     score += moves ? 1 : 0;
     if (vehicle.name != camera->vehicle) continue;
-    const bool in_parcel =
-        run.world && contains(run.world->rows.boundary_W, truth.X_WB.p.head<2>());
     score += moves ? 1'000 : 0;
-    score += in_parcel ? 500 : 0;
+    score += is_at_a_row(run, truth.X_WB.p) ? 500 : 0;
   }
   return score;
 }
@@ -134,8 +147,9 @@ std::vector<Picture> product_pictures(const RunFolder& run) {
   std::sort(folders.begin(), folders.end());
   for (const fs::path& folder : folders) {
     for (const fs::path& file : png_files(folder)) {
-      pictures.push_back({file, fmt::format("{}: {}", folder.filename().string(),
-                                            words_of(file.stem().string()))});
+      std::string caption = map_picture_caption(file.stem().string());
+      if (caption.ends_with('.')) caption.pop_back();
+      pictures.push_back({file, fmt::format("{} ({})", caption, folder.filename().string())});
     }
   }
   return pictures;

@@ -101,18 +101,40 @@ void add_comparison(const MapComparison& comparison, std::map<std::string, doubl
   numbers["volume_error_share"] = comparison.volume_share;
 }
 
+CloudMapOptions read_options(const ParameterSet& parameters, const WorldModel& world) {
+  CloudMapOptions options = read_options(parameters);
+  if (parameters.text("boundary") == "parcel") options.boundary_W = parcel_of(world);
+  return options;
+}
+
+CloudReadOptions read_reading(const ParameterSet& parameters, const WorldModel& world,
+                              bool with_colours) {
+  CloudReadOptions reading;
+  reading.crs = parameters.text("crs");
+  reading.origin = world.origin;
+  reading.thin = static_cast<std::uint64_t>(parameters.integer("thin"));
+  reading.with_colours = with_colours;
+  return reading;
+}
+
+CloudMapWork work_out(const CloudMapOptions& options, const CloudReadOptions& reading,
+                      const std::filesystem::path& file) {
+  CloudMapWork work;
+  work.options = options;
+  CloudReadReport read;
+  work.cloud = read_parcel_cloud(file, reading, read);
+  work.map = make_cloud_map(work.cloud, options);
+  add_source(read, work.map);
+  return work;
+}
+
 class CloudMapJob : public Job {
  public:
   CloudMapJob(const ParameterSet& parameters, const JobContext& context)
       : context_(context),
-        options_(read_options(parameters)),
-        like_world_(parameters.text("numbering") == "world") {
-    if (parameters.text("boundary") == "parcel") options_.boundary_W = parcel_of(*context.world);
-    reading_.crs = parameters.text("crs");
-    reading_.origin = context.world->origin;
-    reading_.thin = static_cast<std::uint64_t>(parameters.integer("thin"));
-    reading_.with_colours = false;
-  }
+        options_(read_options(parameters, *context.world)),
+        reading_(read_reading(parameters, *context.world, false)),
+        like_world_(parameters.text("numbering") == "world") {}
 
   Result<JobOutcome> run(const std::map<std::string, Product>& inputs) override {
     try {
@@ -124,13 +146,8 @@ class CloudMapJob : public Job {
 
  private:
   JobOutcome make(const std::filesystem::path& file) const {
-    CloudReadReport read;
-    CloudMap map;
-    {
-      ParcelCloud cloud = read_parcel_cloud(file, reading_, read);
-      map = make_cloud_map(cloud, options_);
-    }
-    add_source(read, map);
+    // The points are as many as the memory of a mission: they go before the truth comes.
+    const CloudMap map = work_out(options_, reading_, file).map;
     save_map(map, context_.folder);
     JobOutcome outcome;
     outcome.numbers = {
@@ -163,12 +180,18 @@ class CloudMapJob : public Job {
   }
 
   const JobContext context_;
-  CloudMapOptions options_;
-  CloudReadOptions reading_;
+  const CloudMapOptions options_;
+  const CloudReadOptions reading_;
   const bool like_world_;
 };
 
 }  // namespace
+
+CloudMapWork work_out_cloud_map(const ParameterSet& parameters, const WorldModel& world,
+                                const std::filesystem::path& cloud, bool with_colours) {
+  return work_out(read_options(parameters, world), read_reading(parameters, world, with_colours),
+                  cloud);
+}
 
 void register_cloud_map_job(Registry& registry) {
   PartSpec spec;

@@ -1,0 +1,80 @@
+#include "tools/vinerow/map_picture_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/error.h"
+#include "engine/render/png.h"
+#include "engine/sim/simulation.h"
+#include "tools/vinerow/map_pictures.h"
+#include "worlds/mapping/jobs/cloud_map_job.h"
+
+namespace vinerow::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+const PhaseReport* find_phase(const RunResult& result, const std::string& name) {
+  const auto at = std::find_if(result.phases.begin(), result.phases.end(),
+                               [&](const PhaseReport& phase) { return phase.name == name; });
+  return at == result.phases.end() ? nullptr : &*at;
+}
+
+/// Of the product that the phase took. @returns nothing where it never was
+std::optional<fs::path> cloud_of(const io::PhaseConfig& phase, const RunResult& result) {
+  for (const io::ProductSource& source : phase.takes) {
+    const PhaseReport* giver = find_phase(result, source.phase);
+    if (source.kind == ProductKind::kCloud && giver != nullptr && giver->product) {
+      return giver->product->file;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<fs::path> write_map_pictures(const worlds::CloudMap& map,
+                                         const worlds::ParcelCloud& cloud,
+                                         const worlds::OccupancyOptions& options,
+                                         const std::string& title, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw ConfigError(
+        fmt::format("folder '{}' cannot be made: {}", folder.string(), error.message()));
+  }
+  std::vector<fs::path> files;
+  const auto add = [&](const char* name, const render::Image& image) {
+    files.push_back(folder / name);
+    render::write_png(files.back().string(), image);
+  };
+  add("top.png", draw_top(map, cloud, title + ": rows from above"));
+  add("classes.png", draw_classes(map, cloud, title + ": point cloud"));
+  add("mesh.png", draw_meshes(map, cloud, title + ": row meshes"));
+  if (!map.map.occupancy.empty()) {
+    add("grid.png", draw_map_grid(map, options, title + ": occupancy grid"));
+  }
+  return files;
+}
+
+std::vector<fs::path> write_job_pictures(const io::Scenario& scenario, const RunResult& result,
+                                         const Registry& registry) {
+  std::vector<fs::path> files;
+  std::unique_ptr<WorldModel> world;
+  for (const io::PhaseConfig& phase : scenario.phases) {
+    if (!phase.job || phase.job->type != "cloud_map") continue;
+    const PhaseReport* report = find_phase(result, phase.name);
+    const auto cloud = cloud_of(phase, result);
+    if (report == nullptr || !report->product || !cloud) continue;
+    if (!world) world = build_world(scenario, registry);
+    const worlds::CloudMapWork work =
+        worlds::work_out_cloud_map(phase.job->parameters, *world, *cloud, true);
+    const auto drawn = write_map_pictures(work.map, work.cloud, work.options.occupancy,
+                                          scenario.name, report->product->file);
+    files.insert(files.end(), drawn.begin(), drawn.end());
+  }
+  return files;
+}
+
+}  // namespace vinerow::tools

@@ -1,0 +1,31 @@
+#pragma once
+/// The pictures of a map as files, of `vinerow map` and of the jobs of a run.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/io/scenario.h"
+#include "engine/sim/run.h"
+#include "worlds/mapping/cloud/cloud_map.h"
+#include "worlds/mapping/cloud/parcel_cloud.h"
+#include "worlds/mapping/occupancy.h"
+
+namespace vinerow::tools {
+
+/// top.png, classes.png, mesh.png and, where the map has a grid, grid.png.
+/// @param cloud  with classes  @param folder  made where it is not there
+/// @returns the files, in this order. @throws ConfigError where they cannot be written
+std::vector<std::filesystem::path> write_map_pictures(const worlds::CloudMap& map,
+                                                      const worlds::ParcelCloud& cloud,
+                                                      const worlds::OccupancyOptions& options,
+                                                      const std::string& title,
+                                                      const std::filesystem::path& folder);
+
+/// The same of every map that a job `cloud_map` made in a run, into the folder of its product. The
+/// map is worked out again from the cloud: a job keeps no classes of points.
+std::vector<std::filesystem::path> write_job_pictures(const io::Scenario& scenario,
+                                                      const RunResult& result,
+                                                      const Registry& registry);
+
+}  // namespace vinerow::tools

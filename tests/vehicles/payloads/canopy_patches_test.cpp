@@ -116,6 +116,47 @@ TEST(CanopyPatches, CutsAWallBesideACurvedRowAtItsSteps) {
   EXPECT_NEAR(sum, 112 * 0.25 * radius / 30.0, 0.01 * sum);
 }
 
+TEST(CanopyPatches, StandAsHighAboveHollowsAndHumps) {
+  // Ground in waves of 0.8 m, a row that is told by its ends alone, and a wall of 1 m that stands
+  // 0.5 m above the ground: sheared upright, it keeps its areas.
+  WorldModel world = make_flat_world();
+  HeightField ground;
+  ground.columns = 31, ground.rows = 31;
+  ground.corner_W = {-5.0, -15.0};
+  for (int j = 0; j < ground.rows; ++j) {
+    for (int i = 0; i < ground.columns; ++i) {
+      ground.heights_m.push_back(static_cast<float>(0.8 * std::sin((i - 5) / 3.0)));
+    }
+  }
+  world.terrain = ground;
+  PlantRow row;
+  row.line_W = {{0.0, 0.0, 0.0}, {20.0, 0.0, 0.3}};
+  world.rows.rows.push_back(row);
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (std::uint32_t k = 0; k <= 20; ++k) {
+    for (const double above_m : {0.5, 1.5}) {
+      const Vector3d p(k, 0.3, ground.height_m(k, 0.0) + above_m);
+      mesh->vertices.push_back(p.cast<float>());
+    }
+    if (k == 0) continue;
+    const std::uint32_t i = 2 * k;
+    mesh->triangles.push_back({i - 2, i - 1, i});
+    mesh->triangles.push_back({i - 1, i + 1, i});
+  }
+  MeshInstance instance;
+  instance.mesh = mesh;
+  instance.surface = SurfaceClass::kCanopy;
+  world.meshes = {instance};
+  const CanopyPatches patches(world, 0.25, 0.25);
+  ASSERT_EQ(patches.patches().size(), 80u * 4u);
+  for (const CanopyPatch& patch : patches.patches()) {
+    EXPECT_GE(patch.band, 2);
+    EXPECT_LE(patch.band, 5);
+    EXPECT_NEAR(patch.area_m2, 0.0625, 1e-4) << patch.along << " " << patch.band;
+    EXPECT_EQ(patches.find(patch.p_W), static_cast<int>(&patch - patches.patches().data()));
+  }
+}
+
 /// Areas of single patches of real hulls, against a second way: points spread evenly over every
 /// triangle, each sorted by find().
 TEST(CanopyPatches, OfHullsHaveTheAreasThatAManyPointsTell) {

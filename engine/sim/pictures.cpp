@@ -13,7 +13,7 @@
 #include "engine/render/scene.h"
 #include "engine/sim/frame_composer.h"
 #include "engine/sim/log_trace.h"
-#include "engine/sim/phase_report.h"
+#include "engine/sim/phase_moments.h"
 #include "engine/sim/simulation.h"
 
 namespace vinerow {
@@ -48,22 +48,10 @@ TraceWishes wishes_of(const std::vector<io::CameraConfig>& cameras) {
   return wishes;
 }
 
-/// When each phase of the run's mission began.
-std::map<std::string, Time> phase_begins(const record::LogReader& reader) {
-  std::map<std::string, Time> begins;
-  if (!reader.has_topic("/run/phases")) return begins;
-  reader.read<NamedValues>("/run/phases", [&](Time t, const NamedValues& states) {
-    for (std::size_t i = 0; i < states.names.size(); ++i) {
-      if (states.values[i] == static_cast<double>(PhaseState::kWaiting)) continue;
-      begins.emplace(states.names[i], t);
-    }
-  });
-  return begins;
-}
-
-/// Instants of the frames, in order, each once. Instants after the log's end are left out.
+/// Instants of the frames of all cameras, in order, each once. Instants after the log's end are
+/// left out.
 std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOptions& options,
-                           const LogTrace& trace, const std::map<std::string, Time>& begins) {
+                           const LogTrace& trace) {
   std::set<Time> times;
   const auto add = [&](double t_s) {
     const Time t{duration_from_s(t_s).ns};
@@ -79,10 +67,6 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
     for (std::int64_t k = 0; k <= count; ++k) add(static_cast<double>(k) * every_s);
   }
   if (!own_schedule) {
-    for (const io::PhaseMoment& moment : pictures.moments) {
-      const auto begin = begins.find(moment.phase);
-      if (begin != begins.end()) add(begin->second.s() + moment.after_s);
-    }
     for (const double share : pictures.shares) {
       times.insert(trace.first + Duration{std::llround(
                                      share * static_cast<double>((trace.last - trace.first).ns))});
@@ -161,16 +145,22 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   const LogTrace trace = read_trace(reader, names, wishes_of(cameras));
   const FrameComposer composer(scenario, *world, vehicles, trace);
-  const std::set<Time> schedule =
-      frame_times(scenario.pictures, options, trace, phase_begins(reader));
+  const bool own_schedule = options.times_s || options.every_s;
+  const std::set<Time> schedule = frame_times(scenario.pictures, options, trace);
+  const std::map<std::string, PhaseSpan> spans = read_phase_spans(reader);
   std::vector<std::set<Time>> times_by_camera;
   std::set<Time> times;
   int total = 0;
   for (const io::CameraConfig& camera : cameras) {
-    times_by_camera.push_back(
-        times_of(camera, schedule, options.times_s || options.every_s, trace));
-    times.insert(times_by_camera.back().begin(), times_by_camera.back().end());
-    total += static_cast<int>(times_by_camera.back().size());
+    std::set<Time>& own =
+        times_by_camera.emplace_back(times_of(camera, schedule, own_schedule, trace));
+    if (!own_schedule && camera.kind != io::CameraKind::kShots) {
+      for (const Time t : moment_times(scenario, camera, spans)) {
+        if (t <= trace.last) own.insert(t);
+      }
+    }
+    times.insert(own.begin(), own.end());
+    total += static_cast<int>(own.size());
   }
 
   std::filesystem::create_directories(out);

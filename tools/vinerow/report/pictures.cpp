@@ -145,8 +145,16 @@ std::vector<Picture> product_pictures(const RunFolder& run) {
     }
   }
   std::sort(folders.begin(), folders.end());
+  // In the order of their making: points, meshes, rows, grid.
+  const auto rank = [](const fs::path& file) {
+    const std::string order[] = {"classes", "mesh", "top", "grid"};
+    return std::find(std::begin(order), std::end(order), file.stem().string()) - std::begin(order);
+  };
   for (const fs::path& folder : folders) {
-    for (const fs::path& file : png_files(folder)) {
+    std::vector<fs::path> files = png_files(folder);
+    std::stable_sort(files.begin(), files.end(),
+                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    for (const fs::path& file : files) {
       std::string caption = map_picture_caption(file.stem().string());
       if (caption.ends_with('.')) caption.pop_back();
       pictures.push_back({file, fmt::format("{} ({})", caption, folder.filename().string())});

@@ -1,0 +1,51 @@
+#include "engine/sim/phase_moments.h"
+
+#include <algorithm>
+
+#include "engine/sim/phase_report.h"
+
+namespace vinerow {
+namespace {
+
+bool works_at(const io::Scenario& scenario, const std::string& vehicle, Time t,
+              const std::map<std::string, PhaseSpan>& spans) {
+  return std::any_of(
+      scenario.phases.begin(), scenario.phases.end(), [&](const io::PhaseConfig& phase) {
+        const auto& who = phase.vehicles;
+        const auto span = spans.find(phase.name);
+        return std::find(who.begin(), who.end(), vehicle) != who.end() && span != spans.end() &&
+               span->second.begin <= t && (!span->second.end || t <= *span->second.end);
+      });
+}
+
+}  // namespace
+
+std::map<std::string, PhaseSpan> read_phase_spans(const record::LogReader& reader) {
+  std::map<std::string, PhaseSpan> spans;
+  if (!reader.has_topic("/run/phases")) return spans;
+  reader.read<NamedValues>("/run/phases", [&](Time t, const NamedValues& states) {
+    for (std::size_t i = 0; i < states.names.size(); ++i) {
+      if (states.values[i] == static_cast<double>(PhaseState::kWaiting)) continue;
+      PhaseSpan& span = spans.emplace(states.names[i], PhaseSpan{t, std::nullopt}).first->second;
+      const bool runs = states.values[i] == static_cast<double>(PhaseState::kRunning);
+      if (!runs && !span.end) span.end = t;
+    }
+  });
+  return spans;
+}
+
+std::set<Time> moment_times(const io::Scenario& scenario, const io::CameraConfig& camera,
+                            const std::map<std::string, PhaseSpan>& spans) {
+  std::set<Time> times;
+  const bool follows =
+      camera.kind == io::CameraKind::kChase || camera.kind == io::CameraKind::kOnBoard;
+  for (const io::PhaseMoment& moment : scenario.pictures.moments) {
+    const auto span = spans.find(moment.phase);
+    if (span == spans.end()) continue;
+    const Time t = span->second.begin + duration_from_s(moment.after_s);
+    if (!follows || works_at(scenario, camera.vehicle, t, spans)) times.insert(t);
+  }
+  return times;
+}
+
+}  // namespace vinerow

@@ -35,6 +35,23 @@ double sum_of(const CanopyPatches& patches) {
   return area_m2;
 }
 
+/// A wall of canopy through upright edges, given by bottom and top.
+void add_wall(WorldModel& world, const std::vector<std::pair<Vector3d, Vector3d>>& edges_W) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (const auto& [bottom_W, top_W] : edges_W) {
+    mesh->vertices.push_back(bottom_W.cast<float>());
+    mesh->vertices.push_back(top_W.cast<float>());
+  }
+  for (std::uint32_t i = 2; i < mesh->vertices.size(); i += 2) {
+    mesh->triangles.push_back({i - 2, i - 1, i});
+    mesh->triangles.push_back({i - 1, i + 1, i});
+  }
+  MeshInstance instance;
+  instance.mesh = mesh;
+  instance.surface = SurfaceClass::kCanopy;
+  world.meshes.push_back(instance);
+}
+
 /// A bent wall: the strip of height 0.5 to 1.5 m at `radius_m` around the origin, in steps of
 /// 1/4 degree, and rows along arcs of 30 and 32.5 m.
 WorldModel make_curved_wall(double radius_m) {
@@ -48,22 +65,13 @@ WorldModel make_curved_wall(double radius_m) {
     }
     world.rows.rows.push_back(row);
   }
-  auto mesh = std::make_shared<TriangleMesh>();
-  for (std::uint32_t k = 0; k <= 240; ++k) {
+  std::vector<std::pair<Vector3d, Vector3d>> edges;
+  for (int k = 0; k <= 240; ++k) {
     const double angle = rad_from_deg(0.25 * k);
-    for (const double z : {0.5, 1.5}) {
-      mesh->vertices.push_back(
-          Vector3d(radius_m * std::cos(angle), radius_m * std::sin(angle), z).cast<float>());
-    }
-    if (k == 0) continue;
-    const std::uint32_t i = 2 * k;
-    mesh->triangles.push_back({i - 2, i - 1, i});
-    mesh->triangles.push_back({i - 1, i + 1, i});
+    const Vector3d foot(radius_m * std::cos(angle), radius_m * std::sin(angle), 0.0);
+    edges.emplace_back(foot + 0.5 * Vector3d::UnitZ(), foot + 1.5 * Vector3d::UnitZ());
   }
-  MeshInstance instance;
-  instance.mesh = mesh;
-  instance.surface = SurfaceClass::kCanopy;
-  world.meshes.push_back(instance);
+  add_wall(world, edges);
   return world;
 }
 
@@ -132,21 +140,13 @@ TEST(CanopyPatches, StandAsHighAboveHollowsAndHumps) {
   PlantRow row;
   row.line_W = {{0.0, 0.0, 0.0}, {20.0, 0.0, 0.3}};
   world.rows.rows.push_back(row);
-  auto mesh = std::make_shared<TriangleMesh>();
-  for (std::uint32_t k = 0; k <= 20; ++k) {
-    for (const double above_m : {0.5, 1.5}) {
-      const Vector3d p(k, 0.3, ground.height_m(k, 0.0) + above_m);
-      mesh->vertices.push_back(p.cast<float>());
-    }
-    if (k == 0) continue;
-    const std::uint32_t i = 2 * k;
-    mesh->triangles.push_back({i - 2, i - 1, i});
-    mesh->triangles.push_back({i - 1, i + 1, i});
+  std::vector<std::pair<Vector3d, Vector3d>> edges;
+  for (int k = 0; k <= 20; ++k) {
+    const Vector3d foot(k, 0.3, ground.height_m(k, 0.0));
+    edges.emplace_back(foot + 0.5 * Vector3d::UnitZ(), foot + 1.5 * Vector3d::UnitZ());
   }
-  MeshInstance instance;
-  instance.mesh = mesh;
-  instance.surface = SurfaceClass::kCanopy;
-  world.meshes = {instance};
+  world.meshes.clear();
+  add_wall(world, edges);
   const CanopyPatches patches(world, 0.25, 0.25);
   ASSERT_EQ(patches.patches().size(), 80u * 4u);
   for (const CanopyPatch& patch : patches.patches()) {

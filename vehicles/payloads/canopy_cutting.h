@@ -14,7 +14,7 @@ struct CanopyPoint {
   int row = 0;
   double along_m = 0.0;
   double lateral_m = 0.0;
-  double height_m = 0.0;  ///< above the row's line, which CanopyPatches lays on the ground
+  double height_m = 0.0;  ///< above the ground at the row's line
 };
 
 CanopyPoint canopy_point(const RowLines& rows, const Eigen::Vector3d& p_W);

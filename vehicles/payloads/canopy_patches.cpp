@@ -18,31 +18,6 @@ bool is_canopy(const MeshInstance& instance) {
   return instance.collides && instance.surface == SurfaceClass::kCanopy && instance.mesh;
 }
 
-/// The rows with a point of the ground each metre: a line of few points passes over hollows and
-/// through humps, so that heights above it are none above the ground.
-std::vector<PlantRow> rows_on_ground(const WorldModel& world) {
-  constexpr double kApart_m = 1.0;
-  std::vector<PlantRow> rows = world.rows.rows;
-  if (!world.terrain) return rows;
-  const auto put = [&](const Vector3d& p) {
-    const bool on_it = world.terrain->contains(p.x(), p.y());
-    return Vector3d(p.x(), p.y(), on_it ? world.terrain->height_m(p.x(), p.y()) : p.z());
-  };
-  for (PlantRow& row : rows) {
-    std::vector<Vector3d> line = {put(row.line_W.front())};
-    for (std::size_t k = 0; k + 1 < row.line_W.size(); ++k) {
-      const Vector3d &a = row.line_W[k], &b = row.line_W[k + 1];
-      const int pieces =
-          std::max(1, static_cast<int>(std::ceil((b - a).head<2>().norm() / kApart_m)));
-      for (int i = 1; i <= pieces; ++i) {
-        line.push_back(put(a + static_cast<double>(i) / pieces * (b - a)));
-      }
-    }
-    row.line_W = std::move(line);
-  }
-  return rows;
-}
-
 std::vector<CanopyPoint> points_of(const RowLines& rows, const MeshInstance& instance) {
   std::vector<CanopyPoint> points;
   points.reserve(instance.mesh->vertices.size());
@@ -55,7 +30,9 @@ std::vector<CanopyPoint> points_of(const RowLines& rows, const MeshInstance& ins
 }  // namespace
 
 CanopyPatches::CanopyPatches(const WorldModel& world, double step_m, double band_m)
-    : step_m_(step_m), band_m_(band_m), rows_(rows_on_ground(world)) {
+    : step_m_(step_m),
+      band_m_(band_m),
+      rows_(world.rows.rows, world.terrain ? &*world.terrain : nullptr) {
   if (rows_.count() == 0) return;
   for (int row = 0; row < rows_.count(); ++row) {
     const int steps =

@@ -21,7 +21,35 @@ double cross(const Vector2d& a, const Vector2d& b) {
 
 }  // namespace
 
-RowLines::RowLines(const std::vector<PlantRow>& rows) {
+double RowLines::Profile::at(double along_m) const {
+  const double last = static_cast<double>(ground_m.size() - 1);
+  const double place = std::clamp(along_m / apart_m, 0.0, last);
+  const double first = std::min(std::floor(place), last - 1.0);
+  const auto i = static_cast<std::size_t>(first);
+  return ground_m[i] + (place - first) * (ground_m[i + 1] - ground_m[i]);
+}
+
+RowLines::Profile RowLines::make_profile(const PlantRow& row, const HeightField& terrain) const {
+  constexpr double kApart_m = 1.0;
+  const std::vector<double>& along_m = along_m_.back();
+  const auto pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(along_m.back() / kApart_m)));
+  Profile profile;
+  profile.apart_m = along_m.back() / static_cast<double>(pieces);
+  std::size_t segment = 0;
+  for (std::size_t i = 0; i <= pieces; ++i) {
+    const double at_m = static_cast<double>(i) * profile.apart_m;
+    while (segment + 2 < along_m.size() && along_m[segment + 1] < at_m) ++segment;
+    const double share =
+        std::clamp((at_m - along_m[segment]) / (along_m[segment + 1] - along_m[segment]), 0.0, 1.0);
+    const Eigen::Vector3d p_W =
+        row.line_W[segment] + share * (row.line_W[segment + 1] - row.line_W[segment]);
+    profile.ground_m.push_back(
+        terrain.contains(p_W.x(), p_W.y()) ? terrain.height_m(p_W.x(), p_W.y()) : p_W.z());
+  }
+  return profile;
+}
+
+RowLines::RowLines(const std::vector<PlantRow>& rows, const HeightField* terrain) {
   for (const PlantRow& row : rows) {
     VINEROW_DEMAND(row.line_W.size() >= 2);
     std::vector<Vector2d> points;
@@ -38,6 +66,7 @@ RowLines::RowLines(const std::vector<PlantRow>& rows) {
     along_m_.push_back(std::move(along));
     ground_m_.push_back(std::move(ground));
     boxes_.push_back(box);
+    if (terrain != nullptr) profiles_.push_back(make_profile(row, *terrain));
   }
   if (count() > 0) make_grid();
 }
@@ -93,6 +122,10 @@ RowPlace RowLines::place(int row, const Vector2d& p_W, int hint_segment) const {
   const bool behind = found.segment == line.segments() - 1 && found.fraction >= 1.0;
   at.along_m =
       along[segment] + (before || behind ? at.direction_W.dot(p_W - a) : found.fraction * length_m);
+  if (!profiles_.empty()) {
+    at.ground_m = profiles_[index].at(at.along_m);
+    return at;
+  }
   const std::vector<double>& ground = ground_m_[index];
   at.ground_m = ground[segment] + found.fraction * (ground[segment + 1] - ground[segment]);
   return at;

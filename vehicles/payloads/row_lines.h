@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/api/height_field.h"
 #include "engine/api/map.h"
 #include "engine/math/deviation.h"
 
@@ -22,7 +23,7 @@ struct RowPlace {
   int row = 0;              ///< index among the rows
   double along_m = 0.0;     ///< along the line from its first point; < 0 before it, > length behind
   double lateral_m = 0.0;   ///< positive: left of the line
-  double ground_m = 0.0;    ///< z of the line there, in W; beyond its ends that of the end
+  double ground_m = 0.0;    ///< z of the ground on the line there; beyond its ends that of the end
   double distance_m = 0.0;  ///< from the line that ends at its ends, in the plane
   Eigen::Vector2d direction_W = Eigen::Vector2d::UnitX();  ///< of the line there, unit
 };
@@ -35,7 +36,10 @@ struct RowsBeside {
 class RowLines {
  public:
   /// @param rows  each with at least two points that are apart (worlds and maps see to that)
-  explicit RowLines(const std::vector<PlantRow>& rows);
+  /// @param terrain  tells RowPlace::ground_m, a height each metre; not kept. nullptr: the lines
+  /// do,
+  ///   which pass over hollows and through humps where they have few points
+  explicit RowLines(const std::vector<PlantRow>& rows, const HeightField* terrain = nullptr);
 
   int count() const { return static_cast<int>(lines_.size()); }
   double length_m(int row) const { return along_m_[static_cast<std::size_t>(row)].back(); }
@@ -54,12 +58,20 @@ class RowLines {
     std::int32_t row;
     std::int32_t segment;  ///< nearest to the cell's middle
   };
+  /// Heights of the ground along a row, evenly apart from its first point to its last.
+  struct Profile {
+    double apart_m = 1.0;
+    std::vector<double> ground_m;
+    double at(double along_m) const;
+  };
+  Profile make_profile(const PlantRow& row, const HeightField& terrain) const;
   void make_grid();
   RowPlace nearest_of_all(const Eigen::Vector2d& p_W) const;
 
   std::vector<PolylineDistance> lines_;
   std::vector<std::vector<double>> along_m_;   // of each point
   std::vector<std::vector<double>> ground_m_;  // of each point
+  std::vector<Profile> profiles_;              // of each row, where a terrain was given
   std::vector<Eigen::AlignedBox2d> boxes_;
   Eigen::Vector2d corner_W_ = {0, 0};
   double cell_m_ = 1.0;

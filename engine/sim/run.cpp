@@ -157,11 +157,29 @@ std::map<std::string, std::map<std::string, double>> with_missing_numbers(
   return metrics;
 }
 
+/// What an earlier run left in the same folder would be taken for this one's. Products stay until a
+/// job makes its own anew: another run may still want them.
+void clear_earlier_run(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::vector<std::filesystem::path> earlier;
+  for (const char* name : {"log.mcap", "report.html", "replay.html", "frames", "canopy"}) {
+    earlier.push_back(folder / name);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::filesystem::path& file = entry.path();
+    const std::string stem = file.stem().string();
+    const bool of_coverage = stem == "coverage" || stem.starts_with("coverage_");
+    if (of_coverage && (file.extension() == ".png" || file.extension() == ".json")) {
+      earlier.push_back(file);
+    }
+  }
+  for (const std::filesystem::path& path : earlier) std::filesystem::remove_all(path, ignored);
+}
+
 std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
                                                 const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   std::error_code failed;
-  std::filesystem::remove_all(folder, failed);  // what an earlier run left would be taken for ours
   for (const auto& vehicle : simulation.vehicles()) {
     for (const auto& [name, payload] : vehicle->payloads()) {
       const CanopyCoverage* coverage = payload->coverage();
@@ -188,6 +206,7 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   if (failed)
     throw ConfigError(
         fmt::format("folder '{}' cannot be made: {}", options.out.string(), failed.message()));
+  clear_earlier_run(options.out);
   write_text(options.out / "scenario.resolved.yaml", scenario.resolved_yaml);
   const std::filesystem::path log_file = options.out / "log.mcap";
   const bool with_log = options.log && scenario.record.enabled;
@@ -240,8 +259,6 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   }
   if (options.pictures && !scenario.pictures.cameras.empty()) {
     if (with_log) {
-      // Frames of an earlier run in the same folder would be taken for this one's.
-      std::filesystem::remove_all(options.out / "frames", failed);
       const PictureReport pictures = render_log(log_file, options.out / "frames", registry, {});
       result.pictures = pictures.files;
       result.picture_note = pictures.note;

@@ -97,32 +97,19 @@ void print_result(const RunResult& result, const std::filesystem::path& out, boo
   fmt::print(stderr, "vinerow: {}{}\n", broke_off ? "the run broke off: " : "", result.error);
 }
 
-/// Where the vehicles took pictures of the ground.
-void map_coverage_of(const std::filesystem::path& out, const Registry& registry) {
-  // What an earlier run left in the same folder would be taken for this one's.
-  for (const char* file : {"coverage.png", "coverage.json"}) {
-    std::error_code failed;
-    std::filesystem::remove(out / file, failed);
-  }
-  const auto files = write_coverage(out / "log.mcap", registry, {}, out / "coverage.png");
-  for (const std::filesystem::path& file : files) fmt::print("coverage {}\n", file.string());
-}
-
-void draw_maps_of(const io::Scenario& scenario, const RunResult& result, const Registry& registry) {
-  for (const std::filesystem::path& file : write_job_pictures(scenario, result, registry)) {
-    fmt::print("map      {}\n", file.string());
-  }
-}
-
-/// A report that cannot be written takes nothing from the run's verdict.
-void report_on(const std::filesystem::path& out, const Registry& registry) {
-  const std::filesystem::path report = out / "report.html";
+/// What is drawn and told of a run that is over: where that cannot be written it takes nothing from
+/// the run's verdict. @param what  for people: "report"
+template <class F>
+void try_to_write(const char* what, F&& write) {
   try {
-    write_report(out, registry, report);
-    fmt::print("report   {}\n", report.string());
+    write();
   } catch (const ConfigError& error) {
-    fmt::print(stderr, "vinerow: no report: {}\n", error.what());
+    fmt::print(stderr, "vinerow: no {}: {}\n", what, error.what());
   }
+}
+
+void print_files(const char* what, const std::vector<std::filesystem::path>& files) {
+  for (const std::filesystem::path& file : files) fmt::print("{:8} {}\n", what, file.string());
 }
 
 }  // namespace
@@ -160,11 +147,20 @@ void add_run_command(CLI::App& app, int& exit_status) {
     const bool with_log = options.log && scenario.record.enabled;
     print_result(result, options.out, with_log);
     if (with_log && options.pictures) {
-      map_coverage_of(options.out, registry);
-      draw_maps_of(scenario, result, registry);
+      // Where the vehicles took pictures of the ground, and the maps that jobs made.
+      try_to_write("coverage", [&] {
+        print_files("coverage", write_coverage(options.out / "log.mcap", registry, {},
+                                               options.out / "coverage.png"));
+      });
+      try_to_write("pictures of maps",
+                   [&] { print_files("map", write_job_pictures(scenario, result, registry)); });
     }
     if (!arguments->no_report) {
-      report_on(options.out, registry);
+      try_to_write("report", [&] {
+        const std::filesystem::path report = options.out / "report.html";
+        write_report(options.out, registry, report);
+        print_files("report", {report});
+      });
     }
     exit_status = static_cast<int>(result.status);
   });

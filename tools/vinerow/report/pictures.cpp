@@ -137,27 +137,23 @@ std::vector<Picture> coverage_pictures(const RunFolder& run) {
 }
 
 std::vector<Picture> product_pictures(const RunFolder& run) {
-  std::vector<Picture> pictures;
-  std::vector<fs::path> folders;
-  if (fs::is_directory(run.path / "products")) {
-    for (const auto& entry : fs::directory_iterator(run.path / "products")) {
-      if (entry.is_directory()) folders.push_back(entry.path());
-    }
-  }
-  std::sort(folders.begin(), folders.end());
   // In the order of their making: points, meshes, rows, grid.
   const auto rank = [](const fs::path& file) {
     const std::string order[] = {"classes", "mesh", "top", "grid"};
     return std::find(std::begin(order), std::end(order), file.stem().string()) - std::begin(order);
   };
-  for (const fs::path& folder : folders) {
-    std::vector<fs::path> files = png_files(folder);
+  std::vector<Picture> pictures;
+  for (const Json& phase : list_in(run.summary, "phases")) {
+    // A phase that gave nothing may have a folder of an earlier run.
+    if (!phase.contains("product") || !phase["product"].contains("file")) continue;
+    const std::string name = phase.at("name");
+    std::vector<fs::path> files = png_files(run.path / phase["product"]["file"].get<std::string>());
     std::stable_sort(files.begin(), files.end(),
                      [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
     for (const fs::path& file : files) {
       std::string caption = map_picture_caption(file.stem().string());
       if (caption.ends_with('.')) caption.pop_back();
-      pictures.push_back({file, fmt::format("{} ({})", caption, folder.filename().string())});
+      pictures.push_back({file, fmt::format("{} ({})", caption, name)});
     }
   }
   return pictures;

@@ -200,7 +200,7 @@ class ScenarioReader {
     if (!scenario_.phases.empty()) resolved_.put("phases", std::move(written));
     const YamlEntry* traffic = root_.find_entry("traffic");
     scenario_.traffic =
-        read_traffic(read_group("traffic"), traffic ? traffic->mark : file_, vehicle_names_);
+        read_traffic(read_group("traffic"), mark_of("traffic", "reserve_alleys"), vehicle_names_);
     if (!traffic) resolved_.erase("traffic");
   }
 

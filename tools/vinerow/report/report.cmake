@@ -1,9 +1,11 @@
 # The report of a run: one page with verdicts, map, plots and pictures (report.h), for the command and for tests.
-add_library(vinerow_report STATIC
+set(report_sources
   vinerow/report/action_plots.cpp vinerow/report/axis.cpp vinerow/report/canopy_strips.cpp vinerow/report/decimate.cpp
   vinerow/report/estimate_plots.cpp vinerow/report/fleet.cpp vinerow/report/html.cpp vinerow/report/line_plot.cpp
   vinerow/report/map_captions.cpp vinerow/report/metric_table.cpp vinerow/report/mission_map.cpp vinerow/report/motion_plots.cpp
   vinerow/report/page_style.cpp vinerow/report/pictures.cpp vinerow/report/report.cpp vinerow/report/run_facts.cpp
   vinerow/report/run_folder.cpp vinerow/report/svg.cpp vinerow/report/time_line.cpp vinerow/report/track.cpp
   vinerow/report/units.cpp vinerow/report/vehicle_log.cpp vinerow/report/verdict.cpp vinerow/colour_scale.cpp)
+add_library(vinerow_report STATIC ${report_sources})
+vinerow_compile_together(vinerow_report 12 ${report_sources})
 target_link_libraries(vinerow_report PUBLIC vinerow vinerow_replay nlohmann_json::nlohmann_json PRIVATE fmt::fmt)

@@ -2,9 +2,8 @@
 /// Sets that x+ = A x + w, w in W, does not leave.
 ///
 /// Here the maximal one: all states whose whole future keeps the constraints, for MPC's last state.
-/// The minimal one, what the disturbance alone can do, is in series_support.h (its support) and
-/// outer_minimal_set.h. For setting up controllers, not for their steps. ConfigError where sizes do
-/// not fit.
+/// The minimal one, what the disturbance alone can do, is in series_support.h (its support). For
+/// setting up controllers, not for their steps. ConfigError where sizes do not fit.
 
 #include <Eigen/Core>
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "controllers/parts/linear_programme.h"
 #include "engine/core/error.h"
@@ -90,10 +91,6 @@ Polytope Polytope::box(const Eigen::VectorXd& lower, const Eigen::VectorXd& uppe
   return {std::move(F), std::move(g)};
 }
 
-Polytope Polytope::whole_space(int dimension) {
-  return {Eigen::MatrixXd(0, dimension), Eigen::VectorXd(0)};
-}
-
 Polytope Polytope::empty_set(int dimension) {
   return {Eigen::MatrixXd::Zero(1, dimension), Eigen::VectorXd::Constant(1, -1.0)};
 }
@@ -126,55 +123,6 @@ bool Polytope::is_empty() const {
   return Programme(*this).maximise(Eigen::VectorXd::Zero(dimension())) == LpStatus::kInfeasible;
 }
 
-bool Polytope::is_bounded() const {
-  // The directions without an end are those of {d : F d <= 0}, whatever the limits.
-  Programme directions(F_, Eigen::VectorXd::Zero(rows()));
-  Eigen::VectorXd axis = Eigen::VectorXd::Zero(dimension());
-  for (int j = 0; j < dimension(); ++j) {
-    for (const double side : {1.0, -1.0}) {
-      axis[j] = side;
-      if (directions.maximise(axis) == LpStatus::kUnbounded) return is_empty();
-    }
-    axis[j] = 0.0;
-  }
-  return true;
-}
-
-Interval Polytope::bounding_box() const {
-  Programme programme(*this);
-  Interval interval{Eigen::VectorXd(dimension()), Eigen::VectorXd(dimension())};
-  Eigen::VectorXd axis = Eigen::VectorXd::Zero(dimension());
-  for (int j = 0; j < dimension(); ++j) {
-    axis[j] = 1.0;
-    interval.upper[j] = programme.support(axis);
-    axis[j] = -1.0;
-    interval.lower[j] = -programme.support(axis);
-    axis[j] = 0.0;
-  }
-  return interval;
-}
-
-Result<Ball> Polytope::chebyshev_ball() const {
-  // max r with F_i x + |F_i| r <= g_i: the ball around x with radius r keeps every row.
-  const int n = dimension();
-  Eigen::MatrixXd rows_with_radius(rows(), n + 1);
-  rows_with_radius << F_, F_.rowwise().norm();
-  Programme programme(rows_with_radius, g_);
-  Eigen::VectorXd radius = Eigen::VectorXd::Zero(n + 1);
-  radius[n] = 1.0;
-  const LpStatus status = programme.maximise(radius);
-  if (status == LpStatus::kUnbounded) {
-    return Failure{
-        fmt::format("the polytope of {} rows in {} dimensions holds balls of any size", rows(), n)};
-  }
-  const double largest = status == LpStatus::kSolved ? programme.x()[n] : -kInfinity;
-  // Sets without an inside have radius zero up to rounding; is_empty() judges those.
-  if (largest < 0.0 && is_empty()) {
-    return Failure{fmt::format("the polytope of {} rows in {} dimensions is empty", rows(), n)};
-  }
-  return Ball{programme.x().head(n), std::max(0.0, largest)};
-}
-
 Polytope Polytope::intersection(const Polytope& other) const {
   demand_dimension("a polytope", other.dimension(), dimension());
   Eigen::MatrixXd F(rows() + other.rows(), dimension());
@@ -194,24 +142,6 @@ Polytope Polytope::scaled(double factor) const {
     throw ConfigError(fmt::format("a polytope is scaled by {}, must be > 0", factor));
   }
   return {F_, factor * g_};
-}
-
-Polytope Polytope::translated(const Eigen::VectorXd& offset) const {
-  demand_dimension("an offset", offset.size(), dimension());
-  return {F_, g_ + F_ * offset};
-}
-
-Polytope Polytope::pontryagin_difference(const Support& Q) const {
-  Eigen::VectorXd g = g_;
-  for (int i = 0; i < rows(); ++i) {
-    const double needed = Q(F_.row(i));
-    if (needed == -kInfinity || std::isnan(needed)) {
-      throw ConfigError("the set to be subtracted from a polytope is empty");
-    }
-    if (needed == kInfinity) return empty_set(dimension());
-    g[i] -= needed;
-  }
-  return {F_, std::move(g)};
 }
 
 Polytope Polytope::without_redundant_rows() const {

@@ -6,24 +6,11 @@
 /// Errors: ConfigError, one sentence, where sizes do not fit, a number is not finite, or a linear
 /// programme comes to no end.
 /// Source: Borrelli, Bemporad, Morari, "Predictive Control for Linear and Hybrid Systems", 2017,
-/// chapter 4 (operations), section 4.4.5 (Chebyshev ball), 4.4.8 (Pontryagin difference).
+/// chapter 4 (operations).
 
 #include <Eigen/Core>
-#include <vector>
-
-#include "controllers/parts/support.h"
-#include "engine/core/result.h"
 
 namespace vinerow {
-
-struct Ball {
-  Eigen::VectorXd centre;
-  double radius = 0.0;
-};
-
-struct Interval {
-  Eigen::VectorXd lower, upper;  ///< infinite where there is no end
-};
 
 class Polytope {
  public:
@@ -33,7 +20,6 @@ class Polytope {
   static Polytope box(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
   /// |x_i| <= half_i
   static Polytope box(const Eigen::VectorXd& half) { return box(-half, half); }
-  static Polytope whole_space(int dimension);
   /// A single row 0'x <= -1.
   static Polytope empty_set(int dimension);
 
@@ -51,13 +37,6 @@ class Polytope {
   /// Every point of `other` is in here, to within `tolerance` times the length of each row.
   bool contains(const Polytope& other, double tolerance = 1e-9) const;
   bool is_empty() const;
-  /// True for the empty set.
-  bool is_bounded() const;
-  /// The smallest box around it. An empty set gives lower = infinity, upper = -infinity.
-  Interval bounding_box() const;
-  /// The largest ball inside; its centre need not be the only one. @returns a failure if the set is
-  /// empty or holds balls of any size
-  Result<Ball> chebyshev_ball() const;
 
   /// Both at once.
   Polytope intersection(const Polytope& other) const;
@@ -65,11 +44,6 @@ class Polytope {
   Polytope linear_preimage(const Eigen::MatrixXd& A) const;
   /// {factor x : x in this}. @param factor  > 0
   Polytope scaled(double factor) const;
-  /// {x + offset : x in this}
-  Polytope translated(const Eigen::VectorXd& offset) const;
-  /// {x : x + q in this for all q in Q}, from the support of Q alone. Empty where Q has no end
-  /// along a row. @throws ConfigError if Q is empty (its support is -infinity)
-  Polytope pontryagin_difference(const Support& Q) const;
   /// The same set without rows that others imply (to within 1e-9), in the same order. Of repeated
   /// rows the last stays; an empty set becomes empty_set().
   Polytope without_redundant_rows() const;

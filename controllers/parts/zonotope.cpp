@@ -50,14 +50,4 @@ Zonotope Zonotope::linear_image(const Eigen::MatrixXd& M) const {
   return {M * centre_, M * generators_};
 }
 
-Zonotope Zonotope::minkowski_sum(const Zonotope& other) const {
-  if (other.dimension() != dimension()) {
-    throw ConfigError(
-        fmt::format("a zonotope in {} dimensions meets one in {}", dimension(), other.dimension()));
-  }
-  Eigen::MatrixXd both(dimension(), generators_.cols() + other.generators_.cols());
-  both << generators_, other.generators_;
-  return {centre_ + other.centre_, std::move(both)};
-}
-
 }  // namespace vinerow

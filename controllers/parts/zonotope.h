@@ -1,5 +1,5 @@
 #pragma once
-/// Zonotopes: {centre + G a : |a_i| <= 1}, closed under linear images and Minkowski sums. A gust
+/// Zonotopes: {centre + G a : |a_i| <= 1}, closed under linear images. A gust
 /// that acts through a matrix E, |d_i| <= 1, is the zonotope of generators E: a box around it would
 /// lose how its components go together.
 
@@ -29,8 +29,6 @@ class Zonotope {
 
   /// {M x : x in this}. @param M  any rows x dimension()
   Zonotope linear_image(const Eigen::MatrixXd& M) const;
-  /// {x + y : x in this, y in other}
-  Zonotope minkowski_sum(const Zonotope& other) const;
   /// {factor x : x in this}
   Zonotope scaled(double factor) const { return {factor * centre_, factor * generators_}; }
 

@@ -171,13 +171,6 @@ ElevationRaster read_elevation(const std::filesystem::path& file, const std::str
   return raster;
 }
 
-double elevation_at(const ElevationRaster& raster, double latitude_rad, double longitude_rad) {
-  const QuietGdal quiet;
-  const double height = ToRaster(raster).height_m(latitude_rad, longitude_rad);
-  if (!std::isfinite(height)) fail_outside(raster, latitude_rad, longitude_rad);
-  return height;
-}
-
 struct ElevationLookup::Impl {
   explicit Impl(ElevationRaster given) : raster(std::move(given)), to_raster(raster) {}
   const ElevationRaster raster;

@@ -50,11 +50,7 @@ struct FieldExtent {
 HeightField resample_elevation(const ElevationRaster& raster, const GeoOrigin& origin,
                                const FieldExtent& extent);
 
-/// Bilinear height at a WGS84 position, m in the raster's height system. @throws ConfigError
-/// outside the raster
-double elevation_at(const ElevationRaster& raster, double latitude_rad, double longitude_rad);
-
-/// elevation_at() for many places, without words where there is no height.
+/// Bilinear height at WGS84 positions, m in the raster's height system.
 class ElevationLookup {
  public:
   /// @throws ConfigError where WGS84 does not convert to the raster's CRS

@@ -25,7 +25,6 @@ set_tests_properties(qp_python.mpc_benchmark qp_python.cvxopt PROPERTIES SKIP_RE
 vinerow_add_test(optimal_control_test
   SOURCES
     parts/discretise_test.cpp
-    parts/disturbance_observer_test.cpp
     parts/linear_mpc_contract_test.cpp
     parts/linear_mpc_support.cpp
     parts/linear_mpc_test.cpp
@@ -56,7 +55,6 @@ vinerow_add_test(sets_test
     parts/fixed_wing_sets_test.cpp
     parts/invariant_set_test.cpp
     parts/linear_programme_test.cpp
-    parts/outer_minimal_set_test.cpp
     parts/polytope_test.cpp
     parts/zonotope_test.cpp
   LIBS vinerow_controllers vinerow_no_alloc)

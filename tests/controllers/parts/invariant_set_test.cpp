@@ -76,7 +76,7 @@ TEST(InvariantSet, StatesThatNoConstraintSeesAreFree) {
       maximal_invariant_set(A, Polytope::box(Eigen::Vector2d(1.0, kInfinity)));
   ASSERT_TRUE(set);
   EXPECT_EQ(set->set.rows(), 2);
-  EXPECT_FALSE(set->set.is_bounded());
+  EXPECT_EQ(set->set.support(Eigen::Vector2d(0.0, 1.0)), kInfinity);
 }
 
 TEST(InvariantSet, IsWhatSimulationsNeverLeave) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
+#include <optional>
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -27,6 +29,13 @@ std::string error_of(F&& f) {
     return e.what();
   }
   return "no error";
+}
+
+/// NaN where there is no height.
+double height_at(const ElevationRaster& raster, double latitude_rad, double longitude_rad) {
+  return ElevationLookup(raster)
+      .height_m(latitude_rad, longitude_rad)
+      .value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Uncompressed float32 GeoTIFF written byte by byte after the TIFF 6.0 and GeoTIFF 1.0
@@ -118,7 +127,7 @@ TEST(Raster, GeoTiffWithoutCrsNeedsOneFromTheUser) {
             "raster '" + file.string() +
                 "' has no coordinate reference system; give it by 'crs: EPSG:<code>'");
   const ElevationRaster raster = read_elevation(file, "EPSG:32632");
-  EXPECT_NEAR(elevation_at(raster, kOrigin.latitude_rad, kOrigin.longitude_rad), 100.0, 0.01);
+  EXPECT_NEAR(height_at(raster, kOrigin.latitude_rad, kOrigin.longitude_rad), 100.0, 0.01);
   EXPECT_EQ(error_of([&] { read_elevation(file, "EPSG:nonsense"); }),
             "crs = 'EPSG:nonsense' is not a coordinate reference system, must be like EPSG:32632");
 }
@@ -131,8 +140,8 @@ TEST(Raster, GeographicRasterKeepsLongitudeEast) {
   }
   const auto file = write_tiff("geographic.tif", 10, 10, 9.0, 45.0, 0.001, heights, 0);
   const ElevationRaster raster = read_elevation(file, "EPSG:4326");
-  EXPECT_NEAR(elevation_at(raster, rad_from_deg(44.9955), rad_from_deg(9.0035)), 3.0, 1e-6);
-  EXPECT_NEAR(elevation_at(raster, rad_from_deg(44.9925), rad_from_deg(9.0070)), 6.5, 1e-6);
+  EXPECT_NEAR(height_at(raster, rad_from_deg(44.9955), rad_from_deg(9.0035)), 3.0, 1e-6);
+  EXPECT_NEAR(height_at(raster, rad_from_deg(44.9925), rad_from_deg(9.0070)), 6.5, 1e-6);
 }
 
 TEST(Raster, RefusesBadInputInOneSentence) {
@@ -184,6 +193,7 @@ void swiss_to_wgs84(double y_m, double x_m, double* latitude_deg, double* longit
 TEST(Raster, DavosdorfLiesWhereSwisstoposFormulasSay) {
   VINEROW_OUTSIDE_DATA(file, "terrain_navigation/resources/davosdorf.tif");
   const ElevationRaster raster = read_elevation(file);
+  const ElevationLookup lookup(raster);
   double worst_m = 0.0;
   for (int j = 20; j < raster.rows - 20; j += 60) {
     for (int i = 20; i < raster.columns - 20; i += 60) {
@@ -191,9 +201,10 @@ TEST(Raster, DavosdorfLiesWhereSwisstoposFormulasSay) {
       swiss_to_wgs84(779503.0 + 10.0 * (i + 0.5), 190480.0 - 10.0 * (j + 0.5), &latitude_deg,
                      &longitude_deg);
       const double here = raster.heights_m[static_cast<std::size_t>(j) * raster.columns + i];
-      const double read =
-          elevation_at(raster, rad_from_deg(latitude_deg), rad_from_deg(longitude_deg));
-      worst_m = std::max(worst_m, std::abs(read - here));
+      const std::optional<double> read =
+          lookup.height_m(rad_from_deg(latitude_deg), rad_from_deg(longitude_deg));
+      ASSERT_TRUE(read);
+      worst_m = std::max(worst_m, std::abs(*read - here));
     }
   }
   // 1 m of place on slopes of up to 45 deg; half a pixel (the usual mistake) would be 5 m and more.
@@ -206,7 +217,7 @@ TEST(Raster, DavosdorfBecomesAHeightField) {
   double latitude_deg, longitude_deg;
   swiss_to_wgs84(782000.0, 188000.0, &latitude_deg, &longitude_deg);
   GeoOrigin origin{rad_from_deg(latitude_deg), rad_from_deg(longitude_deg), 0.0};
-  origin.altitude_m = elevation_at(raster, origin.latitude_rad, origin.longitude_rad);
+  origin.altitude_m = height_at(raster, origin.latitude_rad, origin.longitude_rad);
   const HeightField field = resample_elevation(raster, origin, {{-100, -100}, 200, 200, 1.0});
   EXPECT_NEAR(field.height_m(0, 0), 0.0, 1e-3);
   for (const float h : field.heights_m) ASSERT_TRUE(std::isfinite(h));

@@ -8,6 +8,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "engine/io/geojson.h"
 #include "engine/io/height_raster.h"
@@ -267,13 +268,15 @@ TEST_F(MapFolder, TerrainLiesWhereGeodesySays) {
   const HeightField& terrain = *map.map.terrain;
   // By the reader of elevation models, which knows nothing of how the file was made.
   const io::ElevationRaster raster = io::read_elevation(folder_ / "map/terrain.tif");
+  const io::ElevationLookup lookup(raster);
   const io::LocalFrame frame(map.origin);
   for (const auto& [i, j] : {std::pair(0, 0), {7, 11}, {terrain.columns - 1, terrain.rows - 1}}) {
     const double x = terrain.corner_W.x() + i * terrain.cell_m;
     const double y = terrain.corner_W.y() + j * terrain.cell_m;
     const io::Geodetic place = frame.to_geodetic({x, y, terrain.height_m(x, y)});
-    EXPECT_NEAR(io::elevation_at(raster, place.latitude_rad, place.longitude_rad), place.altitude_m,
-                2e-3);
+    const std::optional<double> read = lookup.height_m(place.latitude_rad, place.longitude_rad);
+    ASSERT_TRUE(read);
+    EXPECT_NEAR(*read, place.altitude_m, 2e-3);
   }
   // The raster's easting and northing are W's x and y.
   const io::CloudFrame crs(raster.crs_wkt, map.origin);

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "engine/math/planar.h"
+
 namespace vinerow {
 
 /// Position in W and heading, rad, counter-clockwise from x.
@@ -15,16 +17,6 @@ struct Pose2 {
 /// Unit vector of a heading.
 inline Eigen::Vector2d direction(double yaw_rad) {
   return {std::cos(yaw_rad), std::sin(yaw_rad)};
-}
-
-/// The vector turned a quarter to the left.
-inline Eigen::Vector2d left_of(const Eigen::Vector2d& v) {
-  return {-v.y(), v.x()};
-}
-
-/// z component of the cross product.
-inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 /// Pose after an arc: chord length sin(h)/h, direction yaw + h, with h half the turned angle.

@@ -4,14 +4,12 @@
 #include <limits>
 #include <tuple>
 
+#include "engine/math/planar.h"
+
 namespace vinerow {
 namespace {
 
 using Eigen::Vector2d;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Positive: c is left of the way from a to b.
 double side(const Vector2d& a, const Vector2d& b, const Vector2d& c) {

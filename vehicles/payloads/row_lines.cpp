@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/check.h"
+#include "engine/math/planar.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -14,10 +15,6 @@ using Eigen::Vector2d;
 constexpr double kMargin_m = 3.0;
 constexpr double kCell_m = 1.0;
 constexpr double kMostCells = 100'000.0;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 }  // namespace
 

@@ -11,7 +11,6 @@ namespace {
 constexpr double kBeyondEnds_m = 2.0;
 constexpr double kFindStep_m = 0.1;      // gaps shorter than this are not seen
 constexpr double kMeasureStep_m = 0.15;  // half the wavelength of the shortest shoots' lumps
-constexpr double kLeastStretch_m = 0.3;
 constexpr std::size_t kLeastSections = 4;
 
 struct Stretch {

@@ -6,8 +6,6 @@
 namespace vinerow::worlds {
 namespace {
 
-constexpr double kLeastStretch_m = 0.3;
-
 double correlation(double apart_m, double length_m) {
   return length_m > 0.0 ? std::exp(-std::abs(apart_m) / length_m) : 0.0;
 }

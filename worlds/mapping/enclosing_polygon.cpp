@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/math/planar.h"
+
 namespace vinerow::worlds {
 namespace {
 
@@ -19,10 +21,6 @@ constexpr double kThinnest = 1e-9;  ///< hull area over extent squared: below, p
 /// A hull corner that stands out by less, over the extent, is rounding. It would give a side that
 /// points anywhere. Far above the rounding of what is measured, far below what is promised.
 constexpr double kFlat = 1e-14;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// The hull without corners that stand out by less than flat_m from the line of their neighbours.
 Polygon without_flat_corners(Polygon hull, double flat_m) {

@@ -20,6 +20,9 @@ struct CanopyCut {
 /// Canopy without a gap: >= 2 cuts, s rising.
 using SectionChain = std::vector<CanopyCut>;
 
+/// A stretch of canopy that is shorter is left out.
+inline constexpr double kLeastStretch_m = 0.3;
+
 /// Where the levels lie between base (0) and top (1): `count` >= 2, as a cosine, so closer together
 /// where the canopy rounds off below and above. On Parcel F with four levels that leaves 28 mm rms
 /// to the truth, even steps leave 31 mm.

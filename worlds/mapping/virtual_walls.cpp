@@ -5,16 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/planar.h"
+
 namespace vinerow::worlds {
-namespace {
 
 using Eigen::Vector2d;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-}  // namespace
 
 std::optional<Vector2d> nearest_forward_hit(const Vector2d& from_W, const Vector2d& direction,
                                             const std::vector<Vector2d>& polygon_W) {

@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
+#include "engine/math/planar.h"
 #include "engine/math/polygon.h"
 #include "worlds/parts/row_map.h"
 
@@ -22,10 +23,6 @@ constexpr double kLeastVines_m2 = 1500.0;
 constexpr double kTreesAway_m = 110.0;  // from places to be left free: what climbs there at 0.12
 constexpr double kTreesIn_m = 2.5;      // from the edge of a field
 constexpr double kTreesFromParcel_m = 25.0;
-
-Eigen::Vector2d left_of(const Eigen::Vector2d& d) {
-  return {-d.y(), d.x()};
-}
 
 /// With every edge moved inwards.
 Polygon shrink(const Polygon& polygon, double by_m) {

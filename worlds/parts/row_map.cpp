@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/check.h"
+#include "engine/math/planar.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -18,10 +19,6 @@ Eigen::Vector2d mean_direction(const std::vector<RowCurve>& rows) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const RowCurve& row : rows) sum += chord(row);
   return sum.normalized();
-}
-
-Eigen::Vector2d left_of(const Eigen::Vector2d& direction) {
-  return {-direction.y(), direction.x()};
 }
 
 std::vector<Eigen::Vector3d> lift(const std::vector<Eigen::Vector2d>& line,

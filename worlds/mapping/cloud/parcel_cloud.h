@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,9 @@ enum class PointClass : std::uint8_t {
   kCanopy = 5,         ///< of a plant row
   kOther = 6,          ///< as high as canopy, in no row: hedges, trees, buildings
 };
+
+/// What a thread takes of a cloud (for_chunks).
+inline constexpr std::size_t kPointsAtOnce = 1 << 18;
 
 /// 15 bytes a point, 16 with classes. Positions are single precision from a near origin: within
 /// 1 km of it they are right to 0.03 mm.

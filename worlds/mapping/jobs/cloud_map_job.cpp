@@ -59,7 +59,7 @@ std::vector<ParameterSpec> cloud_map_job_parameters() {
   };
 }
 
-CloudMapOptions read_options(const ParameterSet& parameters) {
+CloudMapOptions read_cloud_map_options(const ParameterSet& parameters) {
   CloudMapOptions options;
   options.terrain_cell_m = parameters.number("terrain_cell_m");
   options.canopy_cut_m = parameters.number("canopy_cut_m");
@@ -101,8 +101,8 @@ void add_comparison(const MapComparison& comparison, std::map<std::string, doubl
   numbers["volume_error_share"] = comparison.volume_share;
 }
 
-CloudMapOptions read_options(const ParameterSet& parameters, const WorldModel& world) {
-  CloudMapOptions options = read_options(parameters);
+CloudMapOptions read_cloud_map_options(const ParameterSet& parameters, const WorldModel& world) {
+  CloudMapOptions options = read_cloud_map_options(parameters);
   if (parameters.text("boundary") == "parcel") options.boundary_W = parcel_of(world);
   return options;
 }
@@ -132,7 +132,7 @@ class CloudMapJob : public Job {
  public:
   CloudMapJob(const ParameterSet& parameters, const JobContext& context)
       : context_(context),
-        options_(read_options(parameters, *context.world)),
+        options_(read_cloud_map_options(parameters, *context.world)),
         reading_(read_reading(parameters, *context.world, false)),
         like_world_(parameters.text("numbering") == "world") {}
 
@@ -189,8 +189,8 @@ class CloudMapJob : public Job {
 
 CloudMapWork work_out_cloud_map(const ParameterSet& parameters, const WorldModel& world,
                                 const std::filesystem::path& cloud, bool with_colours) {
-  return work_out(read_options(parameters, world), read_reading(parameters, world, with_colours),
-                  cloud);
+  return work_out(read_cloud_map_options(parameters, world),
+                  read_reading(parameters, world, with_colours), cloud);
 }
 
 void register_cloud_map_job(Registry& registry) {

@@ -51,7 +51,7 @@ std::vector<int> read_rows(const ParameterSet& parameters) {
   return rows;
 }
 
-PhotogrammetryOptions read_options(const ParameterSet& parameters, std::uint64_t seed) {
+PhotogrammetryOptions read_picture_options(const ParameterSet& parameters, std::uint64_t seed) {
   PhotogrammetryOptions options;
   if (parameters.has("density_per_m2")) {
     options.density_per_m2 = parameters.number("density_per_m2");
@@ -92,7 +92,7 @@ class PhotogrammetryJob : public Job {
  public:
   PhotogrammetryJob(const ParameterSet& parameters, const JobContext& context)
       : context_(context),
-        options_(read_options(parameters, context.seed)),
+        options_(read_picture_options(parameters, context.seed)),
         area_(make_survey_area(parameters.numbers("area_m"), parameters.number("margin_m"),
                                *context.world, "area_m")) {
     HiddenRows(*context.world, options_.missing_rows);

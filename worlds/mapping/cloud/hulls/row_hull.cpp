@@ -19,7 +19,7 @@
 namespace vinerow::worlds {
 namespace {
 
-constexpr double kReach_m[] = {0.03, 0.02, 0.015, 0.01, 0.01, 0.01};  // of the sweeps
+constexpr double kSweepReach_m[] = {0.03, 0.02, 0.015, 0.01, 0.01, 0.01};  // of the sweeps
 constexpr double kStraight_m = 0.01;  // a row's line may leave the mesh's between two sections
 constexpr double kSparseShare = 0.2;  // of a side's point density below which it was not seen
 // Price of a point in units of area per point: with noise of 1.5 cm it leaves 2 % outside.
@@ -76,7 +76,7 @@ class RowWork {
                                                   0.5 * (1.0 - options_.containment) * all));
     per_point_m2_ = area_m2 / static_cast<double>(points);
     price_m3_ = kFirstPrice_m * per_point_m2_;
-    for (const double reach_m : kReach_m) {
+    for (const double reach_m : kSweepReach_m) {
       sweep(reach_m);
       adapt_price();
     }

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kMargin_m = 100.0;  // no point so near to the bulk is far away
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& sentence) {
-  throw ConfigError(fmt::format("point cloud '{}' {}", file.string(), sentence));
-}
-
 /// A length as a reader wants it: "0.02 m", "1.85 km".
 std::string metres(double length_m) {
   if (length_m < 5e-4) return "0 m";
@@ -41,11 +37,12 @@ Eigen::AlignedBox3d find_bulk(const std::filesystem::path& file, double largest_
     if (size_m.maxCoeff() <= largest_extent_m) return bulk;
   }
   const Eigen::Vector3d size_m = bulk_of(outline.sample, 0.05).sizes().cwiseProduct(outline.unit_m);
-  fail(file,
-       fmt::format("extends over {} by {} and is {} high, must be at most {} in each direction; "
-                   "cut the parcel out of it",
-                   metres(size_m.x()), metres(size_m.y()), metres(size_m.z()),
-                   metres(largest_extent_m)));
+  refuse_cloud(
+      file,
+      fmt::format("extends over {} by {} and is {} high, must be at most {} in each direction; "
+                  "cut the parcel out of it",
+                  metres(size_m.x()), metres(size_m.y()), metres(size_m.z()),
+                  metres(largest_extent_m)));
 }
 
 /// Refuses what no rows can be found in.
@@ -61,28 +58,35 @@ void check_footprint(const std::filesystem::path& file, const CloudOutline& outl
   const Footprint print = footprint_of(points_m);
   const std::string hint = degrees_hint(outline);
   if (print.length_m < kShortest_m) {
-    fail(file, fmt::format("has all of its {} points in one spot of {} by {}, a parcel is at least "
-                           "{} long{}",
-                           outline.tally.given, metres(print.length_m), metres(print.width_m),
-                           metres(kShortest_m), hint));
+    refuse_cloud(
+        file, fmt::format("has all of its {} points in one spot of {} by {}, a parcel is at least "
+                          "{} long{}",
+                          outline.tally.given, metres(print.length_m), metres(print.width_m),
+                          metres(kShortest_m), hint));
   }
   if (print.width_m < kNarrowest_m) {
-    fail(file, fmt::format("has all of its {} points on one line, {} long and {} wide, a parcel is "
-                           "at least {} wide{}",
-                           outline.tally.given, metres(print.length_m), metres(print.width_m),
-                           metres(kNarrowest_m), hint));
+    refuse_cloud(
+        file, fmt::format("has all of its {} points on one line, {} long and {} wide, a parcel is "
+                          "at least {} wide{}",
+                          outline.tally.given, metres(print.length_m), metres(print.width_m),
+                          metres(kNarrowest_m), hint));
   }
   const auto densest = static_cast<double>(densest_square_centimetre(points_m));
   const double held = densest * static_cast<double>(outline.window);
   if (held > kMostInSpot ||
       (densest > kEnoughForShares && densest > 0.5 * static_cast<double>(points_m.size()))) {
-    fail(file, fmt::format("has about {:.0f} of its {} points within one square centimetre, which "
-                           "no survey sees; leave the repeated points out{}",
-                           held, outline.tally.given, hint));
+    refuse_cloud(
+        file, fmt::format("has about {:.0f} of its {} points within one square centimetre, which "
+                          "no survey sees; leave the repeated points out{}",
+                          held, outline.tally.given, hint));
   }
 }
 
 }  // namespace
+
+void refuse_cloud(const std::filesystem::path& file, const std::string& sentence) {
+  throw ConfigError(fmt::format("point cloud '{}' {}", file.string(), sentence));
+}
 
 CloudOutline outline_cloud(const std::filesystem::path& file) {
   const std::unique_ptr<io::PointCloudReader> reader = io::open_point_cloud(file);
@@ -101,10 +105,11 @@ CloudOutline outline_cloud(const std::filesystem::path& file) {
   outline.tally = reader->tally();
   if (outline.tally.given == 0) {
     const io::PointCloudTally& t = outline.tally;
-    fail(file, t.not_finite + t.withheld == 0
-                   ? "has no points"
-                   : fmt::format("has no points left: {} are not finite, {} are marked as withheld",
-                                 t.not_finite, t.withheld));
+    refuse_cloud(
+        file, t.not_finite + t.withheld == 0
+                  ? "has no points"
+                  : fmt::format("has no points left: {} are not finite, {} are marked as withheld",
+                                t.not_finite, t.withheld));
   }
   outline.sample = sample.points();
   outline.window = sample.window();

@@ -24,6 +24,9 @@ struct CloudOutline {
   Eigen::Vector3d middle = {0, 0, 0};  ///< of the bounds of the points that are kept
 };
 
+/// @throws ConfigError "point cloud '<file>' <sentence>"
+[[noreturn]] void refuse_cloud(const std::filesystem::path& file, const std::string& sentence);
+
 /// Reads the file once. @throws ConfigError as the reader, and where no points are left
 CloudOutline outline_cloud(const std::filesystem::path& file);
 

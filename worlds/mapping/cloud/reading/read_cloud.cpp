@@ -22,20 +22,17 @@ namespace {
 
 using Path = std::filesystem::path;
 
-[[noreturn]] void fail(const Path& file, const std::string& sentence) {
-  throw ConfigError(fmt::format("point cloud '{}' {}", file.string(), sentence));
-}
-
 /// The frame of a CRS, with the file's name where it cannot be.
 template <class F>
 auto named(const Path& file, F&& f) {
   try {
     return f();
   } catch (const ConfigError& error) {
-    fail(file, fmt::format("cannot be brought to the local frame: {}; give the system of its "
-                           "coordinates by --crs EPSG:<code>, or --crs none where they are "
-                           "metres of a local frame",
-                           error.what()));
+    refuse_cloud(file,
+                 fmt::format("cannot be brought to the local frame: {}; give the system of its "
+                             "coordinates by --crs EPSG:<code>, or --crs none where they are "
+                             "metres of a local frame",
+                             error.what()));
   }
 }
 
@@ -72,10 +69,11 @@ void check_memory(const Path& file, const CloudReadOptions& options, const Cloud
   const std::uint64_t kept = outline.tally.given / options.thin;
   if (kept <= most) return;
   const std::uint64_t thin = outline.tally.given / std::max<std::uint64_t>(most, 1) + 1;
-  fail(file,
-       fmt::format("has {} points, which take {}, more than the limit of {}; keep one of {} "
-                   "by --thin {}",
-                   kept, megabytes(kept * bytes), megabytes(options.memory_limit), thin, thin));
+  refuse_cloud(
+      file,
+      fmt::format("has {} points, which take {}, more than the limit of {}; keep one of {} "
+                  "by --thin {}",
+                  kept, megabytes(kept * bytes), megabytes(options.memory_limit), thin, thin));
 }
 
 /// What the second reading does with each block.
@@ -172,7 +170,7 @@ void add_sentences(const CloudOutline& outline, const CloudReadOptions& options,
 
 ParcelCloud read_parcel_cloud(const std::filesystem::path& file, const CloudReadOptions& options,
                               CloudReadReport& report) {
-  if (options.thin == 0) fail(file, "cannot be read with thin = 0, must be 1 or more");
+  if (options.thin == 0) refuse_cloud(file, "cannot be read with thin = 0, must be 1 or more");
   report = {};
   report.file = file.string();
   CloudOutline outline = outline_cloud(file);
@@ -210,11 +208,12 @@ ParcelCloud read_parcel_cloud(const std::filesystem::path& file, const CloudRead
   }
   constexpr double kFarthest_m = 20'000.0;  // the vertical is 0.2 degrees off there
   if (exact && middle_W.head<2>().norm() > kFarthest_m) {
-    fail(file, fmt::format("lies {:.0f} km from the origin given (latitude {:.5f} deg, longitude "
-                           "{:.5f} deg), must be within {:.0f} km; give an origin near the cloud, "
-                           "or none",
-                           middle_W.head<2>().norm() * 1e-3, deg_from_rad(anywhere.latitude_rad),
-                           deg_from_rad(anywhere.longitude_rad), kFarthest_m * 1e-3));
+    refuse_cloud(
+        file, fmt::format("lies {:.0f} km from the origin given (latitude {:.5f} deg, longitude "
+                          "{:.5f} deg), must be within {:.0f} km; give an origin near the cloud, "
+                          "or none",
+                          middle_W.head<2>().norm() * 1e-3, deg_from_rad(anywhere.latitude_rad),
+                          deg_from_rad(anywhere.longitude_rad), kFarthest_m * 1e-3));
   }
 
   ParcelCloud cloud;

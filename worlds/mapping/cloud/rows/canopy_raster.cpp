@@ -31,18 +31,18 @@ CanopyRaster make_canopy_raster(const ParcelCloud& cloud, const HeightAbove& hei
   raster.rows = static_cast<int>(size.y() / cell_m) + 1;
 
   std::vector<std::uint32_t> counts(static_cast<std::size_t>(raster.columns) * raster.rows, 0);
-  constexpr std::size_t kChunk = 1 << 18;
-  for_chunks(cloud.points.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Eigen::Vector3f& p = cloud.points[k];
-      const float height_m = height_above(p);
-      if (!(height_m > low_m && height_m < high_m)) continue;
-      const std::int64_t cell = raster.cell_of(p.x(), p.y());
-      if (cell < 0) continue;
-      std::atomic_ref<std::uint32_t>(counts[static_cast<std::size_t>(cell)])
-          .fetch_add(1, std::memory_order_relaxed);
-    }
-  });
+  for_chunks(cloud.points.size(), kPointsAtOnce,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const Eigen::Vector3f& p = cloud.points[k];
+                 const float height_m = height_above(p);
+                 if (!(height_m > low_m && height_m < high_m)) continue;
+                 const std::int64_t cell = raster.cell_of(p.x(), p.y());
+                 if (cell < 0) continue;
+                 std::atomic_ref<std::uint32_t>(counts[static_cast<std::size_t>(cell)])
+                     .fetch_add(1, std::memory_order_relaxed);
+               }
+             });
   // What a square of canopy holds on the average; squares at its rim hold less.
   std::uint64_t sum = 0, taken = 0;
   for (const std::uint32_t count : counts) {

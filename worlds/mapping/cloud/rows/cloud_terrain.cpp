@@ -17,7 +17,6 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::size_t kChunk = 1 << 18;
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
 /// Counts that many threads add to: sums of whole numbers are the same in any order.
@@ -143,14 +142,15 @@ HeightField coarse_surface(const ParcelCloud& cloud, const Eigen::AlignedBox3f& 
   const int bins = std::clamp(static_cast<int>((high - low) / 0.2f), 1, 2000);
   const float per_bin = static_cast<float>(bins) / (high - low);
   Histograms histograms(lattice.size(), bins);
-  for_chunks(cloud.points.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Vector3f& p = cloud.points[k];
-      if (p.z() < low || p.z() >= high) continue;
-      histograms.add(lattice.cell_of(p),
-                     std::min(bins - 1, static_cast<int>((p.z() - low) * per_bin)));
-    }
-  });
+  for_chunks(cloud.points.size(), kPointsAtOnce,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const Vector3f& p = cloud.points[k];
+                 if (p.z() < low || p.z() >= high) continue;
+                 histograms.add(lattice.cell_of(p),
+                                std::min(bins - 1, static_cast<int>((p.z() - low) * per_bin)));
+               }
+             });
   HeightField field;
   field.columns = lattice.columns;
   field.rows = lattice.rows;
@@ -182,8 +182,8 @@ HeightField coarse_surface(const ParcelCloud& cloud, const Eigen::AlignedBox3f& 
 }
 
 // Heights about the coarse surface.
-constexpr float kLow_m = -1.5f, kHigh_m = 3.0f, kBin_m = 0.02f;
-constexpr int kBins = 225;
+constexpr float kLow_m = -1.5f, kHigh_m = 3.0f, kHeightBin_m = 0.02f;
+constexpr int kHeightBins = 225;
 
 struct Ground {
   float height_m = kNoHeight;  // about the coarse surface
@@ -194,12 +194,12 @@ struct Ground {
 /// The mode that the lowest heights are drawn to.
 Ground ground_of(const std::uint32_t* counts) {
   std::uint64_t all = 0;
-  for (int b = 0; b < kBins; ++b) all += counts[b];
+  for (int b = 0; b < kHeightBins; ++b) all += counts[b];
   if (all < 3) return {};
   constexpr double kLowShare = 0.05;
   std::uint64_t below = 0;
   int start = 0;
-  while (start < kBins) {
+  while (start < kHeightBins) {
     below += counts[start];
     if (static_cast<double>(below) >= kLowShare * static_cast<double>(all)) break;
     ++start;
@@ -210,7 +210,7 @@ Ground ground_of(const std::uint32_t* counts) {
     double moment = 0.0;
     sum = squares = 0.0;
     const int from = std::max(0, static_cast<int>(std::ceil(middle - kReach)));
-    const int to = std::min(kBins - 1, static_cast<int>(std::floor(middle + kReach)));
+    const int to = std::min(kHeightBins - 1, static_cast<int>(std::floor(middle + kReach)));
     for (int b = from; b <= to; ++b) {
       sum += counts[b];
       moment += counts[b] * (b - middle);
@@ -221,9 +221,9 @@ Ground ground_of(const std::uint32_t* counts) {
     if (std::abs(moment / sum) < 0.02) break;
   }
   Ground ground;
-  ground.height_m = kLow_m + (static_cast<float>(middle) + 0.5f) * kBin_m;
+  ground.height_m = kLow_m + (static_cast<float>(middle) + 0.5f) * kHeightBin_m;
   ground.weight = static_cast<float>(sum);
-  ground.square_sum = squares * kBin_m * kBin_m;
+  ground.square_sum = squares * kHeightBin_m * kHeightBin_m;
   return ground;
 }
 
@@ -296,16 +296,17 @@ CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m) {
   }
   const HeightField coarse = coarse_surface(cloud, box);
   const HeightAbove above_coarse(coarse, Eigen::Vector3d::Zero());
-  Histograms histograms(lattice.size(), kBins);
-  for_chunks(cloud.points.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Vector3f& p = cloud.points[k];
-      const float r = above_coarse(p);
-      if (!(r >= kLow_m && r < kHigh_m)) continue;
-      histograms.add(lattice.cell_of(p),
-                     std::min(kBins - 1, static_cast<int>((r - kLow_m) / kBin_m)));
-    }
-  });
+  Histograms histograms(lattice.size(), kHeightBins);
+  for_chunks(
+      cloud.points.size(), kPointsAtOnce, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          const Vector3f& p = cloud.points[k];
+          const float r = above_coarse(p);
+          if (!(r >= kLow_m && r < kHigh_m)) continue;
+          histograms.add(lattice.cell_of(p),
+                         std::min(kHeightBins - 1, static_cast<int>((r - kLow_m) / kHeightBin_m)));
+        }
+      });
 
   std::vector<Ground> ground(lattice.size());
   CloudTerrain terrain;

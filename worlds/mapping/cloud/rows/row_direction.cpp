@@ -10,7 +10,7 @@
 namespace vinerow::worlds {
 namespace {
 
-constexpr double kBin_m = 0.1;
+constexpr double kProfileBin_m = 0.1;
 
 struct Square {
   float x, y, weight;  // from the window's middle
@@ -43,14 +43,14 @@ std::vector<Square> squares_around(const CanopyRaster& raster, const Eigen::Vect
 class Profile {
  public:
   explicit Profile(double radius_m)
-      : reach_m_(radius_m + 6.0 * kBin_m),
-        bins_(static_cast<std::size_t>(std::ceil(2.0 * reach_m_ / kBin_m)) + 2, 0.0f) {}
+      : reach_m_(radius_m + 6.0 * kProfileBin_m),
+        bins_(static_cast<std::size_t>(std::ceil(2.0 * reach_m_ / kProfileBin_m)) + 2, 0.0f) {}
 
   void fill(const std::vector<Square>& squares, double angle_rad) {
     std::fill(bins_.begin(), bins_.end(), 0.0f);
-    const float nx = static_cast<float>(-std::sin(angle_rad) / kBin_m);
-    const float ny = static_cast<float>(std::cos(angle_rad) / kBin_m);
-    const float zero = static_cast<float>(reach_m_ / kBin_m);
+    const float nx = static_cast<float>(-std::sin(angle_rad) / kProfileBin_m);
+    const float ny = static_cast<float>(std::cos(angle_rad) / kProfileBin_m);
+    const float zero = static_cast<float>(reach_m_ / kProfileBin_m);
     for (const Square& square : squares) {
       const float at = nx * square.x + ny * square.y + zero;
       const auto low = static_cast<std::size_t>(at);
@@ -70,7 +70,7 @@ class Profile {
     return sum;
   }
   const std::vector<float>& bins() const { return bins_; }
-  double offset_of(double bin) const { return bin * kBin_m - reach_m_; }
+  double offset_of(double bin) const { return bin * kProfileBin_m - reach_m_; }
 
  private:
   /// Mean of four bins, this one and those before it.
@@ -115,7 +115,7 @@ std::vector<double> levelled(const Profile& profile, double radius_m, double squ
     const double y = profile.offset_of(static_cast<double>(k));
     const double chord_m = 2.0 * std::sqrt(std::max(0.0, radius_m * radius_m - y * y));
     if (chord_m < 0.6 * radius_m) continue;
-    level[k] = profile.bins()[k] * square_m * square_m / (chord_m * kBin_m);
+    level[k] = profile.bins()[k] * square_m * square_m / (chord_m * kProfileBin_m);
   }
   return level;
 }
@@ -147,9 +147,9 @@ std::optional<Period> period_of(const std::vector<double>& level, const RowPatch
     }
     return sum / own;
   };
-  const auto lag_low = static_cast<std::size_t>(options.spacing_low_m / kBin_m);
-  const auto lag_high =
-      std::min(static_cast<std::size_t>(options.spacing_high_m / kBin_m), inner.size() * 2 / 3);
+  const auto lag_low = static_cast<std::size_t>(options.spacing_low_m / kProfileBin_m);
+  const auto lag_high = std::min(static_cast<std::size_t>(options.spacing_high_m / kProfileBin_m),
+                                 inner.size() * 2 / 3);
   if (lag_high < lag_low + 2) return std::nullopt;
   std::vector<double> values;
   for (std::size_t lag = 0; lag <= lag_high + 1; ++lag) values.push_back(correlation(lag));
@@ -163,7 +163,7 @@ std::optional<Period> period_of(const std::vector<double>& level, const RowPatch
     const double bend = values[lag - 1] - 2.0 * values[lag] + values[lag + 1];
     const double shift =
         bend < 0.0 ? std::clamp(0.5 * (values[lag - 1] - values[lag + 1]) / bend, -0.5, 0.5) : 0.0;
-    return Period{(static_cast<double>(lag) + shift) * kBin_m,
+    return Period{(static_cast<double>(lag) + shift) * kProfileBin_m,
                   std::clamp(0.5 * (values[lag] - trough), 0.0, 1.0)};
   }
   return std::nullopt;
@@ -173,7 +173,7 @@ std::optional<Period> period_of(const std::vector<double>& level, const RowPatch
 std::vector<double> peaks_of(const std::vector<double>& level, const Profile& profile,
                              double spacing_m) {
   const double highest = *std::max_element(level.begin(), level.end());
-  const auto reach = static_cast<std::ptrdiff_t>(std::lround(0.35 * spacing_m / kBin_m));
+  const auto reach = static_cast<std::ptrdiff_t>(std::lround(0.35 * spacing_m / kProfileBin_m));
   const auto count = static_cast<std::ptrdiff_t>(level.size());
   std::vector<double> offsets;
   for (std::ptrdiff_t k = 0; k < count; ++k) {

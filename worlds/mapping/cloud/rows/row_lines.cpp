@@ -5,16 +5,13 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/math/planar.h"
 #include "worlds/parts/row_map.h"
 
 namespace vinerow::worlds {
 namespace {
 
 using Eigen::Vector2d;
-
-Vector2d left_of(const Vector2d& u) {
-  return {-u.y(), u.x()};
-}
 
 /// Calls visit(x, y, weight) for canopy within `along_m` and `across_m` of p, seen along u.
 template <class F>
@@ -123,10 +120,10 @@ StraightLine straight_through(const std::vector<Centre>& centres) {
 /// A line by parabolas through the middles up to 8 m to each side, the near ones the heavier, at
 /// every 2 m.
 std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& centres) {
-  constexpr double kStep_m = 2.0, kReach_m = 8.0;
+  constexpr double kPitch_m = 2.0, kReach_m = 8.0;
   std::vector<double> at_m;
   for (const Centre& c : centres) at_m.push_back(line.nearest_s_m(c.p));
-  const int count = std::max(2, static_cast<int>(std::lround(line.length_m() / kStep_m)) + 1);
+  const int count = std::max(2, static_cast<int>(std::lround(line.length_m() / kPitch_m)) + 1);
   std::vector<Vector2d> points;
   for (int k = 0; k < count; ++k) {
     const double s_m = line.length_m() * k / (count - 1);
@@ -156,13 +153,14 @@ std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& 
 /// The stretch of a line from its first canopy to its last, looked for a little beyond its ends.
 std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& raster,
                                                         const RowCurve& line, double across_m) {
-  constexpr double kBin_m = 0.1, kBeyond_m = 4.0, kLongest_gap_m = 2.0;
-  const int bins = static_cast<int>(std::ceil((line.length_m() + 2.0 * kBeyond_m) / kBin_m));
+  constexpr double kBin_along_m = 0.1, kBeyond_ends_m = 4.0, kLongest_gap_m = 2.0;
+  const int bins =
+      static_cast<int>(std::ceil((line.length_m() + 2.0 * kBeyond_ends_m) / kBin_along_m));
   std::vector<double> weights(static_cast<std::size_t>(bins), 0.0);
   for (int k = 0; k < bins; ++k) {
-    const double s_m = -kBeyond_m + (k + 0.5) * kBin_m;
+    const double s_m = -kBeyond_ends_m + (k + 0.5) * kBin_along_m;
     for_canopy(
-        raster, line.point_W(s_m), line.direction_W(s_m), 0.5 * kBin_m, across_m,
+        raster, line.point_W(s_m), line.direction_W(s_m), 0.5 * kBin_along_m, across_m,
         [&](double, double, double weight) { weights[static_cast<std::size_t>(k)] += weight; });
   }
   std::vector<double> sorted;
@@ -187,10 +185,11 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
     return count >= kRun;
   };
   // Beyond the track's own end only what hangs together with it.
-  const int track_first = static_cast<int>(kBeyond_m / kBin_m);
+  const int track_first = static_cast<int>(kBeyond_ends_m / kBin_along_m);
   const int track_last = bins - 1 - track_first;
   int gap = 0;
-  for (int k = track_first + 20; k >= 0 && gap <= static_cast<int>(kLongest_gap_m / kBin_m); --k) {
+  for (int k = track_first + 20; k >= 0 && gap <= static_cast<int>(kLongest_gap_m / kBin_along_m);
+       --k) {
     if (k <= middle && run_at(k)) {
       first = k;
       gap = 0;
@@ -200,7 +199,7 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
   }
   gap = 0;
   for (int k = std::max(0, track_last - 20);
-       k + kRun <= bins && gap <= static_cast<int>(kLongest_gap_m / kBin_m); ++k) {
+       k + kRun <= bins && gap <= static_cast<int>(kLongest_gap_m / kBin_along_m); ++k) {
     if (k >= middle - kRun && run_at(k)) {
       last = k + kRun;
       gap = 0;
@@ -219,7 +218,7 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
     }
   }
   if (first < 0 || last <= first) return std::nullopt;
-  return std::pair{-kBeyond_m + first * kBin_m, -kBeyond_m + last * kBin_m};
+  return std::pair{-kBeyond_ends_m + first * kBin_along_m, -kBeyond_ends_m + last * kBin_along_m};
 }
 
 std::optional<RowCurve> cut_to(const RowCurve& line, double from_m, double to_m) {

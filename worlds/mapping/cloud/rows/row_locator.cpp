@@ -11,7 +11,7 @@ namespace vinerow::worlds {
 namespace {
 
 constexpr double kSquare_m = 0.5;
-constexpr double kBeyond_m = 1.0;
+constexpr double kLocatedBeyond_m = 1.0;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ RowLocator::RowLocator(const std::vector<RowCurve>& lines, double reach_m) : rea
     lines_.push_back(std::move(line));
   }
   if (lines_.empty()) return;
-  const double margin_m = reach_m + kBeyond_m + 2.0 * kSquare_m;
+  const double margin_m = reach_m + kLocatedBeyond_m + 2.0 * kSquare_m;
   corner_ = box.min() - Eigen::Vector2d::Constant(margin_m);
   const Eigen::Vector2d size = box.sizes() + Eigen::Vector2d::Constant(2.0 * margin_m);
   columns_ = static_cast<int>(size.x() / kSquare_m) + 1;
@@ -45,9 +45,9 @@ RowLocator::RowLocator(const std::vector<RowCurve>& lines, double reach_m) : rea
     for (std::size_t k = 0; k < line.directions.size(); ++k) {
       // The squares around the segment, a little longer at the row's ends.
       const Eigen::Vector2d u = line.directions[k];
-      const Eigen::Vector2d a = line.points[k] - (k == 0 ? kBeyond_m : 0.0) * u;
+      const Eigen::Vector2d a = line.points[k] - (k == 0 ? kLocatedBeyond_m : 0.0) * u;
       const Eigen::Vector2d b =
-          line.points[k + 1] + (k + 1 == line.directions.size() ? kBeyond_m : 0.0) * u;
+          line.points[k + 1] + (k + 1 == line.directions.size() ? kLocatedBeyond_m : 0.0) * u;
       const double length_m = (b - a).norm();
       const double far_m = reach_m + half_diagonal_m;
       // Long segments of straight rows are walked along in short pieces: their box would be huge.

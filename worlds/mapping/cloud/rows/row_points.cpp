@@ -10,9 +10,8 @@
 namespace vinerow::worlds {
 namespace {
 
-constexpr std::size_t kChunk = 1 << 18;
-constexpr float kHighest_m = 6.0f;  // above the ground; what is higher is a bird or a mast
-constexpr float kBeyond_m = 0.2f;   // of a row's ends: its outermost leaves
+constexpr float kHighestLeaf_m = 6.0f;  // above the ground; what is higher is a bird or a mast
+constexpr float kBeyondEnds_m = 0.2f;   // of a row's ends: its outermost leaves
 
 void count_up(std::uint32_t& counter) {
   std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
@@ -22,27 +21,30 @@ void count_up(std::uint32_t& counter) {
 std::vector<float> half_widths(const ParcelCloud& cloud, const HeightAbove& above,
                                const RowLocator& locator, std::size_t rows,
                                const RowPointOptions& options) {
-  constexpr int kBins = 64;
-  const float bin_m = static_cast<float>(0.5 * options.spacing_m / kBins);
-  std::vector<std::uint32_t> counts(rows * kBins, 0);
-  for_chunks(cloud.points.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Eigen::Vector3f& p = cloud.points[k];
-      const float height_m = above(p);
-      if (!(height_m > options.body_cut_m && height_m < kHighest_m)) continue;
-      const RowPlace place = locator.locate(p.x(), p.y());
-      if (place.row < 0) continue;
-      const int bin = std::min(kBins - 1, static_cast<int>(std::abs(place.y_m) / bin_m));
-      count_up(counts[static_cast<std::size_t>(place.row) * kBins + static_cast<std::size_t>(bin)]);
-    }
-  });
+  constexpr int kWidthBins = 64;
+  const float bin_m = static_cast<float>(0.5 * options.spacing_m / kWidthBins);
+  std::vector<std::uint32_t> counts(rows * kWidthBins, 0);
+  for_chunks(
+      cloud.points.size(), kPointsAtOnce, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          const Eigen::Vector3f& p = cloud.points[k];
+          const float height_m = above(p);
+          if (!(height_m > options.body_cut_m && height_m < kHighestLeaf_m)) continue;
+          const RowPlace place = locator.locate(p.x(), p.y());
+          if (place.row < 0) continue;
+          const int bin = std::min(kWidthBins - 1, static_cast<int>(std::abs(place.y_m) / bin_m));
+          count_up(counts[static_cast<std::size_t>(place.row) * kWidthBins +
+                          static_cast<std::size_t>(bin)]);
+        }
+      });
   std::vector<float> widths;
   for (std::size_t r = 0; r < rows; ++r) {
     std::uint64_t all = 0, below = 0;
-    for (int b = 0; b < kBins; ++b) all += counts[r * kBins + static_cast<std::size_t>(b)];
+    for (int b = 0; b < kWidthBins; ++b)
+      all += counts[r * kWidthBins + static_cast<std::size_t>(b)];
     int bin = 0;
-    while (bin < kBins - 1) {
-      below += counts[r * kBins + static_cast<std::size_t>(bin)];
+    while (bin < kWidthBins - 1) {
+      below += counts[r * kWidthBins + static_cast<std::size_t>(bin)];
       if (static_cast<double>(below) >= 0.95 * static_cast<double>(all)) break;
       ++bin;
     }
@@ -78,8 +80,8 @@ std::vector<CanopyBase> canopy_bases(const ParcelCloud& cloud, const HeightAbove
                                      const RowLocator& locator, const std::vector<RowCurve>& lines,
                                      const std::vector<float>& widths,
                                      const RowPointOptions& options) {
-  constexpr float kBin_m = 0.05f, kMargin_m = 0.05f;
-  const int bins = static_cast<int>(std::ceil((options.canopy_cut_m + 0.6) / kBin_m));
+  constexpr float kBaseBin_m = 0.05f, kMargin_m = 0.05f;
+  const int bins = static_cast<int>(std::ceil((options.canopy_cut_m + 0.6) / kBaseBin_m));
   std::vector<CanopyBase> bases(lines.size());
   std::vector<std::size_t> first{0};
   for (std::size_t r = 0; r < lines.size(); ++r) {
@@ -94,18 +96,21 @@ std::vector<CanopyBase> canopy_bases(const ParcelCloud& cloud, const HeightAbove
     return first[r] + static_cast<std::size_t>(
                           std::clamp(static_cast<int>(place.s_m / bases[r].stretch_m), 0, last));
   };
-  for_chunks(cloud.points.size(), kChunk, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Eigen::Vector3f& p = cloud.points[k];
-      const float height_m = above(p);
-      if (!(height_m >= 0.0f && height_m < kBin_m * static_cast<float>(bins))) continue;
-      const RowPlace place = locator.locate(p.x(), p.y());
-      if (place.row < 0) continue;
-      if (std::abs(place.y_m) > widths[static_cast<std::size_t>(place.row)] + kMargin_m) continue;
-      count_up(counts[stretch_of(place) * static_cast<std::size_t>(bins) +
-                      static_cast<std::size_t>(height_m / kBin_m)]);
-    }
-  });
+  for_chunks(cloud.points.size(), kPointsAtOnce,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const Eigen::Vector3f& p = cloud.points[k];
+                 const float height_m = above(p);
+                 if (!(height_m >= 0.0f && height_m < kBaseBin_m * static_cast<float>(bins)))
+                   continue;
+                 const RowPlace place = locator.locate(p.x(), p.y());
+                 if (place.row < 0) continue;
+                 if (std::abs(place.y_m) > widths[static_cast<std::size_t>(place.row)] + kMargin_m)
+                   continue;
+                 count_up(counts[stretch_of(place) * static_cast<std::size_t>(bins) +
+                                 static_cast<std::size_t>(height_m / kBaseBin_m)]);
+               }
+             });
   for (std::size_t r = 0; r < lines.size(); ++r) {
     const auto stretches = static_cast<std::ptrdiff_t>(bases[r].height_m.size());
     for (std::ptrdiff_t k = 0; k < stretches; ++k) {
@@ -118,7 +123,7 @@ std::vector<CanopyBase> canopy_bases(const ParcelCloud& cloud, const HeightAbove
         }
       }
       bases[r].height_m[static_cast<std::size_t>(k)] =
-          base_of(sum, kBin_m, static_cast<float>(options.canopy_cut_m));
+          base_of(sum, kBaseBin_m, static_cast<float>(options.canopy_cut_m));
     }
   }
   return bases;
@@ -137,14 +142,14 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
   // First the classes, with the number of canopy points that every chunk has for every row, then
   // the points: every row's in the cloud's order, whatever the number of cores.
   const std::size_t rows = lines.size();
-  const std::size_t chunks = (cloud.points.size() + kChunk - 1) / kChunk;
+  const std::size_t chunks = (cloud.points.size() + kPointsAtOnce - 1) / kPointsAtOnce;
   std::vector<std::size_t> starts(chunks * rows, 0);
   cloud.classes.resize(cloud.points.size());
   const float cut_m = static_cast<float>(options.canopy_cut_m);
   const float body_m = static_cast<float>(options.body_cut_m);
   const float ground_m = static_cast<float>(options.ground_m);
   constexpr float kMargin_m = 0.15f;
-  for_chunks(cloud.points.size(), kChunk,
+  for_chunks(cloud.points.size(), kPointsAtOnce,
              [&](std::size_t chunk, std::size_t begin, std::size_t end) {
                for (std::size_t k = begin; k < end; ++k) {
                  const Eigen::Vector3f& p = cloud.points[k];
@@ -155,12 +160,12 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
                    continue;
                  }
                  of = height_m > cut_m ? PointClass::kOther : PointClass::kLowVegetation;
-                 if (height_m >= kHighest_m) continue;
+                 if (height_m >= kHighestLeaf_m) continue;
                  const RowPlace place = locator.locate(p.x(), p.y());
                  if (place.row < 0) continue;
                  const auto r = static_cast<std::size_t>(place.row);
-                 if (place.s_m < -kBeyond_m ||
-                     place.s_m > static_cast<float>(lines[r].length_m()) + kBeyond_m) {
+                 if (place.s_m < -kBeyondEnds_m ||
+                     place.s_m > static_cast<float>(lines[r].length_m()) + kBeyondEnds_m) {
                    continue;
                  }
                  const CanopyBase& base = bases[r];
@@ -191,7 +196,7 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
     canopies.push_back({static_cast<int>(r), RowCurve(std::move(points_W)), {}});
     canopies.back().points.resize(count);
   }
-  for_chunks(cloud.points.size(), kChunk,
+  for_chunks(cloud.points.size(), kPointsAtOnce,
              [&](std::size_t chunk, std::size_t begin, std::size_t end) {
                for (std::size_t k = begin; k < end; ++k) {
                  if (cloud.classes[k] != PointClass::kCanopy) continue;

@@ -5,16 +5,14 @@
 #include <limits>
 #include <optional>
 
+#include "engine/math/planar.h"
+
 namespace vinerow::worlds {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kStep_m = 1.0;
-
-Vector2d left_of(const Vector2d& u) {
-  return {-u.y(), u.x()};
-}
+constexpr double kTrackStep_m = 1.0;
 
 /// Canopy around a place, seen along a direction.
 struct Fit {
@@ -79,7 +77,7 @@ class Tracker {
         const double x = d.dot(u), y = d.dot(n);
         if (std::abs(x) > kAlong_m || std::abs(y) > reach_m()) continue;
         const double w = weight * std::exp(-0.5 * y * y / (sigma_m * sigma_m));
-        if (std::abs(x) < 0.5 * kStep_m) result.weight += weight;
+        if (std::abs(x) < 0.5 * kTrackStep_m) result.weight += weight;
         s += w, sx += w * x, sy += w * y, sxx += w * x * x, sxy += w * x * y;
       }
     }
@@ -98,10 +96,10 @@ class Tracker {
     std::size_t supported = 0;
     double gap_m = 0.0;
     while (gap_m <= options_.longest_gap_m) {
-      const Vector2d ahead = p + kStep_m * u;
+      const Vector2d ahead = p + kTrackStep_m * u;
       if (raster_.cell_of(ahead.x(), ahead.y()) < 0) break;
       const Fit here = fit(ahead, u, full_weight);
-      const double off_m = std::clamp(here.across_m, -0.2 * kStep_m, 0.2 * kStep_m);
+      const double off_m = std::clamp(here.across_m, -0.2 * kTrackStep_m, 0.2 * kTrackStep_m);
       const double slope = std::clamp(here.slope, -0.1, 0.1);
       p = ahead + off_m * left_of(u);
       u = (u + slope * left_of(u)).normalized();
@@ -111,7 +109,7 @@ class Tracker {
         supported = track.size();
         gap_m = 0.0;
       } else {
-        gap_m += kStep_m;
+        gap_m += kTrackStep_m;
       }
     }
     track.resize(supported);
@@ -125,7 +123,7 @@ class Tracker {
     double best_weight = 0.0;
     int places = 0;
     for (int k = -4; k <= 4; ++k) {
-      const Vector2d at = p + k * kStep_m * u;
+      const Vector2d at = p + k * kTrackStep_m * u;
       if (raster_.cell_of(at.x(), at.y()) < 0) continue;
       const double weight = fit(at, u, 0.0).weight;
       full_weight += weight;
@@ -235,7 +233,7 @@ std::vector<RowTrack> join(std::vector<RowTrack> tracks, const RowTrackingOption
     if (b_turned) std::reverse(tracks[b].begin(), tracks[b].end());
     // Points on the way keep the steps as long as elsewhere.
     const Vector2d from = tracks[a].back(), way = tracks[b].front() - from;
-    const int steps = std::max(1, static_cast<int>(std::lround(way.norm() / kStep_m)));
+    const int steps = std::max(1, static_cast<int>(std::lround(way.norm() / kTrackStep_m)));
     for (int k = 1; k < steps; ++k)
       tracks[a].push_back(from + way * (static_cast<double>(k) / steps));
     tracks[a].insert(tracks[a].end(), tracks[b].begin(), tracks[b].end());

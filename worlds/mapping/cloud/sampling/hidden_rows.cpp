@@ -10,7 +10,7 @@
 namespace vinerow::worlds {
 namespace {
 
-void check(const WorldModel& world, int row) {
+void check_row(const WorldModel& world, int row) {
   const std::vector<PlantRow>& rows = world.rows.rows;
   const auto is_it = [row](const PlantRow& plants) { return plants.id == row; };
   if (std::any_of(rows.begin(), rows.end(), is_it)) return;
@@ -24,7 +24,7 @@ void check(const WorldModel& world, int row) {
 }  // namespace
 
 HiddenRows::HiddenRows(const WorldModel& world, const std::vector<int>& hidden) {
-  for (const int row : hidden) check(world, row);
+  for (const int row : hidden) check_row(world, row);
   if (hidden.empty()) return;
   for (const PlantRow& row : world.rows.rows) {
     std::vector<Eigen::Vector2d> points;

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kTrianglesAtOnce = 2048;
 constexpr double kOutlierBelow_m = 2.0, kOutlierAbove_m = 8.0;
 
-void check(const UniformCloudOptions& options) {
+void check_uniform_options(const UniformCloudOptions& options) {
   const auto demand = [](bool fine, const char* what, double value, const char* must) {
     if (!fine) throw ConfigError(fmt::format("{} is {}, must be {}", what, value, must));
   };
@@ -150,7 +150,7 @@ void sample_piece(const MeshInstance& instance, const Piece& piece, double densi
 
 CloudTally sample_uniformly(const WorldModel& world, const SurveyArea& area,
                             const UniformCloudOptions& options, const CloudSink& sink) {
-  check(options);
+  check_uniform_options(options);
   const CloudTiles tiles(area, 0.0, options.density_per_m2);
   const std::vector<Piece> pieces = cut_meshes(world);
   const Weeds weeds(options.weeds, world.rows.rows, area,

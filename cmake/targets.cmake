@@ -13,6 +13,14 @@ if(VINEROW_PCH)
   target_compile_options(vinerow_headers PRIVATE ${VINEROW_PCH_OPTIONS})
 endif()
 
+# vinerow_use_common_headers(TARGET): of a library that links fmt; programs are compiled with other options.
+function(vinerow_use_common_headers target)
+  if(VINEROW_PCH)
+    target_precompile_headers(${target} REUSE_FROM vinerow_headers)
+    target_compile_options(${target} PRIVATE ${VINEROW_PCH_OPTIONS})
+  endif()
+endfunction()
+
 # vinerow_compile_together(TARGET BATCH SOURCES...): sources of one folder are compiled as units of at most BATCH files.
 # Files that open a name in an anonymous namespace share it with their unit, so names differ within a folder.
 function(vinerow_compile_together target batch)
@@ -38,10 +46,7 @@ function(vinerow_add_part name)
     add_library(${name} STATIC ${ARG_SOURCES})
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-    if(VINEROW_PCH)
-      target_precompile_headers(${name} REUSE_FROM vinerow_headers)
-      target_compile_options(${name} PRIVATE ${VINEROW_PCH_OPTIONS})
-    endif()
+    vinerow_use_common_headers(${name})
     vinerow_compile_together(${name} 10 ${ARG_SOURCES})
     set_property(GLOBAL APPEND PROPERTY VINEROW_PARTS ${name})
   else()

@@ -17,7 +17,7 @@
 namespace vinerow::tools {
 namespace {
 
-struct Arguments {
+struct CloudArguments {
   ScenarioArguments scenario;
   std::filesystem::path out, log;
   std::string vehicle, sensor;
@@ -30,11 +30,7 @@ struct Arguments {
   int min_views = 3, max_views = 6;
 };
 
-std::filesystem::path log_of(const std::filesystem::path& run_or_log) {
-  return std::filesystem::is_directory(run_or_log) ? run_or_log / "log.mcap" : run_or_log;
-}
-
-void check(const Arguments& arguments) {
+void check_cloud_arguments(const CloudArguments& arguments) {
   const bool uniform = arguments.uniform_per_m2.has_value();
   if (arguments.scenario.file.empty() && arguments.log.empty()) {
     throw ConfigError("cloud: give a scenario, or a flown survey by --log");
@@ -63,7 +59,8 @@ void make_folder_of(const std::filesystem::path& file) {
   }
 }
 
-worlds::PhotogrammetryOptions photogrammetry_of(const Arguments& arguments, std::uint64_t seed) {
+worlds::PhotogrammetryOptions photogrammetry_of(const CloudArguments& arguments,
+                                                std::uint64_t seed) {
   worlds::PhotogrammetryOptions options;
   options.density_per_m2 = arguments.density_per_m2;
   options.match_px = arguments.match_px;
@@ -75,7 +72,7 @@ worlds::PhotogrammetryOptions photogrammetry_of(const Arguments& arguments, std:
   return options;
 }
 
-worlds::UniformCloudOptions uniform_of(const Arguments& arguments, std::uint64_t seed) {
+worlds::UniformCloudOptions uniform_of(const CloudArguments& arguments, std::uint64_t seed) {
   worlds::UniformCloudOptions options;
   options.density_per_m2 = *arguments.uniform_per_m2;
   options.noise_m = arguments.noise_m.value_or(0.0);
@@ -85,7 +82,7 @@ worlds::UniformCloudOptions uniform_of(const Arguments& arguments, std::uint64_t
   return options;
 }
 
-void print_report(const worlds::WrittenCloud& written, double wall_s, const std::string& source) {
+void print_cloud(const worlds::WrittenCloud& written, double wall_s, const std::string& source) {
   const worlds::CloudTruth& truth = written.truth;
   const worlds::CloudTally& tally = written.tally;
   const worlds::CloudSampling& s = truth.sampling;
@@ -113,8 +110,8 @@ void print_report(const worlds::WrittenCloud& written, double wall_s, const std:
   fmt::print("truth file     {}\n", worlds::truth_file_of(s.file).string());
 }
 
-void make_cloud(const Arguments& arguments) {
-  check(arguments);
+void make_cloud(const CloudArguments& arguments) {
+  check_cloud_arguments(arguments);
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path log = arguments.log.empty() ? "" : log_of(arguments.log);
   Registry registry;
@@ -149,13 +146,13 @@ void make_cloud(const Arguments& arguments) {
   if (!written) throw ConfigError("cloud: " + written.reason());
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  print_report(*written, wall_s, pictures.source);
+  print_cloud(*written, wall_s, pictures.source);
 }
 
 }  // namespace
 
 void add_cloud_command(CLI::App& app, int& exit_status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CloudArguments>();
   CLI::App* command = app.add_subcommand(
       "cloud",
       "sample a scenario's world as a point cloud, as photogrammetry of a survey sees it, with the "

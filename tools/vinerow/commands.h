@@ -37,6 +37,9 @@ struct ScenarioArguments {
 };
 void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments);
 
+/// RUN/log.mcap of a folder, else the file itself.
+std::filesystem::path log_of(const std::filesystem::path& run_or_log);
+
 /// Draws the coverage of every camera that took pictures in a run, numbers beside it as .json.
 /// @param out  the picture; of several cameras each has its name added
 /// @returns the pictures; none where the log holds no shots

@@ -12,11 +12,6 @@
 namespace vinerow::tools {
 namespace {
 
-/// RUN/log.mcap of a folder, else the file itself.
-std::filesystem::path log_of(const std::filesystem::path& run_or_log) {
-  return std::filesystem::is_directory(run_or_log) ? run_or_log / "log.mcap" : run_or_log;
-}
-
 Polygon polygon_of(const std::vector<double>& numbers) {
   if (numbers.size() % 2 != 0) {
     throw ConfigError(

@@ -9,6 +9,7 @@
 
 #include "tools/vinerow/canvas.h"
 #include "tools/vinerow/colour_scale.h"
+#include "tools/vinerow/picture_style.h"
 #include "tools/vinerow/scale_bar.h"
 
 namespace vinerow::tools {
@@ -16,11 +17,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr Rgb kPaper = {250, 249, 245}, kInk = {38, 44, 46}, kFaint = {120, 124, 122};
-constexpr Rgb kGround = {232, 229, 220}, kNone = {190, 92, 76}, kTrack = {255, 255, 255};
-constexpr Rgb kShot = {20, 24, 26}, kBoundary = {20, 24, 26};
-constexpr int kWidth = 1600, kMargin = 32, kGap = 36, kTitle = 34, kLegend = 86, kNumbers = 150;
-constexpr int kTallest = 900;
+constexpr Rgb kPlainGround = {232, 229, 220}, kNone = {190, 92, 76}, kTrack = {255, 255, 255};
+constexpr Rgb kShot = {20, 24, 26}, kParcelEdge = {20, 24, 26};
+constexpr int kPanelMargin = 32, kPanelGap = 36, kTitle = 34, kScales = 86, kNumbers = 150;
+constexpr int kTallestPanel = 900;
 
 /// What both maps show of the world.
 Eigen::AlignedBox2d extent_of(const SurveyCoverage& coverage) {
@@ -63,23 +63,24 @@ struct Layout {
   explicit Layout(const Eigen::AlignedBox2d& extent_W) {
     const double w = extent_W.sizes().x(), h = extent_W.sizes().y();
     const bool beside = w < 1.6 * h;
-    const double room = beside ? 0.5 * (kWidth - 2 * kMargin - kGap) : kWidth - 2 * kMargin;
+    const double room = beside ? 0.5 * (kPictureWidth - 2 * kPanelMargin - kPanelGap)
+                               : kPictureWidth - 2 * kPanelMargin;
     Panel panel;
-    panel.px_per_m = std::min(room / w, kTallest / h);
+    panel.px_per_m = std::min(room / w, kTallestPanel / h);
     panel.width = room;
     panel.height = std::ceil(h * panel.px_per_m);
-    panel.left = kMargin;
-    panel.top = kMargin + kTitle;
+    panel.left = kPanelMargin;
+    panel.top = kPanelMargin + kTitle;
     // What is narrower than its panel comes into the middle.
     panel.corner_W = extent_W.center() - 0.5 * Vector2d(room, panel.height) / panel.px_per_m;
     panels = {panel, panel};
-    const double block = kTitle + panel.height + kLegend;
+    const double block = kTitle + panel.height + kScales;
     if (beside) {
-      panels[1].left += room + kGap;
+      panels[1].left += room + kPanelGap;
     } else {
       panels[1].top += block;
     }
-    numbers_top = kMargin + (beside ? block : 2 * block);
+    numbers_top = kPanelMargin + (beside ? block : 2 * block);
     height = static_cast<int>(numbers_top) + kNumbers;
   }
 };
@@ -118,7 +119,7 @@ void draw_world(Canvas& canvas, const Panel& panel, const SurveyCoverage& covera
     if (!panel.contains(row[0]) || !panel.contains(row[1])) continue;
     canvas.line(panel(row[0]), panel(row[1]), 1.0, kInk, 0.22);
   }
-  canvas.outline(panel(coverage.options.parcel_W), 2.5, kBoundary);
+  canvas.outline(panel(coverage.options.parcel_W), 2.5, kParcelEdge);
   for (std::size_t i = 0; i + 1 < coverage.track_W.size(); ++i) {
     const Vector2d &a = coverage.track_W[i], &b = coverage.track_W[i + 1];
     if (!panel.contains(a) || !panel.contains(b)) continue;
@@ -226,7 +227,7 @@ std::string percent(double share) {
 
 void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& coverage) {
   const auto number = [&](const char* name) { return coverage.map.numbers.at(name); };
-  const double left = kMargin, top = layout.numbers_top + 18;
+  const double left = kPanelMargin, top = layout.numbers_top + 18;
   canvas.text(fmt::format("{}: {}, {}", coverage.scenario, coverage.vehicle, coverage.camera), 22,
               {left, top + 6}, kInk);
   const double area_ha = 1e-4 * std::abs(signed_area_m2(coverage.options.parcel_W));
@@ -262,17 +263,17 @@ void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& co
 
 render::Image draw_coverage(const SurveyCoverage& coverage) {
   const Layout layout(extent_of(coverage));
-  Canvas canvas(kWidth, layout.height, kPaper);
+  Canvas canvas(kPictureWidth, layout.height, kPaper);
   for (const Panel& panel : layout.panels) {
     const double right = panel.left + panel.width, bottom = panel.top + panel.height;
     canvas.fill(
         {{panel.left, panel.top}, {right, panel.top}, {right, bottom}, {panel.left, bottom}},
-        kGround);
+        kPlainGround);
   }
   draw_counts(canvas, layout.panels[0], coverage);
   draw_overlaps(canvas, layout.panels[1], coverage);
   draw_numbers(canvas, layout, coverage);
-  draw_scale_bar(canvas, {kWidth - kMargin, layout.numbers_top + kNumbers - 30},
+  draw_scale_bar(canvas, {kPictureWidth - kPanelMargin, layout.numbers_top + kNumbers - 30},
                  0.2 * layout.panels[0].width / layout.panels[0].px_per_m,
                  layout.panels[0].px_per_m, kInk);
   return canvas.image();

@@ -13,7 +13,7 @@
 namespace vinerow::tools {
 namespace {
 
-void print_report(const WorldModel& world, const worlds::OccupancyReport& report) {
+void print_grid(const WorldModel& world, const worlds::OccupancyReport& report) {
   const OccupancyGrid& grid = world.rows.occupancy;
   fmt::print("rows           {}\n", world.rows.rows.size());
   fmt::print("alleys         {}\n", world.rows.alleys.size());
@@ -71,7 +71,7 @@ void add_grid_command(CLI::App& app, int& exit_status) {
     }
     io::save_ros_map(world->rows.occupancy, out / "map.yaml");
     render::write_png((out / "grid.png").string(), draw_grid(*world, report, scenario.name));
-    print_report(*world, report);
+    print_grid(*world, report);
     fmt::print("map            {}\npicture        {}\n", (out / "map.yaml").string(),
                (out / "grid.png").string());
     exit_status = 0;

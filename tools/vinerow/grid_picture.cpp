@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/vinerow/canvas.h"
+#include "tools/vinerow/legend.h"
+#include "tools/vinerow/picture_style.h"
+#include "tools/vinerow/plan_view.h"
 #include "tools/vinerow/scale_bar.h"
 
 namespace vinerow::tools {
@@ -13,41 +15,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr Rgb kPaper = {250, 249, 245}, kInk = {38, 44, 46}, kFaint = {120, 124, 122};
 constexpr Rgb kFree = {240, 233, 217}, kOutside = {92, 98, 100}, kTaken = {52, 50, 48};
-constexpr Rgb kRow = {74, 134, 62}, kWall = {28, 92, 214}, kTurning = {252, 204, 60};
-constexpr Rgb kObstacle = {214, 84, 26}, kBoundary = {30, 34, 36};
-
-/// World to pixels: north up, the whole grid with a margin, a strip below for the legend.
-struct View {
-  Vector2d corner_W;
-  double px_per_m = 1.0;
-  int width = 0, height = 0, map_height = 0, margin = 28;
-
-  explicit View(const OccupancyGrid& grid) : corner_W(grid.corner_W) {
-    constexpr int kWidth = 1600, kTallest = 1500, kLegend = 104;
-    const double w_m = grid.columns * grid.cell_m, h_m = grid.rows * grid.cell_m;
-    px_per_m = std::min((kWidth - 2 * margin) / w_m, (kTallest - 2 * margin) / h_m);
-    width = kWidth;
-    // A tall parcel is narrower than the picture: put it into the middle.
-    corner_W.x() -= 0.5 * ((kWidth - 2 * margin) / px_per_m - w_m);
-    map_height = static_cast<int>(std::ceil(h_m * px_per_m)) + 2 * margin;
-    height = map_height + kLegend;
-  }
-  Vector2d operator()(const Vector2d& p_W) const {
-    return {margin + (p_W.x() - corner_W.x()) * px_per_m,
-            map_height - margin - (p_W.y() - corner_W.y()) * px_per_m};
-  }
-  Vector2d operator()(const Eigen::Vector3d& p_W) const { return (*this)(Vector2d(p_W.head<2>())); }
-  std::vector<Vector2d> operator()(const std::vector<Vector2d>& polygon_W) const {
-    std::vector<Vector2d> polygon;
-    for (const Vector2d& p : polygon_W) polygon.push_back((*this)(p));
-    return polygon;
-  }
-  Vector2d world(double x, double y) const {
-    return corner_W + Vector2d(x - margin, map_height - margin - y) / px_per_m;
-  }
-};
+constexpr Rgb kPlants = {74, 134, 62}, kWall = {28, 92, 214}, kTurning = {252, 204, 60};
+constexpr Rgb kObstacle = {214, 84, 26};
 
 /// -1 beyond the grid, else 0 or 1.
 int state_at(const OccupancyGrid& grid, const Vector2d& p_W) {
@@ -58,14 +28,14 @@ int state_at(const OccupancyGrid& grid, const Vector2d& p_W) {
 }
 
 /// Free ground, to draw on.
-void draw_ground(Canvas& canvas, const View& view, const OccupancyGrid& grid) {
+void draw_free_ground(Canvas& canvas, const PlanView& view, const OccupancyGrid& grid) {
   const Vector2d size = grid.cell_m * Vector2d(grid.columns, grid.rows), &low = grid.corner_W;
   canvas.fill(view({low, low + Vector2d(size.x(), 0), low + size, low + Vector2d(0, size.y())}),
               kFree);
 }
 
 /// Taken cells as they are, 3 x 3 samples a pixel.
-void draw_taken_cells(Canvas& canvas, const View& view, const WorldModel& world) {
+void draw_taken_cells(Canvas& canvas, const PlanView& view, const WorldModel& world) {
   constexpr int kSamples = 3;
   const OccupancyGrid& grid = world.rows.occupancy;
   const std::vector<Vector2d>& boundary = world.rows.boundary_W;
@@ -79,7 +49,7 @@ void draw_taken_cells(Canvas& canvas, const View& view, const WorldModel& world)
     rows = worlds::make_occupancy_grid(world.rows, options);
   }
   for (int y = 0; y < view.map_height; ++y) {
-    for (int x = 0; x < view.width; ++x) {
+    for (int x = 0; x < kPictureWidth; ++x) {
       int taken = 0;
       std::array<int, 3> sum = {0, 0, 0};
       for (int s = 0; s < kSamples * kSamples; ++s) {
@@ -89,7 +59,7 @@ void draw_taken_cells(Canvas& canvas, const View& view, const WorldModel& world)
         ++taken;
         const bool row = !rows.empty() && state_at(rows, p) == 1;
         const bool inside = boundary.empty() || worlds::is_inside(p, boundary);
-        const Rgb& colour = !inside ? kOutside : row ? kRow : kTaken;
+        const Rgb& colour = !inside ? kOutside : row ? kPlants : kTaken;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
       }
       if (taken == 0) continue;
@@ -100,7 +70,7 @@ void draw_taken_cells(Canvas& canvas, const View& view, const WorldModel& world)
 }
 
 /// Boxes that stand in the world; those on the map are dark already.
-int draw_obstacles(Canvas& canvas, const View& view, const WorldModel& world) {
+int draw_obstacles(Canvas& canvas, const PlanView& view, const WorldModel& world) {
   int unknown = 0;
   for (const MeshInstance& instance : world.meshes) {
     if (!instance.collides || instance.name.rfind("obstacle/", 0) != 0) continue;
@@ -120,7 +90,7 @@ int draw_obstacles(Canvas& canvas, const View& view, const WorldModel& world) {
 }
 
 /// The number of each alley, at its first point.
-void draw_alley_numbers(Canvas& canvas, const View& view, const RowMap& map) {
+void draw_alley_numbers(Canvas& canvas, const PlanView& view, const RowMap& map) {
   for (const Alley& alley : map.alleys) {
     const double room_px = (alley.width_m - 0.6) * view.px_per_m;
     const int size_px = static_cast<int>(std::clamp(0.8 * room_px, 0.0, 20.0));
@@ -137,9 +107,10 @@ void draw_alley_numbers(Canvas& canvas, const View& view, const RowMap& map) {
 render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& report,
                         const std::string& title) {
   const OccupancyGrid& grid = world.rows.occupancy;
-  const View view(grid);
-  Canvas canvas(view.width, view.height, kPaper);
-  draw_ground(canvas, view, grid);
+  const PlanView view(grid.corner_W, grid.cell_m * Vector2d(grid.columns, grid.rows), kNarrowMargin,
+                      kTallestPlan, 104);
+  Canvas canvas(kPictureWidth, view.height, kPaper);
+  draw_free_ground(canvas, view, grid);
   for (const worlds::TurningArea& area : report.turning_areas) {
     canvas.fill(view(area.polygon_W), kTurning, 0.5);
     canvas.outline(view(area.polygon_W), 1.0, {196, 146, 10}, 0.7);
@@ -161,21 +132,17 @@ render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& 
   double x = view.margin;
   const auto legend = [&](const Rgb& colour, const std::string& words, bool shown) {
     if (!shown) return;
-    const double y = top + 56.0;
-    const std::vector<Vector2d> patch = {{x, y}, {x + 22, y}, {x + 22, y + 15}, {x, y + 15}};
-    canvas.fill(patch, colour);
-    canvas.outline(patch, 1.0, kFaint, 0.6);
-    canvas.text(words, 16, {x + 30, y + 13.5}, kInk);
+    draw_legend_patch(canvas, x, top + 56.0, colour, words);
     x += 58.0 + 8.6 * static_cast<double>(words.size());
   };
   legend(kFree, "free", true);
-  legend(kRow, "plant row", !world.rows.rows.empty());
+  legend(kPlants, "plant row", !world.rows.rows.empty());
   legend(kWall, "virtual wall", !report.walls.empty());
   legend({246, 219, 139}, "turning area", !report.turning_areas.empty());
   legend(kOutside, "outside the parcel", true);
   legend(kObstacle, "box that the map does not have", unknown > 0);
-  draw_scale_bar(canvas, {view.width - view.margin, top + 44.0}, 0.125 * view.width / view.px_per_m,
-                 view.px_per_m, kInk);
+  draw_scale_bar(canvas, {kPictureWidth - view.margin, top + 44.0},
+                 0.125 * kPictureWidth / view.px_per_m, view.px_per_m, kInk);
   return canvas.image();
 }
 

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct MapArguments {
   fs::path cloud, out, scenario, boundary, truth;
   std::vector<fs::path> plugins;
   std::string crs, title, first_wall = "auto";
@@ -58,7 +58,7 @@ class Stopwatch {
   std::vector<worlds::MapPhase> phases_;
 };
 
-std::optional<GeoOrigin> find_origin(const Arguments& arguments) {
+std::optional<GeoOrigin> find_map_origin(const MapArguments& arguments) {
   if (!arguments.origin.empty() && !arguments.scenario.empty()) {
     throw ConfigError("map: give --origin or --scenario, one of them");
   }
@@ -141,7 +141,7 @@ void export_meshes(const std::vector<RowMesh>& meshes, const std::vector<std::st
 
 std::vector<ReportPicture> write_pictures(const worlds::CloudMap& map,
                                           const worlds::ParcelCloud& cloud,
-                                          const Arguments& arguments, const std::string& title) {
+                                          const MapArguments& arguments, const std::string& title) {
   std::vector<ReportPicture> pictures;
   for (const fs::path& file : write_map_pictures(map, cloud, arguments.options.occupancy, title,
                                                  arguments.out / "pictures")) {
@@ -179,14 +179,14 @@ void print_phases(const std::vector<worlds::MapPhase>& phases) {
              phases.empty() ? 0.0 : phases.back().peak_memory_MB);
 }
 
-void make_map(Arguments& arguments) {
+void make_map(MapArguments& arguments) {
   Stopwatch watch;
   // Faults that can be seen before the long work are told before it.
   std::optional<worlds::CloudTruth> truth;
   if (!arguments.truth.empty()) truth = worlds::read_cloud_truth(arguments.truth);
   worlds::CloudReadOptions read_options;
   read_options.crs = arguments.crs;
-  read_options.origin = find_origin(arguments);
+  read_options.origin = find_map_origin(arguments);
   read_options.thin = arguments.thin;
   make_folder(arguments.out);
   if (!arguments.scenario.empty()) watch.end_phase("scenario");
@@ -237,8 +237,8 @@ void make_map(Arguments& arguments) {
 }  // namespace
 
 void add_map_command(CLI::App& app, int& exit_status) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<MapArguments>();
+  MapArguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
       "map", "turn a point cloud of a vineyard into a low-complexity map: rows, meshes, grid");
   command->add_option("cloud", a.cloud, "point cloud: LAS, PLY, PCD, XYZ or CSV")->required();

@@ -9,6 +9,8 @@
 #include "engine/render/caption.h"
 #include "tools/vinerow/cloud_view.h"
 #include "tools/vinerow/grid_picture.h"
+#include "tools/vinerow/legend.h"
+#include "tools/vinerow/picture_style.h"
 #include "tools/vinerow/row_lookup.h"
 
 namespace vinerow::tools {
@@ -18,10 +20,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using worlds::PointClass;
 
-constexpr Rgb kPaper = {250, 249, 245}, kInk = {38, 44, 46}, kFaint = {120, 124, 122};
-constexpr Rgb kGround = {172, 144, 112}, kLow = {196, 192, 88}, kOther = {142, 146, 150};
+constexpr Rgb kGroundPoints = {172, 144, 112}, kLow = {196, 192, 88}, kOther = {142, 146, 150};
 constexpr Rgb kRows[3] = {{46, 122, 52}, {104, 172, 62}, {24, 146, 108}};
-constexpr int kWidth = 1600, kMargin = 28, kStrip = 74;
+constexpr int kStrip = 74;
 constexpr std::size_t kMostSplats = 6'000'000;
 
 /// Every n-th point, few enough to draw.
@@ -49,7 +50,7 @@ class Scene {
     double light = 1.0;
     switch (cloud_.classes[k]) {
       case PointClass::kGround:
-        colour = kGround;
+        colour = kGroundPoints;
         break;
       case PointClass::kLowVegetation:
         colour = kLow;
@@ -140,8 +141,8 @@ void draw_ground_below_rows(const Scene& scene, CloudView& view) {
       for (int step = 0; step < steps; ++step) {
         const Vector3d left = place(step, 1.0), right = place(step, -1.0);
         const Vector3d next_left = place(step + 1, 1.0), next_right = place(step + 1, -1.0);
-        view.triangle(left, right, next_right, kGround);
-        view.triangle(left, next_right, next_left, kGround);
+        view.triangle(left, right, next_right, kGroundPoints);
+        view.triangle(left, next_right, next_left, kGroundPoints);
       }
     }
   }
@@ -186,14 +187,11 @@ Canvas framed(const render::Image& picture, int strip_px) {
   return canvas;
 }
 
-void draw_legend(Canvas& canvas, double y,
-                 const std::vector<std::pair<Rgb, std::string>>& entries) {
-  double x = kMargin;
+void draw_class_legend(Canvas& canvas, double y,
+                       const std::vector<std::pair<Rgb, std::string>>& entries) {
+  double x = kNarrowMargin;
   for (const auto& [colour, words] : entries) {
-    const std::vector<Vector2d> patch = {{x, y}, {x + 22, y}, {x + 22, y + 15}, {x, y + 15}};
-    canvas.fill(patch, colour);
-    canvas.outline(patch, 1.0, kFaint, 0.6);
-    canvas.text(words, 16, {x + 30, y + 13.5}, kInk);
+    draw_legend_patch(canvas, x, y, colour, words);
     x += 58.0 + render::text_width(words, 16);
   }
 }
@@ -258,31 +256,35 @@ render::Image draw_classes(const worlds::CloudMap& map, const worlds::ParcelClou
                            const std::string& title) {
   constexpr int kHeight = 860;
   const Scene scene(map, cloud);
-  const render::Camera camera = parcel_camera(map.map, static_cast<double>(kWidth) / kHeight);
-  CloudView view(camera, kWidth, kHeight);
+  const render::Camera camera =
+      parcel_camera(map.map, static_cast<double>(kPictureWidth) / kHeight);
+  CloudView view(camera, kPictureWidth, kHeight);
   draw_ground_below_rows(scene, view);
   splat_cloud(scene, view, true, kMostSplats);
   Canvas canvas = framed(view.finish(kPaper), kStrip);
   draw_row_numbers(canvas, view, map.map, camera);
   const worlds::CloudMapReport& r = map.report;
-  canvas.text(title, 22, {kMargin, kHeight + 26.0}, kInk);
-  draw_legend(canvas, kHeight + 44.0,
-              {{kRows[0], "canopy, row by row: " + share_of(r.canopy_points, r.points)},
-               {kGround, "ground: " + share_of(r.ground_points, r.points)},
-               {kLow, "low vegetation: " + share_of(r.low_points, r.points)},
-               {kOther, "other: " + share_of(r.other_points, r.points)}});
+  canvas.text(title, 22, {kNarrowMargin, kHeight + 26.0}, kInk);
+  draw_class_legend(canvas, kHeight + 44.0,
+                    {{kRows[0], "canopy, row by row: " + share_of(r.canopy_points, r.points)},
+                     {kGroundPoints, "ground: " + share_of(r.ground_points, r.points)},
+                     {kLow, "low vegetation: " + share_of(r.low_points, r.points)},
+                     {kOther, "other: " + share_of(r.other_points, r.points)}});
   const std::string size =
       fmt::format("{} points, {:.0f} per m²", millions(r.points), r.density_per_m2);
-  canvas.text(size, 16, {kWidth - kMargin - render::text_width(size, 16), kHeight + 26.0}, kFaint);
+  canvas.text(size, 16,
+              {kPictureWidth - kNarrowMargin - render::text_width(size, 16), kHeight + 26.0},
+              kFaint);
   return canvas.image();
 }
 
 render::Image draw_meshes(const worlds::CloudMap& map, const worlds::ParcelCloud& cloud,
                           const std::string& title) {
-  constexpr int kHeight = 760, kDetailHeight = 520, kGap = 8, kHalf = (kWidth - kGap) / 2;
+  constexpr int kHeight = 760, kDetailHeight = 520, kGap = 8, kHalf = (kPictureWidth - kGap) / 2;
   const Scene scene(map, cloud);
-  const render::Camera whole_camera = parcel_camera(map.map, static_cast<double>(kWidth) / kHeight);
-  CloudView whole(whole_camera, kWidth, kHeight);
+  const render::Camera whole_camera =
+      parcel_camera(map.map, static_cast<double>(kPictureWidth) / kHeight);
+  CloudView whole(whole_camera, kPictureWidth, kHeight);
   draw_ground_below_rows(scene, whole);
   splat_cloud(scene, whole, false, kMostSplats / 2);
   draw_row_meshes(map.map, whole, false);
@@ -318,23 +320,24 @@ render::Image draw_meshes(const worlds::CloudMap& map, const worlds::ParcelCloud
   draw_row_meshes(map.map, meshes, true);
   for (CloudView* view : {&points, &meshes}) draw_ground_below_rows(scene, *view);
 
-  Canvas canvas(kWidth, kHeight + kGap + kDetailHeight + kStrip, kPaper);
+  Canvas canvas(kPictureWidth, kHeight + kGap + kDetailHeight + kStrip, kPaper);
   canvas.paste(whole.finish(kPaper), 0, 0);
   canvas.paste(points.finish(kPaper, kSoft), 0, kHeight + kGap);
   canvas.paste(meshes.finish(kPaper, kSoft), kHalf + kGap, kHeight + kGap);
   draw_row_numbers(canvas, whole, map.map, whole_camera);
   const double top = kHeight + kGap + kDetailHeight;
   const worlds::CloudMapReport& r = map.report;
-  canvas.text(title, 22, {kMargin, top + 26.0}, kInk);
+  canvas.text(title, 22, {kNarrowMargin, top + 26.0}, kInk);
   canvas.text(
       fmt::format("Above: the parcel with its row meshes. Below: the points of a stretch of "
                   "row {}, and its mesh.",
                   map.map.rows[map.map.rows.size() / 2].id),
-      16, {kMargin, top + 54.0}, kFaint);
+      16, {kNarrowMargin, top + 54.0}, kFaint);
   const std::string size = fmt::format("{} triangles, {:.2f} MB instead of {:.1f} MB", r.triangles,
                                        1e-6 * static_cast<double>(r.mesh_bytes),
                                        1e-6 * static_cast<double>(r.cloud_bytes));
-  canvas.text(size, 16, {kWidth - kMargin - render::text_width(size, 16), top + 26.0}, kFaint);
+  canvas.text(size, 16, {kPictureWidth - kNarrowMargin - render::text_width(size, 16), top + 26.0},
+              kFaint);
   return canvas.image();
 }
 

@@ -8,6 +8,8 @@
 #include "engine/render/caption.h"
 #include "tools/vinerow/colour_scale.h"
 #include "tools/vinerow/map_pictures.h"
+#include "tools/vinerow/picture_style.h"
+#include "tools/vinerow/plan_view.h"
 #include "tools/vinerow/scale_bar.h"
 #include "worlds/parts/row_curve.h"
 
@@ -18,48 +20,27 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using worlds::PointClass;
 
-constexpr Rgb kPaper = {250, 249, 245}, kInk = {38, 44, 46}, kFaint = {120, 124, 122};
-constexpr Rgb kRow = {255, 255, 255}, kEnd = {196, 40, 40}, kGap = {236, 112, 20};
-constexpr Rgb kBoundary = {30, 34, 36}, kContour = {170, 150, 116};
-constexpr int kWidth = 1600, kTallest = 1300, kMargin = 44, kLegend = 110;
+constexpr Rgb kRowLine = {255, 255, 255}, kRowEnd = {196, 40, 40}, kNoCanopy = {236, 112, 20};
+constexpr Rgb kMapContour = {170, 150, 116};
+constexpr int kTallestTop = 1300, kTopLegend = 110;
 constexpr std::size_t kMostPoints = 12'000'000;
 
-/// World to pixels: north up, rows and boundary with a margin, a strip below for the legend.
-struct View {
-  Vector2d corner_W = {0, 0};
-  double px_per_m = 1.0;
-  int map_height = 0, height = 0;
-
-  explicit View(const RowMap& map) {
-    Eigen::AlignedBox2d box;
-    for (const PlantRow& row : map.rows) {
-      for (const Vector3d& p : row.line_W) box.extend(Vector2d(p.head<2>()));
-    }
-    for (const Vector2d& p : map.boundary_W) box.extend(p);
-    const Vector2d size = box.sizes().cwiseMax(1.0);
-    px_per_m = std::min((kWidth - 2.0 * kMargin) / size.x(), (kTallest - 2.0 * kMargin) / size.y());
-    map_height = static_cast<int>(std::ceil(size.y() * px_per_m)) + 2 * kMargin;
-    height = map_height + kLegend;
-    corner_W = box.min();
-    corner_W.x() -= 0.5 * ((kWidth - 2.0 * kMargin) / px_per_m - size.x());
+PlanView view_of(const RowMap& map) {
+  Eigen::AlignedBox2d box;
+  for (const PlantRow& row : map.rows) {
+    for (const Vector3d& p : row.line_W) box.extend(Vector2d(p.head<2>()));
   }
-  Vector2d operator()(const Vector2d& p_W) const {
-    return {kMargin + (p_W.x() - corner_W.x()) * px_per_m,
-            map_height - kMargin - (p_W.y() - corner_W.y()) * px_per_m};
-  }
-  Vector2d operator()(const Vector3d& p_W) const { return (*this)(Vector2d(p_W.head<2>())); }
-  Vector2d world(double x, double y) const {
-    return corner_W + Vector2d(x - kMargin, map_height - kMargin - y) / px_per_m;
-  }
-};
+  for (const Vector2d& p : map.boundary_W) box.extend(p);
+  return {box.min(), box.sizes().cwiseMax(1.0), kNumberedMargin, kTallestTop, kTopLegend};
+}
 
 /// What of the cloud falls on each pixel.
-struct Raster {
+struct CanopyPixels {
   std::vector<float> canopy_m;       ///< highest canopy above the ground; 0: none
   std::vector<std::uint8_t> others;  ///< a point of no row that is as high as canopy
 
-  Raster(const View& view, const worlds::CloudMap& map, const worlds::ParcelCloud& cloud)
-      : canopy_m(static_cast<std::size_t>(kWidth) * view.map_height, 0.0f),
+  CanopyPixels(const PlanView& view, const worlds::CloudMap& map, const worlds::ParcelCloud& cloud)
+      : canopy_m(static_cast<std::size_t>(kPictureWidth) * view.map_height, 0.0f),
         others(canopy_m.size(), 0) {
     const std::size_t stride =
         std::max<std::size_t>(1, (cloud.points.size() + kMostPoints - 1) / kMostPoints);
@@ -69,8 +50,8 @@ struct Raster {
       const Vector3d p = cloud.point_W(k);
       const Vector2d at = view(p);
       const int x = static_cast<int>(std::floor(at.x())), y = static_cast<int>(std::floor(at.y()));
-      if (x < 0 || y < 0 || x >= kWidth || y >= view.map_height) continue;
-      const std::size_t pixel = static_cast<std::size_t>(y) * kWidth + x;
+      if (x < 0 || y < 0 || x >= kPictureWidth || y >= view.map_height) continue;
+      const std::size_t pixel = static_cast<std::size_t>(y) * kPictureWidth + x;
       if (is == PointClass::kOther) {
         others[pixel] = 1;
         continue;
@@ -92,11 +73,11 @@ double contour_step_m(const HeightField& terrain) {
 }
 
 /// Light from the north-west on a pale ground, and lines of equal height. @returns their step
-double draw_ground(Canvas& canvas, const View& view, const HeightField& terrain) {
+double draw_shaded_ground(Canvas& canvas, const PlanView& view, const HeightField& terrain) {
   const Vector3d light = Vector3d(-1.0, 1.0, 2.2).normalized();
   const double step_m = contour_step_m(terrain), pixel_m = 1.0 / view.px_per_m;
   for (int y = 0; y < view.map_height; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+    for (int x = 0; x < kPictureWidth; ++x) {
       const Vector2d p = view.world(x + 0.5, y + 0.5);
       if (!terrain.contains(p.x(), p.y())) continue;
       const double c = terrain.cell_m;
@@ -114,7 +95,7 @@ double draw_ground(Canvas& canvas, const View& view, const HeightField& terrain)
       };
       const double here = level(0.0, 0.0);
       if (here != level(pixel_m, 0.0) || here != level(0.0, pixel_m)) {
-        canvas.blend(x, y, kContour, 0.55);
+        canvas.blend(x, y, kMapContour, 0.55);
       }
     }
   }
@@ -126,14 +107,14 @@ Rgb canopy_colour(double height_m, double low_m, double high_m) {
   return viridis(0.12 + 0.85 * std::clamp((height_m - low_m) / (high_m - low_m), 0.0, 1.0));
 }
 
-void draw_canopy(Canvas& canvas, const View& view, const Raster& raster, double low_m,
+void draw_canopy(Canvas& canvas, const PlanView& view, const CanopyPixels& pixels, double low_m,
                  double high_m) {
   for (int y = 0; y < view.map_height; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const std::size_t at = static_cast<std::size_t>(y) * kWidth + x;
-      if (raster.others[at]) canvas.blend(x, y, {142, 146, 150}, 0.8);
-      if (raster.canopy_m[at] > 0.0f) {
-        canvas.blend(x, y, canopy_colour(raster.canopy_m[at], low_m, high_m), 1.0);
+    for (int x = 0; x < kPictureWidth; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y) * kPictureWidth + x;
+      if (pixels.others[at]) canvas.blend(x, y, {142, 146, 150}, 0.8);
+      if (pixels.canopy_m[at] > 0.0f) {
+        canvas.blend(x, y, canopy_colour(pixels.canopy_m[at], low_m, high_m), 1.0);
       }
     }
   }
@@ -147,7 +128,7 @@ void draw_disc(Canvas& canvas, const Vector2d& at, double radius_px, const Rgb& 
   canvas.fill(disc, colour);
 }
 
-void draw_rows(Canvas& canvas, const View& view, const worlds::CloudMap& map) {
+void draw_rows(Canvas& canvas, const PlanView& view, const worlds::CloudMap& map) {
   constexpr double kApart_px = 15.0;  // numbers nearer than that could not be read
   std::optional<Vector2d> drawn[2];   // of either end
   for (std::size_t k = 0; k < map.map.rows.size(); ++k) {
@@ -155,19 +136,19 @@ void draw_rows(Canvas& canvas, const View& view, const worlds::CloudMap& map) {
     std::vector<Vector2d> line_W;
     for (const Vector3d& p : row.line_W) line_W.push_back(p.head<2>());
     for (std::size_t i = 0; i + 1 < line_W.size(); ++i) {
-      canvas.line(view(line_W[i]), view(line_W[i + 1]), 1.2, kRow, 0.6);
+      canvas.line(view(line_W[i]), view(line_W[i + 1]), 1.2, kRowLine, 0.6);
     }
     const worlds::RowCurve curve(line_W);
     if (k < map.report.rows.size()) {
       for (const auto& [from_m, to_m] : map.report.rows[k].gaps_m) {
-        canvas.line(view(curve.point_W(from_m)), view(curve.point_W(to_m)), 3.6, kGap);
+        canvas.line(view(curve.point_W(from_m)), view(curve.point_W(to_m)), 3.6, kNoCanopy);
       }
     }
     for (const bool last : {false, true}) {
       const double s_m = last ? curve.length_m() : 0.0;
       const Vector2d at = view(curve.point_W(s_m));
       draw_disc(canvas, at, 4.2, kPaper);
-      draw_disc(canvas, at, 3.0, kEnd);
+      draw_disc(canvas, at, 3.0, kRowEnd);
       Vector2d out = curve.direction_W(s_m) * (last ? 1.0 : -1.0);
       out.y() = -out.y();
       std::optional<Vector2d>& before = drawn[last ? 1 : 0];
@@ -178,9 +159,9 @@ void draw_rows(Canvas& canvas, const View& view, const worlds::CloudMap& map) {
   }
 }
 
-void draw_legend(Canvas& canvas, double y, double low_m, double high_m, bool has_gaps,
-                 double contour_m) {
-  double x = kMargin;
+void draw_top_legend(Canvas& canvas, double y, double low_m, double high_m, bool has_gaps,
+                     double contour_m) {
+  double x = kNumberedMargin;
   const auto words = [&](const std::string& text) {
     canvas.text(text, 16, {x, y + 5.5}, kInk);
     x += render::text_width(text, 16) + 34.0;
@@ -199,19 +180,19 @@ void draw_legend(Canvas& canvas, double y, double low_m, double high_m, bool has
   x += kBar_px + 8.0;
   words(fmt::format("{:.1f} m canopy above the ground", high_m));
   canvas.line({x, y}, {x + 30, y}, 6.0, {160, 160, 150});
-  canvas.line({x, y}, {x + 30, y}, 1.6, kRow);
+  canvas.line({x, y}, {x + 30, y}, 1.6, kRowLine);
   x += 38.0;
   words("row");
-  draw_disc(canvas, {x + 6, y}, 4.5, kEnd);
+  draw_disc(canvas, {x + 6, y}, 4.5, kRowEnd);
   x += 20.0;
   words("end of a row");
   if (has_gaps) {
-    canvas.line({x, y}, {x + 30, y}, 4.0, kGap);
+    canvas.line({x, y}, {x + 30, y}, 4.0, kNoCanopy);
     x += 38.0;
     words("no canopy");
   }
   if (contour_m > 0.0) {
-    canvas.line({x, y}, {x + 30, y}, 1.6, kContour);
+    canvas.line({x, y}, {x + 30, y}, 1.6, kMapContour);
     x += 38.0;
     words(fmt::format("each {:g} m of height", contour_m));
   }
@@ -221,9 +202,10 @@ void draw_legend(Canvas& canvas, double y, double low_m, double high_m, bool has
 
 render::Image draw_top(const worlds::CloudMap& map, const worlds::ParcelCloud& cloud,
                        const std::string& title) {
-  const View view(map.map);
-  Canvas canvas(kWidth, view.height, kPaper);
-  const double contour_m = map.map.terrain ? draw_ground(canvas, view, *map.map.terrain) : 0.0;
+  const PlanView view = view_of(map.map);
+  Canvas canvas(kPictureWidth, view.height, kPaper);
+  const double contour_m =
+      map.map.terrain ? draw_shaded_ground(canvas, view, *map.map.terrain) : 0.0;
   double low_m = 1e300;
   bool has_gaps = false;
   double length_m = 0.0;
@@ -233,22 +215,22 @@ render::Image draw_top(const worlds::CloudMap& map, const worlds::ParcelCloud& c
     length_m += row.length_m;
   }
   const double high_m = std::max(low_m + 0.5, 1.1 * map.report.canopy_top_m);
-  draw_canopy(canvas, view, Raster(view, map, cloud), low_m, high_m);
-  std::vector<Vector2d> boundary;
-  for (const Vector2d& p : map.map.boundary_W) boundary.push_back(view(p));
-  canvas.outline(boundary, 2.0, kBoundary);
+  draw_canopy(canvas, view, CanopyPixels(view, map, cloud), low_m, high_m);
+  canvas.outline(view(map.map.boundary_W), 2.0, kBoundary);
   draw_rows(canvas, view, map);
 
   const double top = view.map_height;
-  canvas.fill({{0, top}, {kWidth, top}, {kWidth, top + kLegend}, {0, top + kLegend}}, kPaper);
-  canvas.text(title, 22, {kMargin, top + 26.0}, kInk);
+  canvas.fill(
+      {{0, top}, {kPictureWidth, top}, {kPictureWidth, top + kTopLegend}, {0, top + kTopLegend}},
+      kPaper);
+  canvas.text(title, 22, {kNumberedMargin, top + 26.0}, kInk);
   const worlds::CloudMapReport& r = map.report;
   canvas.text(fmt::format("{} rows, {:.0f} m of them, {:.2f} m apart, bearing {:.1f}°",
                           r.rows.size(), length_m, r.spacing_m, r.bearing_deg),
-              16, {kMargin, top + 52.0}, kFaint);
-  draw_legend(canvas, top + 82.0, low_m, high_m, has_gaps, contour_m);
-  draw_scale_bar(canvas, {kWidth - kMargin, top + 84.0}, 0.125 * kWidth / view.px_per_m,
-                 view.px_per_m, kInk);
+              16, {kNumberedMargin, top + 52.0}, kFaint);
+  draw_top_legend(canvas, top + 82.0, low_m, high_m, has_gaps, contour_m);
+  draw_scale_bar(canvas, {kPictureWidth - kNumberedMargin, top + 84.0},
+                 0.125 * kPictureWidth / view.px_per_m, view.px_per_m, kInk);
   return canvas.image();
 }
 

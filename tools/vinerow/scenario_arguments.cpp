@@ -15,6 +15,10 @@ void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments) {
       ->allow_extra_args(false);
 }
 
+std::filesystem::path log_of(const std::filesystem::path& run_or_log) {
+  return std::filesystem::is_directory(run_or_log) ? run_or_log / "log.mcap" : run_or_log;
+}
+
 Registry make_registry(const std::vector<std::filesystem::path>& plugins) {
   Registry registry;
   register_all(registry);

@@ -39,7 +39,7 @@ void write_waypoints(const SurveyPlan& plan, const SurveyTask& task,
   if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
 }
 
-void print_report(const SurveyTask& task, const SurveyPlan& plan) {
+void print_survey(const SurveyTask& task, const SurveyPlan& plan) {
   const auto n = [&](const char* name) { return plan.numbers.at(name); };
   const SurveyCamera& camera = task.request.camera;
   fmt::print(
@@ -103,7 +103,7 @@ void plan_and_write(const SurveyTask& task, const std::filesystem::path& out) {
   write_waypoints(*plan, task, out / "waypoints.csv");
   render::write_png((out / "survey.png").string(),
                     draw_survey(task.request, *plan, task.ground, task.title));
-  print_report(task, *plan);
+  print_survey(task, *plan);
   fmt::print("missions         {}, {}\nwaypoints        {}\npicture          {}\n",
              (out / "survey.plan").string(), (out / "survey.waypoints").string(),
              (out / "waypoints.csv").string(), (out / "survey.png").string());

@@ -10,6 +10,8 @@
 #include "engine/math/angles.h"
 #include "tools/vinerow/canvas.h"
 #include "tools/vinerow/colour_scale.h"
+#include "tools/vinerow/picture_style.h"
+#include "tools/vinerow/plan_view.h"
 #include "tools/vinerow/scale_bar.h"
 
 namespace vinerow::tools {
@@ -17,34 +19,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr Rgb kPaper = {250, 249, 245}, kInk = {38, 44, 46}, kFaint = {120, 124, 122};
 constexpr Rgb kNoGround = {214, 212, 206}, kArea = {20, 24, 26}, kWay = {92, 98, 100};
-constexpr Rgb kContour = {150, 140, 116}, kFootprint = {214, 84, 26}, kStart = {196, 40, 40};
-constexpr int kWidth = 1600, kTallest = 1500, kMargin = 44, kLegend = 122;
-
-/// World to pixels: north up, everything flown with a margin, a strip below for the legend.
-struct View {
-  Vector2d corner_W = {0, 0};
-  double px_per_m = 1.0;
-  int map_height = 0, height = 0;
-
-  explicit View(const Eigen::AlignedBox2d& box) {
-    const Vector2d size = box.sizes();
-    px_per_m = std::min((kWidth - 2.0 * kMargin) / size.x(), (kTallest - 2.0 * kMargin) / size.y());
-    map_height = static_cast<int>(std::ceil(size.y() * px_per_m)) + 2 * kMargin;
-    height = map_height + kLegend;
-    corner_W = box.min();
-    corner_W.x() -= 0.5 * ((kWidth - 2.0 * kMargin) / px_per_m - size.x());
-  }
-  Vector2d operator()(const Vector2d& p_W) const {
-    return {kMargin + (p_W.x() - corner_W.x()) * px_per_m,
-            map_height - kMargin - (p_W.y() - corner_W.y()) * px_per_m};
-  }
-  Vector2d operator()(const Eigen::Vector3d& p_W) const { return (*this)(Vector2d(p_W.head<2>())); }
-  Vector2d world(double x, double y) const {
-    return corner_W + Vector2d(x - kMargin, map_height - kMargin - y) / px_per_m;
-  }
-};
+constexpr Rgb kSurveyContour = {150, 140, 116}, kFootprint = {214, 84, 26}, kStart = {196, 40, 40};
+constexpr int kSurveyLegend = 122;
 
 std::vector<Vector2d> footprint_of(const SurveyCamera& camera, const SurveyShot& shot) {
   const Vector2d along = 0.5 * camera.footprint_length_m(shot.height_m) * direction(shot.yaw_rad);
@@ -58,7 +35,8 @@ std::vector<Vector2d> footprint_of(const SurveyCamera& camera, const SurveyShot&
 /// Heights at every second pixel, for shading and contour lines.
 class Relief {
  public:
-  Relief(const View& view, const GroundHeight& ground) : rows_((view.map_height + 1) / kStep + 2) {
+  Relief(const PlanView& view, const GroundHeight& ground)
+      : rows_((view.map_height + 1) / kStep + 2) {
     for (int j = 0; j < rows_; ++j) {
       for (int i = 0; i < kColumns; ++i) {
         heights_m_.push_back(ground(view.world(kStep * i, kStep * j)));
@@ -70,7 +48,7 @@ class Relief {
   }
 
   /// Light from the north-west, and lines of equal height. @returns the step of the lines
-  double draw(Canvas& canvas, const View& view) const {
+  double draw(Canvas& canvas, const PlanView& view) const {
     const double step_m = contour_step_m(), relief = exaggeration(view);
     for (int j = 0; j + 1 < rows_; ++j) {
       for (int i = 0; i + 1 < kColumns; ++i) {
@@ -95,7 +73,7 @@ class Relief {
           const int x = kStep * i + k % kStep, y = kStep * j + k / kStep;
           if (y >= view.map_height) continue;
           canvas.blend(x, y, colour, 1.0);
-          if (is_contour) canvas.blend(x, y, kContour, 0.45);
+          if (is_contour) canvas.blend(x, y, kSurveyContour, 0.45);
         }
       }
     }
@@ -105,13 +83,13 @@ class Relief {
   bool is_flat() const { return high_m_ - low_m_ < 0.5; }
 
  private:
-  static constexpr int kStep = 2, kColumns = kWidth / kStep + 1;
+  static constexpr int kStep = 2, kColumns = kPictureWidth / kStep + 1;
 
   std::optional<double> at(int i, int j) const {
     return heights_m_[static_cast<std::size_t>(j) * kColumns + i];
   }
   /// Mountains are shaded as if they were hills, so that what is drawn on them can be seen.
-  double exaggeration(const View& view) const {
+  double exaggeration(const PlanView& view) const {
     double sum = 0.0;
     int count = 0;
     for (int j = 0; j + 1 < rows_; ++j) {
@@ -153,7 +131,7 @@ void draw_arrow(Canvas& canvas, const Vector2d& tip, const Vector2d& way, double
               colour);
 }
 
-void draw_way(Canvas& canvas, const View& view, const SurveyPlan& plan) {
+void draw_way(Canvas& canvas, const PlanView& view, const SurveyPlan& plan) {
   const auto& points = plan.path.points;
   for (const bool lanes : {false, true}) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -171,7 +149,7 @@ void draw_way(Canvas& canvas, const View& view, const SurveyPlan& plan) {
   }
 }
 
-void draw_waypoints(Canvas& canvas, const View& view, const SurveyPlan& plan) {
+void draw_waypoints(Canvas& canvas, const PlanView& view, const SurveyPlan& plan) {
   constexpr int kSize_px = 12;
   std::vector<Vector2d> taken;
   for (std::size_t i = 0; i < plan.path.points.size(); ++i) {
@@ -200,8 +178,9 @@ void draw_waypoints(Canvas& canvas, const View& view, const SurveyPlan& plan) {
   }
 }
 
-void draw_legend(Canvas& canvas, double y, const SurveyPlan& plan, double contour_m, bool is_flat) {
-  double x = kMargin;
+void draw_survey_legend(Canvas& canvas, double y, const SurveyPlan& plan, double contour_m,
+                        bool is_flat) {
+  double x = kNumberedMargin;
   const auto words = [&](const std::string& text) {
     canvas.text(text, 16, {x, y + 5.5}, kInk);
     x += 8.4 * static_cast<double>(text.size()) + 30.0;
@@ -221,7 +200,7 @@ void draw_legend(Canvas& canvas, double y, const SurveyPlan& plan, double contou
   x += 32.0;
   words("area");
   if (!is_flat) {
-    canvas.line({x, y}, {x + 30, y}, 2.0, kContour);
+    canvas.line({x, y}, {x + 30, y}, 2.0, kSurveyContour);
     x += 38.0;
     words(fmt::format("each {:g} m of height", contour_m));
   }
@@ -237,14 +216,12 @@ render::Image draw_survey(const SurveyRequest& request, const SurveyPlan& plan,
   const SurveyShot& shown = plan.shots[plan.shots.size() / 3];
   const std::vector<Vector2d> footprint_W = footprint_of(request.camera, shown);
   for (const Vector2d& p : footprint_W) box.extend(p);
-  const View view(box);
-  Canvas canvas(kWidth, view.height, kPaper);
+  const PlanView view(box.min(), box.sizes(), kNumberedMargin, kTallestPlan, kSurveyLegend);
+  Canvas canvas(kPictureWidth, view.height, kPaper);
   const Relief relief(view, ground);
   const double contour_m = relief.draw(canvas, view);
 
-  std::vector<Vector2d> area, footprint;
-  for (const Vector2d& p : request.polygon_W) area.push_back(view(p));
-  for (const Vector2d& p : footprint_W) footprint.push_back(view(p));
+  const std::vector<Vector2d> area = view(request.polygon_W), footprint = view(footprint_W);
   canvas.fill(area, kPaper, 0.35);
   canvas.outline(area, 2.5, kArea);
   canvas.fill(footprint, kFootprint, 0.16);
@@ -260,8 +237,12 @@ render::Image draw_survey(const SurveyRequest& request, const SurveyPlan& plan,
 
   const double top = view.map_height;
   const auto number = [&](const char* name) { return plan.numbers.at(name); };
-  canvas.fill({{0, top}, {kWidth, top}, {kWidth, top + kLegend}, {0, top + kLegend}}, kPaper);
-  canvas.text(title, 22, {kMargin, top + 30.0}, kInk);
+  canvas.fill({{0, top},
+               {kPictureWidth, top},
+               {kPictureWidth, top + kSurveyLegend},
+               {0, top + kSurveyLegend}},
+              kPaper);
+  canvas.text(title, 22, {kNumberedMargin, top + 30.0}, kInk);
   canvas.text(
       fmt::format("{} at {:.0f} m: {:.1f} mm a pixel; {:.0f} lanes {:.1f} m apart; {} waypoints; "
                   "{} pictures, overlap {:.0f} % ahead, {:.0f} % aside; {:.1f} km in {:.0f} min",
@@ -269,10 +250,10 @@ render::Image draw_survey(const SurveyRequest& request, const SurveyPlan& plan,
                   number("lane_spacing_m"), plan.path.points.size(), plan.shots.size(),
                   100.0 * number("forward_overlap_min"), 100.0 * number("side_overlap_min"),
                   1e-3 * number("length_m"), number("flight_time_s") / 60.0),
-      16, {kMargin, top + 57.0}, kFaint);
-  draw_legend(canvas, top + 90.0, plan, contour_m, relief.is_flat());
-  draw_scale_bar(canvas, {kWidth - kMargin, top + 96.0}, 0.125 * kWidth / view.px_per_m,
-                 view.px_per_m, kInk);
+      16, {kNumberedMargin, top + 57.0}, kFaint);
+  draw_survey_legend(canvas, top + 90.0, plan, contour_m, relief.is_flat());
+  draw_scale_bar(canvas, {kPictureWidth - kNumberedMargin, top + 96.0},
+                 0.125 * kPictureWidth / view.px_per_m, view.px_per_m, kInk);
   return canvas.image();
 }
 

@@ -52,7 +52,7 @@ void set_values(const std::map<std::string, std::string>& values, ParameterSet& 
 }
 
 /// A place on the command line, "--origin 44.7,8.03".
-GeoOrigin find_origin(const SurveyArguments& arguments) {
+GeoOrigin find_survey_origin(const SurveyArguments& arguments) {
   GeoOrigin origin;
   if (!arguments.origin.empty()) {
     if (arguments.origin.size() > 3 || arguments.origin.size() < 2) {
@@ -103,7 +103,7 @@ SurveyTask task_of_polygon(const SurveyArguments& arguments) {
   }
   SurveyTask task;
   task.title = arguments.polygon.stem().string();
-  task.origin = find_origin(arguments);
+  task.origin = find_survey_origin(arguments);
   task.ground = find_ground(arguments, task.origin);
   ParameterSet parameters(survey_spec().parameters, "survey");
   parameters.set("polygon_file", arguments.polygon.string());

@@ -57,22 +57,23 @@ io::VehicleConfig load_vehicle(const TrimArguments& arguments, const Registry& r
       .vehicles.front();
 }
 
-void check(bool holds, const char* option, double value, const char* allowed) {
+void check_option(bool holds, const char* option, double value, const char* allowed) {
   if (!holds || !std::isfinite(value)) {
     throw ConfigError(fmt::format("trim: --{} = {:g}, must be {}", option, value, allowed));
   }
 }
 
 int trim(const TrimArguments& arguments) {
-  check(std::abs(arguments.climb_deg) < 90.0, "climb", arguments.climb_deg,
-        "between -90 and 90 deg");
-  check(std::abs(arguments.bank_deg) < 90.0, "bank", arguments.bank_deg, "between -90 and 90 deg");
-  check(arguments.period_s > 0.0 && arguments.period_s <= 10.0, "period", arguments.period_s,
-        "> 0 and <= 10 s");
-  check(arguments.speed_mps >= 0.0, "speed", arguments.speed_mps,
-        "> 0 m/s (0: the vehicle's cruise speed)");
-  check(arguments.air_density_kgm3 >= 0.0, "air-density", arguments.air_density_kgm3,
-        "> 0 kg/m3 (0: the vehicle's own)");
+  check_option(std::abs(arguments.climb_deg) < 90.0, "climb", arguments.climb_deg,
+               "between -90 and 90 deg");
+  check_option(std::abs(arguments.bank_deg) < 90.0, "bank", arguments.bank_deg,
+               "between -90 and 90 deg");
+  check_option(arguments.period_s > 0.0 && arguments.period_s <= 10.0, "period", arguments.period_s,
+               "> 0 and <= 10 s");
+  check_option(arguments.speed_mps >= 0.0, "speed", arguments.speed_mps,
+               "> 0 m/s (0: the vehicle's cruise speed)");
+  check_option(arguments.air_density_kgm3 >= 0.0, "air-density", arguments.air_density_kgm3,
+               "> 0 kg/m3 (0: the vehicle's own)");
   const Registry registry = make_registry(arguments.plugins);
   const io::VehicleConfig config = load_vehicle(arguments, registry);
   VehicleContext context;

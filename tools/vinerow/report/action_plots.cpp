@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/math/angles.h"
 #include "tools/vinerow/report/units.h"
@@ -12,9 +11,8 @@
 namespace vinerow::tools::report {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// A vehicle slower than this has no slip worth a line (docs/architecture.md, slip_rms).
-constexpr double kStands_mps = 0.05;
+constexpr double kSlips_mps = 0.05;
 
 /// Angles are shown in degrees.
 double shown(double value, const std::string& unit) {
@@ -38,19 +36,8 @@ Samples column(const Columns& columns, const std::string& name, const Track& tra
   return samples;
 }
 
-LinePlot plot_of(const Track& track, const std::string& title, const std::string& y_label,
-                 const std::string& caption) {
-  LinePlot plot;
-  plot.title = title;
-  plot.y_label = y_label;
-  plot.caption = caption;
-  plot.spans = track.turns();
-  plot.spans_label = track.turns_label;
-  return plot;
-}
-
-void add(const Columns& columns, const std::string& name, const std::string& label,
-         const std::string& style, const Track& track, LinePlot& plot) {
+void add_column(const Columns& columns, const std::string& name, const std::string& label,
+                const std::string& style, const Track& track, LinePlot& plot) {
   Samples samples = column(columns, name, track);
   if (samples.size() > 0) plot.lines.push_back({label, std::move(samples), style});
 }
@@ -91,7 +78,7 @@ std::vector<LinePlot> actuator_plots(const VehicleLog& vehicle, const Track& tra
       found = units.end() - 1;
     }
     LinePlot& plot = plots[static_cast<std::size_t>(found - units.begin())];
-    add(*columns, name, words_of(name), colour(plot.lines.size()), track, plot);
+    add_column(*columns, name, words_of(name), colour(plot.lines.size()), track, plot);
     for (const ActuatorSpec& actuator : vehicle.actuators) {
       if (actuator.name != name) continue;
       plot.limits.push_back({shown(actuator.max, unit), "limit of the actuator"});
@@ -107,10 +94,10 @@ LinePlot steering_plot(const VehicleLog& vehicle, const Track& track) {
                           "(lines). As paper A, figure 19 b.");
   const Columns* columns = vehicle.find("steering");
   if (columns == nullptr) return plot;
-  add(*columns, "front_act_rad", "front, reached", "s0", track, plot);
-  add(*columns, "rear_act_rad", "rear, reached", "s1", track, plot);
-  add(*columns, "front_des_rad", "front, wanted", "s0 dash", track, plot);
-  add(*columns, "rear_des_rad", "rear, wanted", "s1 dash", track, plot);
+  add_column(*columns, "front_act_rad", "front, reached", "s0", track, plot);
+  add_column(*columns, "rear_act_rad", "rear, reached", "s1", track, plot);
+  add_column(*columns, "front_des_rad", "front, wanted", "s0 dash", track, plot);
+  add_column(*columns, "rear_des_rad", "rear, wanted", "s1 dash", track, plot);
   return plot;
 }
 
@@ -121,16 +108,16 @@ std::vector<LinePlot> wrench_plots(const VehicleLog& vehicle, const Track& track
       "What the controller wants (dashed) and what the rotors can give (lines). As paper A, figure "
       "21 b.";
   LinePlot thrust = plot_of(track, "Control actions: thrust", "total thrust, N", caption);
-  add(*columns, "reachable_thrust_N", "reachable", "s0", track, thrust);
-  add(*columns, "wanted_thrust_N", "wanted", "ref", track, thrust);
+  add_column(*columns, "reachable_thrust_N", "reachable", "s0", track, thrust);
+  add_column(*columns, "wanted_thrust_N", "wanted", "ref", track, thrust);
   LinePlot torque = plot_of(
       track, "Control actions: torques", "torque about body axes, N·m",
       "Torques of what the controller wants that the rotors can give. As paper A, figure 21 b.");
   const char* axes[] = {"x", "y", "z"};
   const char* labels[] = {"τφ, roll", "τθ, pitch", "τψ, yaw"};
   for (std::size_t i = 0; i < 3; ++i) {
-    add(*columns, fmt::format("reachable_torque_{}_Nm", axes[i]), labels[i], colour(i), track,
-        torque);
+    add_column(*columns, fmt::format("reachable_torque_{}_Nm", axes[i]), labels[i], colour(i),
+               track, torque);
   }
   return {thrust, torque};
 }
@@ -142,11 +129,11 @@ std::vector<LinePlot> trim_input_plots(const VehicleLog& vehicle, const Track& t
   const std::string caption = "Control less its value in trim. As paper A, figure 11.";
   LinePlot throttle =
       plot_of(track, "Control actions: throttle ΔT", "share of full throttle", caption);
-  add(*columns, "throttle", "ΔT", "s0", track, throttle);
+  add_column(*columns, "throttle", "ΔT", "s0", track, throttle);
   LinePlot surfaces =
       plot_of(track, "Control actions: elevator δe, aileron δa", "from trim, °", caption);
-  add(*columns, "elevator_rad", "δe", "s0", track, surfaces);
-  add(*columns, "aileron_rad", "δa", "s1", track, surfaces);
+  add_column(*columns, "elevator_rad", "δe", "s0", track, surfaces);
+  add_column(*columns, "aileron_rad", "δa", "s1", track, surfaces);
   return {throttle, surfaces};
 }
 
@@ -165,7 +152,7 @@ LinePlot slip_plot(const VehicleLog& vehicle, const Track& track) {
     std::size_t at = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       while (at + 1 < track.t_s.size() && track.t_s[at + 1] <= samples.x[i]) ++at;
-      samples.y[i] = track.speed_mps[at] < kStands_mps ? kNone : 100.0 * samples.y[i];
+      samples.y[i] = track.speed_mps[at] < kSlips_mps ? kNone : 100.0 * samples.y[i];
     }
     plot.lines.push_back({"wheel " + name.substr(6, name.size() - 11), std::move(samples),
                           colour(plot.lines.size())});

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kWidth = 1000, kLeft = 120, kRight = 10, kStrip = 26, kGap = 4, kBottom = 44;
+constexpr double kStripLeft = 120, kStripRight = 10, kStrip = 26, kStripGap = 4, kStripBottom = 44;
 /// More strips make a page of their own; those that nothing reached are left out first.
 constexpr std::size_t kMostStrips = 80;
 
@@ -68,9 +68,9 @@ std::string strips_svg(const CanopyFile& canopy, double full) {
     columns = std::max(columns, patch.along + 1);
     bands = std::max(bands, patch.band + 1);
   }
-  const double bottom = static_cast<double>(strips.size()) * (kStrip + kGap);
-  const Axis x({0.0, columns * canopy.step_m}, kLeft, kWidth - kRight, 10);
-  Svg svg(kWidth, bottom + kBottom, "canopy",
+  const double bottom = static_cast<double>(strips.size()) * (kStrip + kStripGap);
+  const Axis x({0.0, columns * canopy.step_m}, kStripLeft, kWideChart - kStripRight, 10);
+  Svg svg(kWideChart, bottom + kStripBottom, "canopy",
           fmt::format("{} of {} on both sides of every row", canopy.quantity, canopy.payload));
   for (const double tick : x.ticks()) {
     svg.line(x.px(tick), 0, x.px(tick), bottom + 4, "grid");
@@ -79,11 +79,11 @@ std::string strips_svg(const CanopyFile& canopy, double full) {
   svg.text(0.5 * (x.from_px() + x.to_px()), bottom + 38, "along the row, m", "label mid");
   double y = 0.0;
   for (const auto& [key, patches] : strips) {
-    svg.text(kLeft - 8, y + 17,
+    svg.text(kStripLeft - 8, y + 17,
              fmt::format("row {}, {}", key.first, key.second == 0 ? "left" : "right"), "tick end");
     svg.image(x.from_px(), y, x.to_px() - x.from_px(), kStrip,
               render::encode_png(strip_pixels(patches, columns, bands, full)));
-    y += kStrip + kGap;
+    y += kStrip + kStripGap;
   }
   return svg.finish();
 }
@@ -95,11 +95,11 @@ std::string colour_legend(const CanopyFile& canopy, double full) {
     for (std::size_t c = 0; c < 3; ++c) bar.at(i, 0)[c] = static_cast<std::uint8_t>(colour[c]);
     bar.at(i, 0)[3] = 255;
   }
-  Svg svg(1000, 34, "canopy", "scale of colours");
-  svg.text(kLeft, 22, "0", "tick end");
-  svg.image(kLeft + 8, 8, 260, 18, render::encode_png(bar));
+  Svg svg(kWideChart, 34, "canopy", "scale of colours");
+  svg.text(kStripLeft, 22, "0", "tick end");
+  svg.image(kStripLeft + 8, 8, 260, 18, render::encode_png(bar));
   const bool is_wanted = canopy.wanted > 0.0;
-  svg.text(kLeft + 276, 22,
+  svg.text(kStripLeft + 276, 22,
            fmt::format("{} {} {}", number_text(full), canopy.unit,
                        is_wanted ? "or more: enough" : "(the most)"),
            "tick");

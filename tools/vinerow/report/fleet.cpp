@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "tools/vinerow/report/html.h"
 
 namespace vinerow::tools::report {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The metric `clearance` looks no farther.
 constexpr double kClearanceReach_m = 3.0;

@@ -1,6 +1,7 @@
 #pragma once
 /// A plot of lines over time or distance: axes with units, ticks, limits, bands, shaded stretches.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "tools/vinerow/report/decimate.h"
 
 namespace vinerow::tools::report {
+
+/// A value where a line has a gap.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct PlotLine {
   std::string label;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTolerance_px = 0.3;
 /// Around everything, as a share of the larger side.
-constexpr double kMargin = 0.03;
+constexpr double kMarginShare = 0.03;
 /// A parcel that takes less of the whole picture is shown apart.
 constexpr double kSmallParcel = 0.35;
 constexpr double kTurnMargin_m = 3.0;
@@ -168,7 +168,7 @@ void include(const VehicleLog& vehicle, MapView& view) {
 
 std::optional<MapView> with_margin(MapView view) {
   if (view.x.empty()) return std::nullopt;
-  const double margin_m = std::max(1.0, kMargin * std::max(view.x.span(), view.y.span()));
+  const double margin_m = std::max(1.0, kMarginShare * std::max(view.x.span(), view.y.span()));
   for (Range* range : {&view.x, &view.y}) *range = {range->low - margin_m, range->high + margin_m};
   return view;
 }

@@ -1,15 +1,12 @@
 #include "tools/vinerow/report/motion_plots.h"
 
 #include <cmath>
-#include <limits>
 
 #include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::tools::report {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> in_degrees(std::vector<double> angles) {
   for (double& angle : angles) angle = deg_from_rad(angle);
@@ -33,15 +30,6 @@ void add_limits(double limit, const std::string& label, LinePlot& plot) {
   if (!std::isfinite(limit) || limit <= 0.0) return;
   plot.limits.push_back({limit, label});
   plot.limits.push_back({-limit, label});
-}
-
-LinePlot plot_of(const Track& track, const std::string& title, const std::string& y_label) {
-  LinePlot plot;
-  plot.title = title;
-  plot.y_label = y_label;
-  plot.spans = track.turns();
-  plot.spans_label = track.turns_label;
-  return plot;
 }
 
 /// References go on after the work is done; the plot does not.

@@ -67,6 +67,7 @@ foreach(name base64 replay replay_assets replay_decimate replay_glb replay_groun
   list(APPEND replay_sources ${CMAKE_CURRENT_LIST_DIR}/${name}.cpp)
 endforeach()
 add_library(vinerow_replay STATIC ${replay_sources} ${CMAKE_CURRENT_BINARY_DIR}/replay_assets.s)
+vinerow_use_common_headers(vinerow_replay)
 vinerow_compile_together(vinerow_replay 12 ${replay_sources})
 target_link_libraries(vinerow_replay PUBLIC vinerow nlohmann_json::nlohmann_json PRIVATE fmt::fmt)
 if(has_three)

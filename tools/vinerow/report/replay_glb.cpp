@@ -24,14 +24,14 @@ constexpr int kVertices = 34962, kIndices = 34963;
 constexpr double kMostShort = 32767.0;
 
 template <class T>
-void append(std::string& bytes, std::initializer_list<T> values) {
+void append_values(std::string& bytes, std::initializer_list<T> values) {
   for (const T value : values) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
   }
 }
 
 void append_word(std::string& bytes, std::size_t number) {
-  append(bytes, {static_cast<std::uint32_t>(number)});
+  append_values(bytes, {static_cast<std::uint32_t>(number)});
 }
 
 /// To a micrometre: longer numbers are half of a scene's text.
@@ -39,7 +39,7 @@ double rounded(double value) {
   return 1e-6 * std::round(1e6 * value);
 }
 
-json array_of(const Eigen::Vector3d& v) {
+json rounded_array_of(const Eigen::Vector3d& v) {
   return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
 }
 
@@ -141,20 +141,21 @@ int GlbScene::add_mesh(const std::string& name, const render::PreparedMesh& mesh
         ((p - placement.centre_M) / placement.step_m).array().round().cast<int>();
     low = low.cwiseMin(steps);
     high = high.cwiseMax(steps);
-    append(positions, {static_cast<std::int16_t>(steps.x()), static_cast<std::int16_t>(steps.y()),
-                       static_cast<std::int16_t>(steps.z()), std::int16_t{0}});
-    append(normals, {v.normal[0], v.normal[1], v.normal[2], std::int8_t{0}});
+    append_values(positions,
+                  {static_cast<std::int16_t>(steps.x()), static_cast<std::int16_t>(steps.y()),
+                   static_cast<std::int16_t>(steps.z()), std::int16_t{0}});
+    append_values(normals, {v.normal[0], v.normal[1], v.normal[2], std::int8_t{0}});
     if (coloured && cards) {
       // Leaves are many, and the steps of dark colours do not show in their pattern.
-      append(colours, {linear_byte(v.colour[0]), linear_byte(v.colour[1]), linear_byte(v.colour[2]),
-                       std::uint8_t{0}});
+      append_values(colours, {linear_byte(v.colour[0]), linear_byte(v.colour[1]),
+                              linear_byte(v.colour[2]), std::uint8_t{0}});
     } else if (coloured) {
-      append(colours, {linear_short(v.colour[0]), linear_short(v.colour[1]),
-                       linear_short(v.colour[2]), std::uint16_t{0}});
+      append_values(colours, {linear_short(v.colour[0]), linear_short(v.colour[1]),
+                              linear_short(v.colour[2]), std::uint16_t{0}});
     }
     if (cards) {
-      append(uvs,
-             {unsigned_byte(v.uv[0]), unsigned_byte(v.uv[1]), std::uint8_t{0}, std::uint8_t{0}});
+      append_values(
+          uvs, {unsigned_byte(v.uv[0]), unsigned_byte(v.uv[1]), std::uint8_t{0}, std::uint8_t{0}});
     }
   }
   const std::size_t count = mesh.vertices.size();
@@ -178,9 +179,9 @@ int GlbScene::add_mesh(const std::string& name, const render::PreparedMesh& mesh
   std::string corners;
   for (const std::uint32_t i : mesh.indices) {
     if (fits) {
-      append(corners, {static_cast<std::uint16_t>(i)});
+      append_values(corners, {static_cast<std::uint16_t>(i)});
     } else {
-      append(corners, {i});
+      append_values(corners, {i});
     }
   }
   const int indices = add_accessor(corners, 0, fits ? kUnsignedShort : kUnsignedInt, "SCALAR",
@@ -198,7 +199,7 @@ int GlbScene::add_node(const std::string& name, int mesh, const Pose& X_PM, json
   const Placement& placement = placements_.at(static_cast<std::size_t>(mesh));
   json node = {{"name", name},
                {"mesh", mesh},
-               {"translation", array_of(X_PM * placement.centre_M)},
+               {"translation", rounded_array_of(X_PM * placement.centre_M)},
                {"rotation", rotation_of(X_PM.q)},
                {"scale", uniform_scale(placement.step_m)}};
   if (!extras.is_null()) node["extras"] = std::move(extras);
@@ -210,7 +211,7 @@ int GlbScene::add_node(const std::string& name, int mesh, const Pose& X_PM, json
 
 int GlbScene::add_frame(const std::string& name, const Pose& X_PF, json extras) {
   json node = {
-      {"name", name}, {"translation", array_of(X_PF.p)}, {"rotation", rotation_of(X_PF.q)}};
+      {"name", name}, {"translation", rounded_array_of(X_PF.p)}, {"rotation", rotation_of(X_PF.q)}};
   if (!extras.is_null()) node["extras"] = std::move(extras);
   root_["nodes"].push_back(std::move(node));
   const int index = static_cast<int>(root_["nodes"].size()) - 1;

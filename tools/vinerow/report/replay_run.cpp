@@ -13,7 +13,7 @@
 namespace vinerow::tools {
 namespace {
 
-std::filesystem::path log_of(const std::filesystem::path& run) {
+std::filesystem::path log_to_replay(const std::filesystem::path& run) {
   if (!std::filesystem::is_directory(run)) return run;
   const std::filesystem::path log = run / "log.mcap";
   if (!std::filesystem::exists(log)) {
@@ -52,7 +52,7 @@ std::vector<ReplayPhase> phases_of_summary(const std::string& summary,
 }
 
 ReplayRun read_replay_run(const std::filesystem::path& run, const Registry& registry) {
-  const std::filesystem::path log = log_of(run);
+  const std::filesystem::path log = log_to_replay(run);
   ReplayRun result;
   result.scenario = scenario_of_log(log, registry);
   result.world = build_world(result.scenario, registry);

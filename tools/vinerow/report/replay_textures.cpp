@@ -22,8 +22,8 @@ std::vector<Pixels> levels_from(std::vector<Pixels> levels, int size) {
   return {found, levels.end()};
 }
 
-void add(ReplayTextures& textures, const std::string& name, const std::vector<Pixels>& levels,
-         const std::vector<int>& channels) {
+void add_texture(ReplayTextures& textures, const std::string& name,
+                 const std::vector<Pixels>& levels, const std::vector<int>& channels) {
   textures.index[name] = {{"offset", textures.bytes.size()},
                           {"size", levels.front().width},
                           {"levels", levels.size()},
@@ -50,12 +50,14 @@ ReplayTextures make_replay_textures(const Daylight& daylight) {
       {"leaf", render::kLeafSingle}, {"spray", render::kLeafSpray}, {"clump", render::kLeafClump}};
   for (const auto& [name, layer] : pictures) {
     const Pixels& card = cards[static_cast<std::size_t>(layer)];
-    add(textures, name, levels_from(render::mip_chain_with_coverage(card), kCardSize), {0, 3});
+    add_texture(textures, name, levels_from(render::mip_chain_with_coverage(card), kCardSize),
+                {0, 3});
   }
   const std::pair<const char*, const Pixels&> tiles[] = {{"ground", render::ground_texture()},
                                                          {"noise", render::noise_texture()}};
   for (const auto& [name, tile] : tiles) {
-    add(textures, name, {levels_from(render::mip_chain(tile), kTileSize).front()}, {0, 1, 2, 3});
+    add_texture(textures, name, {levels_from(render::mip_chain(tile), kTileSize).front()},
+                {0, 1, 2, 3});
   }
 
   const render::Light light = render::make_light(daylight);
@@ -68,7 +70,7 @@ ReplayTextures make_replay_textures(const Daylight& daylight) {
           std::lround(255.0 * std::sqrt(std::clamp(0.5 * seen, 0.0, 1.0))));
     }
   }
-  add(textures, "sky", {sky}, {0, 1, 2});
+  add_texture(textures, "sky", {sky}, {0, 1, 2});
   return textures;
 }
 

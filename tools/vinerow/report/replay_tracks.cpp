@@ -25,7 +25,7 @@ constexpr double kFixed_m = 5e-4, kFixed_rad = 2e-3;
 /// told from them.
 constexpr double kSpin_rad = 1.0;
 template <class T>
-std::size_t append(std::string& bytes, const std::vector<T>& values) {
+std::size_t append_block(std::string& bytes, const std::vector<T>& values) {
   while (bytes.size() % 4 != 0) bytes += '\0';
   const std::size_t begin = bytes.size();
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
@@ -144,7 +144,7 @@ json link_index(const std::string& name, const std::vector<Pose>& X_BL,
     for (const Pose& pose : X_BL) {
       for (int c = 0; c < 3; ++c) positions.push_back(steps_of<std::int16_t>(pose.p[c], 1e-3));
     }
-    index["positions"] = append(bytes, positions);
+    index["positions"] = append_block(bytes, positions);
   }
   if (spin) {
     std::vector<std::uint8_t> spins;
@@ -153,14 +153,14 @@ json link_index(const std::string& name, const std::vector<Pose>& X_BL,
                         from = std::min(i, next - (next > 0));
       spins.push_back(X_BL[from].q.angularDistance(X_BL[next].q) > kFixed_rad);
     }
-    index["spins"] = append(bytes, spins);
+    index["spins"] = append_block(bytes, spins);
     index["axis"] = {spin->x(), spin->y(), spin->z()};
   } else if (turned_rad > kFixed_rad) {
     std::vector<Eigen::Quaterniond> rotations;
     for (const Pose& pose : X_BL) rotations.push_back(pose.q);
     std::vector<std::int16_t> values;
     append_rotations(rotations, values);
-    index["rotations"] = append(bytes, values);
+    index["rotations"] = append_block(bytes, values);
   }
   return index;
 }
@@ -195,16 +195,16 @@ json vehicle_index(const ReplayInput& input, std::size_t v, double rate_Hz, std:
       {"size_m", 2.0 * description.collision_half_extents_m.head<2>().maxCoeff()},
       {"top_m", description.collision_centre_B.z() + description.collision_half_extents_m.z()},
       {"samples", times.size()}};
-  index["times"] = append(bytes, times);
-  index["positions"] = append(bytes, positions);
-  index["rotations"] = append(bytes, rotation_values);
+  index["times"] = append_block(bytes, times);
+  index["positions"] = append_block(bytes, positions);
+  index["rotations"] = append_block(bytes, rotation_values);
   if (description.flies() && input.world->terrain) {
     std::vector<float> heights_m;
     for (const Pose& X_WB : samples.X_WB) {
       heights_m.push_back(
           static_cast<float>(X_WB.p.z() - input.world->terrain->height_m(X_WB.p.x(), X_WB.p.y())));
     }
-    index["heights"] = append(bytes, heights_m);
+    index["heights"] = append_block(bytes, heights_m);
   }
   index["links"] = json::array();
   for (std::size_t l = 0; l < vehicle.links().size(); ++l) {

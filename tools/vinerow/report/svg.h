@@ -8,6 +8,9 @@
 
 namespace vinerow::tools::report {
 
+/// Pixels of a picture as wide as the page.
+inline constexpr double kWideChart = 1000;
+
 /// A place on the picture as text, to a hundredth of a pixel, without trailing zeros.
 std::string px(double value);
 

@@ -14,11 +14,10 @@
 namespace vinerow::tools::report {
 namespace {
 
-constexpr double kWidth = 1000, kLeft = 150, kNote = 120, kRow = 26, kBottom = 42, kTop = 4,
-                 kMargin = 16;
+constexpr double kLabels = 150, kNote = 120, kRow = 26, kTimes = 42, kTop = 4, kBorder = 16;
 constexpr double kSliver_px = 5.0;
 
-std::string joined(const Json& names) {
+std::string listed(const Json& names) {
   std::string out;
   for (const Json& name : names) {
     if (name.is_string()) out += (out.empty() ? "" : ", ") + name.get<std::string>();
@@ -36,7 +35,7 @@ std::string style_of(const std::string& state) {
 
 std::string who(const Json& phase) {
   return phase.value("kind", "") == "job" ? "job " + phase.value("job", "")
-                                          : joined(list_in(phase, "vehicles"));
+                                          : listed(list_in(phase, "vehicles"));
 }
 
 std::string span_text(const Json& phase) {
@@ -134,10 +133,10 @@ std::vector<TimeBar> bars_of(const VehicleLog& vehicle, const Track& track) {
 std::string time_line(const std::vector<TimeRow>& rows, double end_s, const std::string& label) {
   if (rows.empty() || !(end_s > 0.0)) return "";
   const double bottom = kTop + kRow * static_cast<double>(rows.size());
-  Svg svg(kWidth, bottom + kBottom, "time", label);
+  Svg svg(kWideChart, bottom + kTimes, "time", label);
   const bool has_notes =
       std::any_of(rows.begin(), rows.end(), [](const TimeRow& row) { return !row.note.empty(); });
-  const Axis x({0.0, end_s}, kLeft, kWidth - (has_notes ? kNote : kMargin), 10);
+  const Axis x({0.0, end_s}, kLabels, kWideChart - (has_notes ? kNote : kBorder), 10);
   for (const double tick : x.ticks()) {
     svg.line(x.px(tick), kTop, x.px(tick), bottom + 4, "grid");
     svg.text(x.px(tick), bottom + 18, x.text(tick), "tick mid");
@@ -146,7 +145,7 @@ std::string time_line(const std::vector<TimeRow>& rows, double end_s, const std:
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const TimeRow& row = rows[i];
     const double y = kTop + kRow * static_cast<double>(i);
-    svg.text(kLeft - 10, y + 17, row.label, "label end");
+    svg.text(kLabels - 10, y + 17, row.label, "label end");
     svg.rect(x.from_px(), y + 4, x.to_px() - x.from_px(), kRow - 8, "lane");
     for (const TimeBar& bar : row.bars) {
       const double from = x.px(std::clamp(bar.from_s, 0.0, end_s));
@@ -237,7 +236,7 @@ std::string phase_table(const RunFolder& run) {
     }
     rows.push_back(
         {fmt::format("<strong>{}</strong>", escaped(phase.value("name", ""))), escaped(who(phase)),
-         escaped(joined(list_in(phase, "after"))),
+         escaped(listed(list_in(phase, "after"))),
          fmt::format("<span class=\"badge {}\">{}</span>", style_of(state), escaped(state)),
          number_cell(number_of(phase.value("begin_s", Json()))),
          number_cell(number_of(phase.value("end_s", Json()))), escaped(phase.value("reason", "")),

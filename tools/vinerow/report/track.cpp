@@ -1,7 +1,6 @@
 #include "tools/vinerow/report/track.h"
 
 #include <cmath>
-#include <limits>
 
 #include "engine/api/plan_stretch.h"
 #include "engine/math/angles.h"
@@ -9,9 +8,8 @@
 namespace vinerow::tools::report {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// Slower than this for good, it has ended its work.
-constexpr double kStands_mps = 0.02;
+constexpr double kStandsForGood_mps = 0.02;
 /// So long it is shown standing.
 constexpr double kShown_s = 2.0;
 
@@ -19,7 +17,7 @@ constexpr double kShown_s = 2.0;
 std::size_t end_of_work(const Trace<Odometry>& truth) {
   std::size_t last = 0;
   for (std::size_t i = 0; i < truth.values.size(); ++i) {
-    if (truth.values[i].v_WB_B.norm() > kStands_mps) last = i;
+    if (truth.values[i].v_WB_B.norm() > kStandsForGood_mps) last = i;
   }
   std::size_t end = last;
   while (end < truth.times.size() && (truth.times[end] - truth.times[last]).s() <= kShown_s) ++end;
@@ -99,6 +97,17 @@ Track make_track(const VehicleLog& vehicle) {
     track.in_turn.push_back(values.in_turn ? 1 : 0);
   }
   return track;
+}
+
+LinePlot plot_of(const Track& track, const std::string& title, const std::string& y_label,
+                 const std::string& caption) {
+  LinePlot plot;
+  plot.title = title;
+  plot.y_label = y_label;
+  plot.caption = caption;
+  plot.spans = track.turns();
+  plot.spans_label = track.turns_label;
+  return plot;
 }
 
 std::vector<PlotSpan> Track::turns() const {

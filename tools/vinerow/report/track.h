@@ -29,6 +29,10 @@ struct Track {
 
 Track make_track(const VehicleLog& vehicle);
 
+/// An empty plot over the time that the vehicle is at work, its turns shaded.
+LinePlot plot_of(const Track& track, const std::string& title, const std::string& y_label,
+                 const std::string& caption = "");
+
 /// Adds whole turns, so that `angle_rad` is the one next to `near_rad`.
 double next_to(double angle_rad, double near_rad);
 

@@ -87,7 +87,7 @@ std::vector<std::string> phase_failures(const RunFolder& run) {
   return told;
 }
 
-std::string joined(const std::vector<std::string>& parts) {
+std::string sentence_of(const std::vector<std::string>& parts) {
   constexpr std::size_t kMost = 3;
   std::string out;
   for (std::size_t i = 0; i < parts.size() && i < kMost; ++i) {
@@ -136,7 +136,8 @@ Verdict make_verdict(const RunFolder& run) {
       verdict.headline += fmt::format(": {} of {} missed", missed,
                                       counted(static_cast<long>(criteria.size()), "requirement"));
     }
-    verdict.sentence = faults.empty() ? sentence_case(run.text("status")) + "." : joined(faults);
+    verdict.sentence =
+        faults.empty() ? sentence_case(run.text("status")) + "." : sentence_of(faults);
   } else if (criteria.empty()) {
     verdict = {Verdict::Kind::kOpen, "The run came to its end",
                "Its scenario sets no requirement, so there is nothing to judge."};

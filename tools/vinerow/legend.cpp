@@ -1,0 +1,17 @@
+#include "tools/vinerow/legend.h"
+
+#include <vector>
+
+#include "tools/vinerow/picture_style.h"
+
+namespace vinerow::tools {
+
+void draw_legend_patch(Canvas& canvas, double x, double y, const Rgb& colour,
+                       const std::string& words) {
+  const std::vector<Eigen::Vector2d> patch = {{x, y}, {x + 22, y}, {x + 22, y + 15}, {x, y + 15}};
+  canvas.fill(patch, colour);
+  canvas.outline(patch, 1.0, kFaint, 0.6);
+  canvas.text(words, 16, {x + 30, y + 13.5}, kInk);
+}
+
+}  // namespace vinerow::tools

@@ -7,9 +7,8 @@
 #include "tests/worlds/mapping/cloud/synthetic_parcel.h"
 #include "worlds/mapping/cloud/make_cloud_map.h"
 
+namespace vinerow::worlds::cloud_map_bench {
 namespace {
-
-using namespace vinerow::worlds;
 
 void bm_cloud_map(benchmark::State& state) {
   test::SyntheticParcel parcel;
@@ -44,3 +43,4 @@ BENCHMARK(bm_cloud_map)
     ->UseRealTime();
 
 }  // namespace
+}  // namespace vinerow::worlds::cloud_map_bench

@@ -9,7 +9,7 @@
 #include "engine/api/vehicle.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::dwa_bench {
 namespace {
 
 VehicleDescription make_vehicle() {
@@ -105,4 +105,4 @@ BENCHMARK_CAPTURE(dwa_tick, pure_polygon, true, true, false)->Unit(benchmark::kM
 BENCHMARK_CAPTURE(dwa_tick, pure_polygon_obstacle, true, true, true)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::dwa_bench

@@ -6,7 +6,7 @@
 #include "tests/benchmarks/bench_worlds.h"
 #include "vehicles/fixed_wing/fixed_wing.h"
 
-namespace vinerow {
+namespace vinerow::fixed_wing_bench {
 namespace {
 
 constexpr Duration kStep{1'000'000};
@@ -83,4 +83,4 @@ void load_of_fixed_wing(benchmark::State& state) {
 BENCHMARK(load_of_fixed_wing);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::fixed_wing_bench

@@ -9,7 +9,7 @@
 #include "controllers/parts/path_pieces.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::four_wheel_steering_bench {
 namespace {
 
 VehicleDescription steered_rover() {
@@ -101,4 +101,4 @@ void wheel_speed_qp(benchmark::State& state) {
 BENCHMARK(wheel_speed_qp)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::four_wheel_steering_bench

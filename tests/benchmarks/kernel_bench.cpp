@@ -6,7 +6,7 @@
 #include "engine/sim/scheduler.h"
 #include "tests/benchmarks/bench_worlds.h"
 
-namespace vinerow {
+namespace vinerow::kernel_bench {
 namespace {
 
 constexpr Duration kStep{1'000'000};
@@ -98,4 +98,4 @@ void scheduler_overhead(benchmark::State& state) {
 BENCHMARK(scheduler_overhead)->Unit(benchmark::kNanosecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::kernel_bench

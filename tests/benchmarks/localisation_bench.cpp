@@ -16,7 +16,7 @@
 #include "tests/controllers/estimation/map_localisation_lab.h"
 #include "tests/controllers/support/row_mesh_map.h"
 
-namespace vinerow::bench {
+namespace vinerow::bench::localisation_bench {
 namespace {
 
 using Eigen::Vector3d;
@@ -147,7 +147,7 @@ BENCHMARK(ground_between_rows)->Unit(benchmark::kMicrosecond);
 
 /// error_state_kalman on a lively course of 60 s, 5 Hz fixes of position and velocity.
 void step_of_error_state_kalman(benchmark::State& state) {
-  const test::Course course = test::lively_course();
+  const test::ImuCourse course = test::lively_course();
   Steps predictions, fixes;
   for (auto _ : state) {
     for (int replay = 0; replay < kReplays; ++replay) {
@@ -202,4 +202,4 @@ BENCHMARK(index_of_row_meshes)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace vinerow::bench
+}  // namespace vinerow::bench::localisation_bench

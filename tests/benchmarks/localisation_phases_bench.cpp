@@ -14,7 +14,7 @@
 #include "tests/benchmarks/localisation_timing.h"
 #include "tests/controllers/estimation/map_localisation_lab.h"
 
-namespace vinerow::bench {
+namespace vinerow::bench::localisation_phases_bench {
 namespace {
 
 using Eigen::Matrix2d;
@@ -251,4 +251,4 @@ void slice_of_the_map(benchmark::State& state) {
 BENCHMARK(slice_of_the_map)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace vinerow::bench
+}  // namespace vinerow::bench::localisation_phases_bench

@@ -9,7 +9,7 @@
 #include "engine/physics/physics_world.h"
 #include "tests/benchmarks/bench_worlds.h"
 
-namespace vinerow {
+namespace vinerow::memory_bench {
 namespace {
 
 double peak_resident_MB() {
@@ -61,4 +61,4 @@ void memory_of_parcel_f(benchmark::State& state) {
 BENCHMARK(memory_of_parcel_f)->Unit(benchmark::kSecond)->Iterations(1);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::memory_bench

@@ -17,7 +17,7 @@
 #include "controllers/parts/riccati.h"
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::mpc_bench {
 namespace {
 
 using Eigen::MatrixXd;
@@ -188,4 +188,4 @@ void linear_mpc_carts(benchmark::State& state) {
 BENCHMARK(linear_mpc_carts)->Iterations(4000)->UseManualTime()->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::mpc_bench

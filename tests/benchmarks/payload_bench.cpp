@@ -7,7 +7,7 @@
 #include "tests/benchmarks/bench_worlds.h"
 #include "vehicles/payloads/canopy_patches.h"
 
-namespace vinerow {
+namespace vinerow::payload_bench {
 namespace {
 
 struct Vineyard {
@@ -107,4 +107,4 @@ void canopy_patch_lookup(benchmark::State& state) {
 BENCHMARK(canopy_patch_lookup)->Unit(benchmark::kNanosecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::payload_bench

@@ -7,7 +7,7 @@
 #include "tests/benchmarks/bench_worlds.h"
 #include "tests/support/paths.h"
 
-namespace vinerow {
+namespace vinerow::picture_bench {
 namespace {
 
 void frame_of_riseholme(benchmark::State& state) {
@@ -31,4 +31,4 @@ void frame_of_riseholme(benchmark::State& state) {
 BENCHMARK(frame_of_riseholme)->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::picture_bench

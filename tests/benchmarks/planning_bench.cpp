@@ -9,7 +9,7 @@
 #include "engine/math/angles.h"
 #include "tests/benchmarks/bench_worlds.h"
 
-namespace vinerow {
+namespace vinerow::planning_bench {
 namespace {
 
 struct ParcelF {
@@ -79,4 +79,4 @@ BENCHMARK_CAPTURE(plan_with_rrt_star, whole_parcel, {}, 3)
     ->Iterations(1);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::planning_bench

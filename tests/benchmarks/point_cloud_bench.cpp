@@ -17,7 +17,7 @@
 #include "engine/io/point_cloud_writer.h"
 #include "worlds/mapping/cloud/reading/read_cloud.h"
 
-namespace vinerow {
+namespace vinerow::point_cloud_bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ BENCHMARK_CAPTURE(read_parcel, ply, "ply")->Arg(kParcelF)->Unit(benchmark::kMill
 BENCHMARK_CAPTURE(read_parcel, xyz, "xyz")->Arg(kParcelF)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::point_cloud_bench

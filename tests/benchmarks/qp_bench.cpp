@@ -16,7 +16,7 @@
 #include "controllers/parts/qp.h"
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::qp_bench {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -259,4 +259,4 @@ void wheel_speed_qp(benchmark::State& state) {
 BENCHMARK(wheel_speed_qp)->Unit(benchmark::kNanosecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::qp_bench

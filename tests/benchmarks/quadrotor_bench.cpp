@@ -6,7 +6,7 @@
 #include "tests/benchmarks/bench_worlds.h"
 #include "vehicles/quadrotor/quadrotor.h"
 
-namespace vinerow {
+namespace vinerow::quadrotor_bench {
 namespace {
 
 constexpr Duration kStep{1'000'000};
@@ -97,4 +97,4 @@ BENCHMARK(step_of_quadrotor_standing)->Unit(benchmark::kMicrosecond);
 BENCHMARK(step_of_quadrotor_beside_leaves)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::quadrotor_bench

@@ -15,7 +15,7 @@
 #include "engine/core/random.h"
 #include "tests/controllers/quadrotor_mpc/mpc_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::quadrotor_mpc_bench {
 namespace {
 
 double processor_us() {
@@ -80,4 +80,4 @@ void tick_of_quadrotor_mpc(benchmark::State& state) {
 BENCHMARK(tick_of_quadrotor_mpc)->Arg(0)->Arg(1)->ArgName("upset")->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::quadrotor_mpc_bench

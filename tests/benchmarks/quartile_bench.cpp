@@ -7,7 +7,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/planning/hand_grids.h"
 
-namespace vinerow {
+namespace vinerow::quartile_bench {
 namespace {
 
 using hand_grids::Vineyard;
@@ -116,4 +116,4 @@ void turns_of_a_parcel(benchmark::State& state) {
 BENCHMARK(turns_of_a_parcel)->Unit(benchmark::kMillisecond)->Iterations(5);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::quartile_bench

@@ -6,7 +6,7 @@
 #include "engine/physics/physics_world.h"
 #include "tests/benchmarks/bench_worlds.h"
 
-namespace vinerow {
+namespace vinerow::ray_bench {
 namespace {
 
 struct Vineyard {
@@ -64,4 +64,4 @@ void distance_of_rover_box(benchmark::State& state) {
 BENCHMARK(distance_of_rover_box)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::ray_bench

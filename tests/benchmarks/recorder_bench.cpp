@@ -8,7 +8,7 @@
 #include "engine/core/random.h"
 #include "engine/record/recorder.h"
 
-namespace vinerow {
+namespace vinerow::recorder_bench {
 namespace {
 
 void record_odometry_and_imu(benchmark::State& state) {
@@ -48,4 +48,4 @@ void record_odometry_and_imu(benchmark::State& state) {
 BENCHMARK(record_odometry_and_imu)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::recorder_bench

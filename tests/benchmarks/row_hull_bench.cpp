@@ -6,9 +6,8 @@
 #include "tests/worlds/mapping/cloud/synthetic_canopy.h"
 #include "worlds/mapping/cloud/hulls/row_hull.h"
 
+namespace vinerow::row_hull_bench {
 namespace {
-
-using namespace vinerow;
 
 void bm_row_hulls(benchmark::State& state) {
   std::vector<worlds::RowCanopy> rows;
@@ -30,3 +29,4 @@ void bm_row_hulls(benchmark::State& state) {
 BENCHMARK(bm_row_hulls)->Arg(1)->Arg(4)->Arg(16)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
+}  // namespace vinerow::row_hull_bench

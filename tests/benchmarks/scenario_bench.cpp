@@ -9,7 +9,7 @@
 #include "tests/support/paths.h"
 #include "tools/parts/register_all.h"
 
-namespace vinerow {
+namespace vinerow::scenario_bench {
 namespace {
 
 void whole_scenario(benchmark::State& state, const char* name) {
@@ -43,4 +43,4 @@ BENCHMARK_CAPTURE(whole_scenario, survey, "survey_turbulence")
     ->Iterations(3);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::scenario_bench

@@ -14,7 +14,7 @@
 
 #include "tests/controllers/trmpc/wing_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::trmpc_bench {
 namespace {
 
 double processor_us() {
@@ -71,4 +71,4 @@ BENCHMARK(tick_of_trmpc)
     ->Iterations(1);
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::trmpc_bench

@@ -7,7 +7,7 @@
 #include "tests/benchmarks/bench_worlds.h"
 #include "vehicles/parts/wind_probe.h"
 
-namespace vinerow {
+namespace vinerow::wind_bench {
 namespace {
 
 constexpr Duration kStep{1'000'000};
@@ -58,4 +58,4 @@ void wind_probe_building(benchmark::State& state) {
 BENCHMARK(wind_probe_building)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::wind_bench

@@ -12,12 +12,12 @@
 #include "tests/controllers/support/aircraft_loop.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::aircraft_conformance_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-class EveryAircraftController : public testing::TestWithParam<std::string> {
+class EveryAircraftController : public ::testing::TestWithParam<std::string> {
  protected:
   AircraftLoopSetup make_setup() const {
     AircraftLoopSetup setup;
@@ -347,8 +347,8 @@ TEST_P(EveryAircraftController, DocumentsItsParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, EveryAircraftController,
-                         testing::ValuesIn(controllers_that_write("deviation")),
+                         ::testing::ValuesIn(controllers_that_write("deviation")),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::aircraft_conformance_test

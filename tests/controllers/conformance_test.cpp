@@ -13,7 +13,7 @@
 #include "tests/controllers/support/row_mesh_map.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::conformance_test {
 namespace {
 
 /// Two alleys of 20 m, 5 m apart, and the turn between them; rotated and mirrored about the origin.
@@ -36,7 +36,7 @@ MissionSetup make_small_mission(const std::string& controller, double angle_rad 
   return setup;
 }
 
-class EveryController : public testing::TestWithParam<std::string> {};
+class EveryController : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryController, FinishesNearThePathsEndWithFiniteCommands) {
   const MissionResult result = run_mission(make_small_mission(GetParam()));
@@ -260,7 +260,7 @@ TEST_P(EveryController, DocumentsItsParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, EveryController,
-                         testing::ValuesIn(controllers_that_read("plan")),
+                         ::testing::ValuesIn(controllers_that_read("plan")),
                          [](const auto& test) { return test.param; });
 
 TEST(Controllers, AreEachRunByOneOfTheThreeSuites) {
@@ -279,7 +279,7 @@ TEST(Controllers, AreEachRunByOneOfTheThreeSuites) {
   EXPECT_GE(wings.size(), 2u);
 }
 
-class EveryEstimator : public testing::TestWithParam<std::string> {};
+class EveryEstimator : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryEstimator, AllocatesNothing) {
   const VehicleDescription description = make_rover_description();
@@ -339,8 +339,8 @@ TEST_P(EveryEstimator, AllocatesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, EveryEstimator,
-                         testing::ValuesIn(parts().names(PartKind::kEstimator)),
+                         ::testing::ValuesIn(parts().names(PartKind::kEstimator)),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::conformance_test

@@ -10,14 +10,14 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/flight_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::flight_conformance_test {
 namespace {
 
 constexpr double kTiltLimit_rad = 25.0 * kPi / 180.0;
 /// What the tilt may swing beyond the wanted one.
 constexpr double kTiltSwing_rad = 2.5 * kPi / 180.0;
 
-class EveryFlightController : public testing::TestWithParam<std::string> {
+class EveryFlightController : public ::testing::TestWithParam<std::string> {
  protected:
   FlightSetup make_setup(const QuadrotorNumbers& numbers = make_q4t()) const {
     FlightSetup setup;
@@ -266,8 +266,8 @@ TEST_P(EveryFlightController, DoesNotCareForDirections) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, EveryFlightController,
-                         testing::ValuesIn(controllers_that_write("wrench")),
+                         ::testing::ValuesIn(controllers_that_write("wrench")),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::flight_conformance_test

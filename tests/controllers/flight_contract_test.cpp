@@ -10,10 +10,10 @@
 #include "tests/controllers/support/flight_loop.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::flight_contract_test {
 namespace {
 
-class FlightContract : public testing::TestWithParam<std::string> {
+class FlightContract : public ::testing::TestWithParam<std::string> {
  protected:
   FlightSetup make_setup() const {
     FlightSetup setup;
@@ -183,8 +183,8 @@ TEST_P(FlightContract, DocumentsItsParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Controllers, FlightContract,
-                         testing::ValuesIn(controllers_that_write("wrench")),
+                         ::testing::ValuesIn(controllers_that_write("wrench")),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::flight_contract_test

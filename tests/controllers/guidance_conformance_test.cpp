@@ -17,7 +17,7 @@
 #include "tests/controllers/waypoint_guidance/air_bench.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::guidance_conformance_test {
 namespace {
 
 const Registry& all_parts() {
@@ -122,7 +122,7 @@ struct Bench {
   SignalReader<LocalCommand> command;
 };
 
-class EveryGroundGuidance : public testing::TestWithParam<std::string> {};
+class EveryGroundGuidance : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryGroundGuidance, StandsStillWithoutPlanOrEstimate) {
   Bench bench(GetParam());
@@ -204,11 +204,11 @@ TEST_P(EveryGroundGuidance, RefusesVehiclesItDoesNotKnowHowToDrive) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Guidances, EveryGroundGuidance,
-                         testing::ValuesIn(guidances_that_write("local_command")),
+                         ::testing::ValuesIn(guidances_that_write("local_command")),
                          [](const auto& test) { return test.param; });
 
 /// A guidance of flying vehicles and a straight plan of 20 m in the air.
-class EveryFlightGuidance : public testing::TestWithParam<std::string> {
+class EveryFlightGuidance : public ::testing::TestWithParam<std::string> {
  protected:
   static PlannedPath make_flight() {
     PlannedPath plan;
@@ -392,12 +392,12 @@ TEST_P(EveryFlightGuidance, RefusesVehiclesThatDoNotFly) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Guidances, EveryFlightGuidance,
-                         testing::ValuesIn(guidances_that_write("reference",
+                         ::testing::ValuesIn(guidances_that_write("reference",
                                                                 "ReferenceTrajectory")),
                          [](const auto& test) { return test.param; });
 
 /// A guidance of vehicles on wings, a square in the air and a launcher beside it.
-class EveryAirGuidance : public testing::TestWithParam<std::string> {
+class EveryAirGuidance : public ::testing::TestWithParam<std::string> {
  protected:
   static PlannedPath make_flight() {
     return make_waypoints({{100, 0, 40}, {300, 0, 40}, {300, 200, 45}, {100, 200, 40}});
@@ -488,10 +488,10 @@ TEST_P(EveryAirGuidance, RefusesVehiclesWithoutWings) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Guidances, EveryAirGuidance,
-                         testing::ValuesIn(guidances_that_write("reference", "AirReference")),
+                         ::testing::ValuesIn(guidances_that_write("reference", "AirReference")),
                          [](const auto& test) { return test.param; });
 
-class EveryGuidance : public testing::TestWithParam<std::string> {};
+class EveryGuidance : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryGuidance, DocumentsItsParametersAndSignals) {
   const PartSpec& spec = all_parts().spec(PartKind::kGuidance, GetParam());
@@ -513,8 +513,8 @@ TEST_P(EveryGuidance, IsOfOneOfTheKindsTestedHere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Guidances, EveryGuidance,
-                         testing::ValuesIn(all_parts().names(PartKind::kGuidance)),
+                         ::testing::ValuesIn(all_parts().names(PartKind::kGuidance)),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::guidance_conformance_test

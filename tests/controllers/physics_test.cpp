@@ -16,7 +16,7 @@
 #include "tests/support/paths.h"
 #include "vinerow/testing.h"
 
-namespace vinerow::test {
+namespace vinerow::test::physics_test {
 namespace {
 
 std::map<std::string, double> drive(const std::vector<std::string>& sets) {
@@ -150,4 +150,4 @@ TEST(PathFollowerOnTheSlope, StandsWhereItsAuthorityEnds) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::physics_test

@@ -1,17 +1,28 @@
 # Tests of what solves: quadratic and linear programmes, Riccati equations, sets.
-vinerow_add_test(qp_test
-  SOURCES
-    parts/qp_contract_test.cpp
-    parts/qp_mpc_benchmark_test.cpp
-    parts/qp_random_test.cpp
-    parts/qp_support.cpp
-    parts/qp_test.cpp
-  LIBS vinerow_controllers vinerow_no_alloc)
+vinerow_add_test(solvers_test
+  SOURCES parts/discretise_test.cpp
+          parts/ellipsoid_test.cpp
+          parts/fixed_wing_sets_test.cpp
+          parts/invariant_set_test.cpp
+          parts/linear_mpc_contract_test.cpp
+          parts/linear_mpc_test.cpp
+          parts/linear_programme_test.cpp
+          parts/polytope_test.cpp
+          parts/qp_contract_test.cpp
+          parts/qp_mpc_benchmark_test.cpp
+          parts/qp_random_test.cpp
+          parts/qp_test.cpp
+          parts/riccati_test.cpp
+          parts/tube_mpc_test.cpp
+          parts/tube_sets_test.cpp
+          parts/zonotope_test.cpp
+  LIBS ${LIBS}
+  SHARDS 4)
 
 # The QP solver judged from Python. numpy and cvxopt are packages of the system's python3, which need
 # not be the first on the path; without them, or without the data, the tests are skipped.
-add_executable(qp_solve_files parts/qp_solve_files.cpp parts/qp_support.cpp)
-target_link_libraries(qp_solve_files PRIVATE vinerow_controllers)
+add_executable(qp_solve_files parts/qp_solve_files.cpp)
+target_link_libraries(qp_solve_files PRIVATE vinerow_controller_test_support vinerow_controllers)
 find_program(SYSTEM_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(SYSTEM_PYTHON NAMES python3 REQUIRED)
 add_test(NAME qp_python.mpc_benchmark
@@ -21,15 +32,6 @@ add_test(NAME qp_python.cvxopt
          COMMAND ${SYSTEM_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/parts/qp_cvxopt_check.py
                  $<TARGET_FILE:qp_solve_files>)
 set_tests_properties(qp_python.mpc_benchmark qp_python.cvxopt PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
-
-vinerow_add_test(optimal_control_test
-  SOURCES
-    parts/discretise_test.cpp
-    parts/linear_mpc_contract_test.cpp
-    parts/linear_mpc_support.cpp
-    parts/linear_mpc_test.cpp
-    parts/riccati_test.cpp
-  LIBS vinerow_controllers vinerow_no_alloc)
 
 add_executable(optimal_control_files parts/optimal_control_files.cpp)
 target_link_libraries(optimal_control_files PRIVATE vinerow_controllers)
@@ -43,27 +45,12 @@ set_tests_properties(optimal_control_python.scipy optimal_control_python.cvxopt
                      PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 
 # The mixer outside its limits judged by linear programmes of cvxopt.
-add_executable(mix_rotors parts/mix_rotors.cpp support/quadrotor_sim.cpp)
-target_link_libraries(mix_rotors PRIVATE vinerow_controllers)
+add_executable(mix_rotors parts/mix_rotors.cpp)
+target_link_libraries(mix_rotors PRIVATE vinerow_controller_test_support vinerow_controllers)
 add_test(NAME rotor_mixer_python.cvxopt
          COMMAND ${SYSTEM_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/parts/rotor_mixer_check.py
                  $<TARGET_FILE:mix_rotors>)
 set_tests_properties(rotor_mixer_python.cvxopt PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
-
-vinerow_add_test(sets_test
-  SOURCES
-    parts/fixed_wing_sets_test.cpp
-    parts/invariant_set_test.cpp
-    parts/linear_programme_test.cpp
-    parts/polytope_test.cpp
-    parts/zonotope_test.cpp
-  LIBS vinerow_controllers vinerow_no_alloc)
-
-vinerow_add_test(tube_test
-  SOURCES
-    parts/tube_mpc_test.cpp
-    parts/tube_sets_test.cpp
-  LIBS vinerow_controllers vinerow_no_alloc)
 
 add_executable(tube_mpc_files parts/tube_mpc_files.cpp)
 target_link_libraries(tube_mpc_files PRIVATE vinerow_controllers)

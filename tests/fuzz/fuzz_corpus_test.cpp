@@ -4,7 +4,7 @@
 #include "tests/fuzz/cloud_seeds.h"
 #include "tests/support/folder_test.h"
 
-namespace vinerow::fuzz {
+namespace vinerow::fuzz::fuzz_corpus_test {
 namespace {
 
 /// What read_cloud_bytes() demands, it demands of every input; the tests only choose inputs.
@@ -108,4 +108,4 @@ TEST_F(FuzzCorpus, WhatNeverEndsIsRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow::fuzz
+}  // namespace vinerow::fuzz::fuzz_corpus_test

@@ -8,10 +8,10 @@
 #include "tests/scenarios/command.h"
 #include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
-namespace vinerow::test {
+namespace vinerow::test::cloud_command_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Parcel F cut down to what is sampled in a second.
 const std::string kSmall =
@@ -170,4 +170,4 @@ INSTANTIATE_TEST_SUITE_P(All, MapSurvey,
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::cloud_command_test

@@ -8,7 +8,7 @@
 #include "vinerow/testing.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
 
-namespace vinerow {
+namespace vinerow::cloud_map_mission_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -152,4 +152,4 @@ TEST_F(CloudMapMission, PlannersTakeTheGroundFromTheMap) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::cloud_map_mission_test

@@ -10,7 +10,7 @@
 #include "worlds/mapping/cloud/folder/map_folder.h"
 #include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
-namespace vinerow {
+namespace vinerow::cloud_to_map_test {
 namespace {
 
 using test::run_vinerow;
@@ -115,4 +115,4 @@ TEST(CloudToMap, RiseholmeGivesBackItsRowsAndPitch) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::cloud_to_map_test

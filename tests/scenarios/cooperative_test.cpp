@@ -11,7 +11,7 @@
 #include "tests/support/folder_test.h"
 #include "tools/parts/register_all.h"
 
-namespace vinerow {
+namespace vinerow::cooperative_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -99,4 +99,4 @@ TEST_F(CooperativeMission, ACrashLeavesTheOtherAtWork) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::cooperative_test

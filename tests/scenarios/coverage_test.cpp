@@ -7,11 +7,11 @@
 
 #include "tests/scenarios/command.h"
 
-namespace vinerow::test {
+namespace vinerow::test::coverage_test {
 namespace {
 
 using Json = nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A rover that carries a camera 6 m above itself through two alleys.
 constexpr const char* kMastCamera = R"(
@@ -101,4 +101,4 @@ TEST(Coverage, ARunWithoutPicturesHasNone) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::coverage_test

@@ -10,7 +10,7 @@
 #include "tools/parts/register_all.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::determinism_test {
 namespace {
 
 using test::scenario_file;
@@ -94,4 +94,4 @@ TEST(Determinism, TwoProcessesWithAndWithoutPicturesGiveTheSameDigest) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::determinism_test

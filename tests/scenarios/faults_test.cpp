@@ -12,7 +12,7 @@
 #include "tests/scenarios/command.h"
 #include "tests/support/paths.h"
 
-namespace vinerow {
+namespace vinerow::faults_test {
 namespace {
 
 using test::run_vinerow;
@@ -263,4 +263,4 @@ TEST(KilledRun, LeavesAReadableLogAndCanBeRendered) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::faults_test

@@ -14,7 +14,7 @@
 #include "tests/support/paths.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::fixed_wing_mission_test {
 namespace {
 
 using test::scenario_file;
@@ -256,4 +256,4 @@ TEST(FixedWingMissionStress, WithoutATubeNothingIsPromised) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::fixed_wing_mission_test

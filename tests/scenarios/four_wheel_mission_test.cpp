@@ -6,7 +6,7 @@
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::four_wheel_mission_test {
 namespace {
 
 using test::run_vinerow;
@@ -170,4 +170,4 @@ TEST(FourWheelMission, RefusesWhatCannotBePlanned) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::four_wheel_mission_test

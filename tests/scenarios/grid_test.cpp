@@ -6,7 +6,7 @@
 #include "engine/render/png.h"
 #include "tests/scenarios/command.h"
 
-namespace vinerow {
+namespace vinerow::grid_test {
 namespace {
 
 using test::run_vinerow;
@@ -108,4 +108,4 @@ TEST(Obstacles, ABoxInTheAlleyStopsARoverThatDoesNotLook) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::grid_test

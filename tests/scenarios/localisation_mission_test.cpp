@@ -8,7 +8,7 @@
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::localisation_mission_test {
 namespace {
 
 using test::scenario_file;
@@ -112,4 +112,4 @@ TEST_P(ClosedLoopSeeds, QuadrotorAndRoverWorkOnTheirEstimates) {
 INSTANTIATE_TEST_SUITE_P(Twenty, ClosedLoopSeeds, ::testing::Values(1, 6, 11, 16));
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::localisation_mission_test

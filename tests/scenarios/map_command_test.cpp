@@ -14,7 +14,7 @@
 #include "worlds/mapping/cloud/folder/map_folder.h"
 #include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
-namespace vinerow {
+namespace vinerow::map_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ void expect_refused(const std::string& arguments, const std::string& text) {
 }
 
 /// One map for all tests that look at it.
-class MapCommand : public testing::Test {
+class MapCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<ScratchFolder>("map_command");
@@ -297,4 +297,4 @@ TEST_F(MapCommand, FindsNoRowsInAMeadow) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::map_command_test

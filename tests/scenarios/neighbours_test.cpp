@@ -6,7 +6,7 @@
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::neighbours_test {
 namespace {
 
 using testing::TestRun;
@@ -29,4 +29,4 @@ TEST(Neighbours, ARunAmongThemIsTheRunWithout) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::neighbours_test

@@ -8,7 +8,7 @@
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::paper_b_test {
 namespace {
 
 struct Cell {
@@ -46,4 +46,4 @@ TEST(PaperB, PlanHasTheReferenceLengthAndWaypoints) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::paper_b_test

@@ -8,7 +8,7 @@
 #include "tests/support/paths.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::payloads_test {
 namespace {
 
 using testing::TestRun;
@@ -76,4 +76,4 @@ TEST(Payloads, DoNotDisturbTheVehicleAndRepeat) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::payloads_test

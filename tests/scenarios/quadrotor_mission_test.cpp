@@ -10,7 +10,7 @@
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::quadrotor_mission_test {
 namespace {
 
 using test::scenario_file;
@@ -183,4 +183,4 @@ TEST(QuadrotorMission, TooHeavyToHoverIsRefusedWithBothNumbers) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::quadrotor_mission_test

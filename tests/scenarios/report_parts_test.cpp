@@ -23,12 +23,12 @@
 #include "tools/vinerow/report/units.h"
 #include "tools/vinerow/report/verdict.h"
 
-namespace vinerow::tools::report {
+namespace vinerow::tools::report::report_parts_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Points of the first polyline with a label, in pixels.
 std::vector<Eigen::Vector2d> line_points(const std::string& svg) {
@@ -292,4 +292,4 @@ TEST(ReportCanopy, WeighsPatchesByTheirArea) {
 }
 
 }  // namespace
-}  // namespace vinerow::tools::report
+}  // namespace vinerow::tools::report::report_parts_test

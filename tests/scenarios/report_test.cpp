@@ -7,11 +7,11 @@
 
 #include "tests/scenarios/command.h"
 
-namespace vinerow::test {
+namespace vinerow::test::report_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A rover's run of some seconds with turns, without pictures.
 const std::string kShort =
@@ -144,4 +144,4 @@ TEST(ReportCommand, RefusesInASentence) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::report_test

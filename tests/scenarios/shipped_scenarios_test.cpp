@@ -12,7 +12,7 @@
 #include "tools/parts/register_all.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::shipped_scenarios_test {
 namespace {
 
 using testing::TestRun;
@@ -133,4 +133,4 @@ TEST(RiseholmeRover, DrivesOnRawRtkFixesWithoutAFilter) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::shipped_scenarios_test

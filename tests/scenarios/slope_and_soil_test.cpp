@@ -8,7 +8,7 @@
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"
 
-namespace vinerow {
+namespace vinerow::slope_and_soil_test {
 namespace {
 
 using testing::TestRun;
@@ -47,4 +47,4 @@ TEST(WetSoilTurn, TurnsWithinItsLimitsAndSlipsAThirdOfWhatEqualWheelSpeedsDo) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::slope_and_soil_test

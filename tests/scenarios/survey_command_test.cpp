@@ -12,7 +12,7 @@
 #include "tests/support/data.h"
 #include "tests/support/paths.h"
 
-namespace vinerow {
+namespace vinerow::survey_command_test {
 namespace {
 
 using test::run_vinerow;
@@ -150,4 +150,4 @@ TEST(SurveyCommand, SurveysMountainsAndRefusesWhatTheirModelDoesNotHold) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::survey_command_test

@@ -10,7 +10,7 @@
 #include "tests/scenarios/command.h"
 #include "tests/support/paths.h"
 
-namespace vinerow {
+namespace vinerow::trim_test {
 namespace {
 
 using test::run_vinerow;
@@ -151,4 +151,4 @@ TEST(TrimCommand, RefusesInOneSentence) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::trim_test

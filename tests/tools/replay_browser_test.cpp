@@ -10,7 +10,7 @@
 #include "tests/scenarios/command.h"
 #include "tools/vinerow/report/replay.h"
 
-namespace vinerow {
+namespace vinerow::replay_browser_test {
 namespace {
 
 using test::ScratchFolder;
@@ -90,7 +90,7 @@ constexpr const char* kTrial = R"(<script>
 </script>
 )";
 
-class ReplayBrowser : public testing::Test {
+class ReplayBrowser : public ::testing::Test {
  protected:
   ReplayBrowser() : folder_("replay_browser"), browser_(find_browser()) {}
 
@@ -174,4 +174,4 @@ TEST_F(ReplayBrowser, SaysSoWhereNothingCanBeDrawn) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::replay_browser_test

@@ -14,7 +14,7 @@
 #include "tools/vinerow/report/replay_plans.h"
 #include "tools/vinerow/report/replay_run.h"
 
-namespace vinerow::tools {
+namespace vinerow::tools::replay_parts_test {
 namespace {
 
 TEST(Base64, GivesTheVectorsOfTheStandard) {
@@ -289,4 +289,4 @@ TEST(GlbScene, PlacesVerticesToAHalfStepOfTheLongestSide) {
 }
 
 }  // namespace
-}  // namespace vinerow::tools
+}  // namespace vinerow::tools::replay_parts_test

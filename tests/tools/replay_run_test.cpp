@@ -11,7 +11,7 @@
 #include "tools/parts/register_all.h"
 #include "tools/vinerow/report/replay_run.h"
 
-namespace vinerow::tools {
+namespace vinerow::tools::replay_run_test {
 namespace {
 
 using nlohmann::json;
@@ -38,7 +38,7 @@ std::string replay_of(const ScratchFolder& folder, const std::string& name) {
 }
 
 /// Without three.js the program makes no replays.
-class WithThree : public testing::Test {
+class WithThree : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!has_replay()) GTEST_SKIP() << replay_absence();
@@ -275,4 +275,4 @@ TEST_F(ReplayCommand, RefusesWhatIsNoRun) {
 }
 
 }  // namespace
-}  // namespace vinerow::tools
+}  // namespace vinerow::tools::replay_run_test

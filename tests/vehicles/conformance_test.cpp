@@ -16,7 +16,7 @@
 #include "tests/vehicles/small_worlds.h"
 #include "vehicles/register.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::conformance_test {
 namespace {
 
 using namespace test;
@@ -186,7 +186,7 @@ class Rig {
   Duration dt_{1'000'000};
 };
 
-class VehicleConformance : public testing::TestWithParam<Setup> {};
+class VehicleConformance : public ::testing::TestWithParam<Setup> {};
 /// Requirements of one kind only.
 class WheeledConformance : public VehicleConformance {};
 class FlyingConformance : public VehicleConformance {};  // on rotors
@@ -522,16 +522,16 @@ void PrintTo(const Setup& setup, std::ostream* out) {
 }
 
 const auto kLabel = [](const auto& setup) { return setup.param.label; };
-INSTANTIATE_TEST_SUITE_P(Vehicles, VehicleConformance, testing::ValuesIn(setups()), kLabel);
+INSTANTIATE_TEST_SUITE_P(Vehicles, VehicleConformance, ::testing::ValuesIn(setups()), kLabel);
 INSTANTIATE_TEST_SUITE_P(
     Vehicles, WheeledConformance,
-    testing::ValuesIn(setups_that([](const Rig& rig) { return !rig.flies(); })), kLabel);
+    ::testing::ValuesIn(setups_that([](const Rig& rig) { return !rig.flies(); })), kLabel);
 INSTANTIATE_TEST_SUITE_P(
     Vehicles, FlyingConformance,
-    testing::ValuesIn(setups_that([](const Rig& rig) { return rig.has_rotors(); })), kLabel);
+    ::testing::ValuesIn(setups_that([](const Rig& rig) { return rig.has_rotors(); })), kLabel);
 INSTANTIATE_TEST_SUITE_P(
     Vehicles, WingedConformance,
-    testing::ValuesIn(setups_that([](const Rig& rig) { return rig.has_wings(); })), kLabel);
+    ::testing::ValuesIn(setups_that([](const Rig& rig) { return rig.has_wings(); })), kLabel);
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::conformance_test

@@ -9,7 +9,7 @@
 #include "tests/worlds/world_fixture.h"
 #include "worlds/parts/mesh_store.h"
 
-namespace vinerow {
+namespace vinerow::conformance_test {
 namespace {
 
 /// Parameters that make a small world of each kind.
@@ -53,7 +53,7 @@ std::string digest_of(const WorldModel& world) {
   return hasher.hex();
 }
 
-class WorldConformance : public testing::TestWithParam<std::string> {
+class WorldConformance : public ::testing::TestWithParam<std::string> {
  protected:
   WorldConformance() : world_(test::make_world(GetParam(), small_parameters(GetParam()))) {}
   double ground_m(double x, double y) const {
@@ -213,8 +213,8 @@ TEST_P(WorldConformance, CanopyHullsAreClosedAndOutward) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllWorlds, WorldConformance,
-                         testing::ValuesIn(test::world_registry().names(PartKind::kWorld)),
+                         ::testing::ValuesIn(test::world_registry().names(PartKind::kWorld)),
                          [](const auto& test_info) { return test_info.param; });
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::conformance_test

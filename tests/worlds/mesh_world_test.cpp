@@ -6,7 +6,7 @@
 #include "tests/worlds/world_fixture.h"
 #include "worlds/mesh/sdf_rows.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::mesh_world_test {
 namespace {
 
 ParameterSet with_items(const std::vector<std::map<std::string, ParameterSet::Value>>& items) {
@@ -127,4 +127,4 @@ TEST(MeshWorld, FenceModelIsPlacedFromItsOwnFolder) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::mesh_world_test

@@ -9,7 +9,7 @@
 #include "engine/physics/world_scene.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::neighbours_test {
 namespace {
 
 const std::vector<Eigen::Vector2d> kParcel{{-60, -20}, {60, -20}, {60, 20}, {-60, 20}};
@@ -155,4 +155,4 @@ TEST(Neighbours, WithoutRoomForThemTheyAreRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::neighbours_test

@@ -6,7 +6,7 @@
 
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::orchard_test {
 namespace {
 
 TEST(Orchard, PapersMapHasItsRowsAndFreeRows) {
@@ -74,4 +74,4 @@ TEST(Orchard, RefusesRowsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::orchard_test

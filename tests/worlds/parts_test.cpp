@@ -13,7 +13,7 @@
 #include "worlds/parts/terrain.h"
 #include "worlds/parts/trellis.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::parts_test {
 namespace {
 
 TEST(RowCurve, PositionsByArcLength) {
@@ -167,4 +167,4 @@ TEST(Soil, KnownByName) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::parts_test

@@ -7,7 +7,7 @@
 #include "tests/support/data.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::surveyed_test {
 namespace {
 
 ParameterSet riseholme() {
@@ -141,4 +141,4 @@ TEST(Surveyed, PointsFarFromEveryRowAreNoted) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::surveyed_test

@@ -10,7 +10,7 @@
 #include "tests/worlds/world_fixture.h"
 #include "worlds/parts/mesh_store.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::vineyard_test {
 namespace {
 
 const WorldModel& parcel_f() {
@@ -235,4 +235,4 @@ TEST(Vineyard, RefusesBadInputInOneSentence) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::vineyard_test

@@ -9,7 +9,7 @@
 #include "tests/worlds/world_fixture.h"
 #include "worlds/parts/common.h"
 
-namespace vinerow {
+namespace vinerow::wind_test {
 namespace {
 
 using Groups = std::vector<ParameterSet>;
@@ -31,7 +31,7 @@ ParameterSet small_parameters(const std::string& type) {
   return parameters;
 }
 
-class WorldWind : public testing::TestWithParam<std::string> {
+class WorldWind : public ::testing::TestWithParam<std::string> {
  protected:
   WorldWind() : parameters_(small_parameters(GetParam())), wind_(parameters_.make_group("wind")) {}
   std::unique_ptr<WorldModel> build() {
@@ -150,7 +150,7 @@ TEST_P(WorldWind, TellsWhereTurbulenceHasNothingToScaleWith) {
             world->notes.end());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, WorldWind, testing::Values("orchard", "vineyard", "surveyed", "mesh"),
+INSTANTIATE_TEST_SUITE_P(All, WorldWind, ::testing::Values("orchard", "vineyard", "surveyed", "mesh"),
                          [](const auto& type) { return type.param; });
 
 /// A folder of its own: the cache of all tests also grows by what runs beside this one.
@@ -177,4 +177,4 @@ TEST_F(VineyardWind, ChangesNoMeshFile) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::wind_test

@@ -10,7 +10,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/dwa/course.h"
 
-namespace vinerow::test {
+namespace vinerow::test::dwa_law_test {
 namespace {
 
 const FourWheelGeometry kRover{0.75, 0.75, rad_from_deg(23), 2.0};
@@ -277,4 +277,4 @@ TEST(DwaRoom, PointFieldIsTheDistanceToTheNearestPoint) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::dwa_law_test

@@ -12,7 +12,7 @@
 #include "tests/controllers/dwa/course.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::dwa_test {
 namespace {
 
 int count_events(const Drive& drive, const std::string& part) {
@@ -274,4 +274,4 @@ TEST(Dwa, DrivingBesideThePlanItStopsAsWell) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::dwa_test

@@ -12,7 +12,7 @@
 #include "tests/controllers/dwa/course.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::obstacle_memory_test {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
@@ -184,4 +184,4 @@ TEST(ObstacleMemory, HoldsNoMoreThanItsCapacityAndTakesNoHeap) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::obstacle_memory_test

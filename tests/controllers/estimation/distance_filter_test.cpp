@@ -12,7 +12,7 @@
 #include "tests/controllers/support/mission.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::distance_filter_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -403,4 +403,4 @@ TEST(DistanceFilter, RefusesAnEmptyMapAndSensorsThatAreNotThere) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::distance_filter_test

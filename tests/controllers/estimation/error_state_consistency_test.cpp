@@ -11,7 +11,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/estimation/imu_course.h"
 
-namespace vinerow::test {
+namespace vinerow::test::error_state_consistency_test {
 namespace {
 
 using I = ErrorIndex;
@@ -63,7 +63,7 @@ struct Flight {
 
 /// Fixes 5 Hz, white 0.3 m and 0.1 m/s, antenna off the unit.
 Flight run_once(const Unit& unit, int seed, double told_factor = 1.0) {
-  const Course course = lively_course();
+  const ImuCourse course = lively_course();
   RandomStream random(seed, "test", unit.name);
   const Vector3d arm_B(0.3, -0.2, 0.4);
   ErrorStateKalmanParams params;
@@ -118,7 +118,7 @@ double nees(const Look& look, int from, int size) {
   return e.dot(P.llt().solve(e));
 }
 
-class Consistency : public testing::TestWithParam<Unit> {};
+class Consistency : public ::testing::TestWithParam<Unit> {};
 
 TEST_P(Consistency, ErrorsAreAsLargeAsTheCovarianceSays) {
   std::array<std::array<double, 6>, kLooks> sums{};  // all, and the five blocks
@@ -173,8 +173,8 @@ TEST_P(Consistency, FindsTheBiases) {
   EXPECT_LT(std::sqrt(accel), 0.5 * GetParam().accel_bias_mps2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Units, Consistency, testing::Values(vn200(), mti10()),
+INSTANTIATE_TEST_SUITE_P(Units, Consistency, ::testing::Values(vn200(), mti10()),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::error_state_consistency_test

@@ -13,7 +13,7 @@
 #include "tests/controllers/support/mission.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::error_state_estimator_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -25,7 +25,7 @@ constexpr std::int64_t k10ms = 10'000'000;
 /// Sensors without noise on a course; the estimator's tick is 10 ms.
 class Bench {
  public:
-  explicit Bench(Course its_course, const Values& values = {}, std::uint64_t seed = 1)
+  explicit Bench(ImuCourse its_course, const Values& values = {}, std::uint64_t seed = 1)
       : course(its_course), description_(make_rover_description()) {
     Ports world(bus_, "rover", "test");
     truth = world.write<Odometry>("truth");
@@ -126,7 +126,7 @@ class Bench {
     wheels.write(now(), speeds_);
   }
 
-  Course course;
+  ImuCourse course;
   Pose X_BI{quaternion_from_rpy({0.1, -0.2, 0.5}), {0.15, -0.1, 0.05}};
   Pose X_BA{Eigen::Quaterniond::Identity(), {-0.3, 0.2, 0.6}};
   Pose X_BM{quaternion_from_rpy({3.0, 0.1, -0.4}), {0, 0, 0.2}};
@@ -150,12 +150,12 @@ class Bench {
   NamedValues speeds_;
 };
 
-Course at_rest() {
+ImuCourse at_rest() {
   return {};
 }
 /// Straight on along x with 1 m/s, as far as a swing of an hour is straight.
-Course straight() {
-  Course course;
+ImuCourse straight() {
+  ImuCourse course;
   course.x = {1e4, 1e-4, 0};
   return course;
 }
@@ -208,7 +208,7 @@ TEST(ErrorStateEstimator, StartsAboutTheTruthByItsStatedSpread) {
 }
 
 TEST(ErrorStateEstimator, LevelsItselfAndReadsTheCompass) {
-  Course tilted = at_rest();
+  ImuCourse tilted = at_rest();
   tilted.roll = {0.2, 0, 0.5 * kPi};
   tilted.pitch = {-0.15, 0, 0.5 * kPi};
   tilted.yaw = {2.0, 0, 0.5 * kPi};
@@ -431,4 +431,4 @@ TEST(ErrorStateEstimator, RefusesStandingByWheelsItDoesNotRead) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::error_state_estimator_test

@@ -11,7 +11,7 @@
 #include "tests/controllers/estimation/imu_course.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::error_state_kalman_test {
 namespace {
 
 using I = ErrorIndex;
@@ -36,7 +36,8 @@ ErrorCovariance diagonal(double position, double velocity, double attitude, doub
 }
 
 /// Follows a course without noise from its own state to `to_s`.
-void follow(ErrorStateKalman& filter, const Course& course, double to_s, std::int64_t period_ns) {
+void follow(ErrorStateKalman& filter, const ImuCourse& course, double to_s,
+            std::int64_t period_ns) {
   for (std::int64_t i = filter.time().ns / period_ns; tick_at(i, period_ns).s() <= to_s + 1e-9;
        ++i) {
     const Time now = tick_at(i, period_ns);
@@ -72,7 +73,7 @@ TEST(ErrorStateKalman, RestsForEver) {
 }
 
 TEST(ErrorStateKalman, PropagatesErrorsAsDifferencesOfItsOwnMotionDo) {
-  const Course course = lively_course();
+  const ImuCourse course = lively_course();
   const auto run = [&](const NavState& start, const ErrorCovariance& P) {
     ErrorStateKalman filter(noiseless());
     filter.start(Time{}, start, P);
@@ -319,7 +320,7 @@ TEST(ErrorStateKalman, GatesWhatIsTooFar) {
 
 /// Fixes every 50 ms that come `late_ticks` later; the estimate at the end.
 ErrorStateKalman run_with_late_fixes(int late_ticks, bool compensated) {
-  const Course course = lively_course();
+  const ImuCourse course = lively_course();
   ErrorStateKalman filter{ErrorStateKalmanParams{}};
   NavState start = course.at(0.0).state;
   start.p_WI += Vector3d(0.5, -0.4, 0.3);
@@ -380,7 +381,7 @@ TEST(ErrorStateKalman, RefusesBadReadingsAndCountsThem) {
 }
 
 TEST(ErrorStateKalman, GetsOverACovarianceThatIsNone) {
-  const Course course = lively_course();
+  const ImuCourse course = lively_course();
   for (const int kind : {0, 1, 2}) {
     ErrorCovariance P = diagonal(0.5, 0.2, 0.02, 0.001, 0.02);
     if (kind == 0) P(0, 1) = P(1, 0) = 0.3;  // correlation 1.2
@@ -408,7 +409,7 @@ TEST(ErrorStateKalman, GetsOverACovarianceThatIsNone) {
 }
 
 TEST(ErrorStateKalman, ComesBackAfterAMinuteWithoutReadings) {
-  const Course course = circle();
+  const ImuCourse course = circle();
   ErrorStateKalman filter{ErrorStateKalmanParams{}};
   filter.start(Time{}, course.at(0.0).state, diagonal(0.1, 0.05, 0.01, 0.001, 0.01));
   int used = 0;
@@ -429,7 +430,7 @@ TEST(ErrorStateKalman, ComesBackAfterAMinuteWithoutReadings) {
 
 TEST(ErrorStateKalman, AllocatesNothing) {
   ErrorStateKalman filter{ErrorStateKalmanParams{}};
-  const Course course = lively_course();
+  const ImuCourse course = lively_course();
   std::size_t allocations = 0;
   {
     AllocationCounter counter;
@@ -446,4 +447,4 @@ TEST(ErrorStateKalman, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::error_state_kalman_test

@@ -19,7 +19,7 @@
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
 
-namespace vinerow::test {
+namespace vinerow::test::error_state_px4_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -153,4 +153,4 @@ TEST(ErrorStateKalman, FliesPx4sIrisAsPx4sFilterDoes) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::error_state_px4_test

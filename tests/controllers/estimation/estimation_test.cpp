@@ -7,7 +7,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/mission.h"
 
-namespace vinerow::test {
+namespace vinerow::test::estimation_test {
 namespace {
 
 using Text = std::string;
@@ -266,4 +266,4 @@ TEST(OdometryKalman, LearnsTheScaleAndItsErrorIsWhatItSays) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::estimation_test

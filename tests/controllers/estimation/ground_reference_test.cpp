@@ -15,7 +15,7 @@
 #include "tests/controllers/estimation/localisation_bench.h"
 #include "tests/controllers/estimation/wall_map.h"
 
-namespace vinerow::test {
+namespace vinerow::test::ground_reference_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -68,7 +68,7 @@ struct SlopeFlight {
   int count = 0;
 };
 
-class GroundOf : public testing::TestWithParam<Text> {};
+class GroundOf : public ::testing::TestWithParam<Text> {};
 
 TEST_P(GroundOf, ASensorThatLooksDownTellsTheHeight) {
   const RowMap map = make_wall_map(kSlope);
@@ -274,8 +274,8 @@ TEST_P(GroundOf, SaysWhyAVehicleCannotStandOnTheMap) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, GroundOf,
-                         testing::Values("distance_filter", "map_localisation"),
+                         ::testing::Values("distance_filter", "map_localisation"),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::ground_reference_test

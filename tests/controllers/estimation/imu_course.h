@@ -27,7 +27,7 @@ struct Swing {
 };
 
 /// Swings along each axis of W and in roll, pitch and yaw, and a steady turn.
-struct Course {
+struct ImuCourse {
   Swing x, y, z, roll, pitch, yaw;
   double turn_radps = 0.0;
 
@@ -49,14 +49,14 @@ struct Course {
 };
 
 /// A quadrotor that wanders: some m/s2 in all directions, so that every state can be seen.
-inline Course lively_course() {
+inline ImuCourse lively_course() {
   return {
       {8, 0.35, 0}, {6, 0.45, 1.0}, {1.5, 0.3, 0.4}, {0.15, 0.7, 0}, {0.12, 0.8, 2}, {0.8, 0.25, 0},
       0.1};
 }
 /// A circle of 5 m in the plane at 2 m/s, looking ahead.
-inline Course circle() {
-  Course course;
+inline ImuCourse circle() {
+  ImuCourse course;
   course.x = {5, 0.4, 0};
   course.y = {5, 0.4, -0.5 * 3.14159265358979323846};
   course.turn_radps = 0.4;

@@ -9,7 +9,7 @@
 #include "engine/math/pose.h"
 #include "tests/controllers/estimation/wall_map.h"
 
-namespace vinerow::test {
+namespace vinerow::test::leaning_walls_test {
 namespace {
 
 constexpr double kLean_m = 0.15;     // that walls of the map are drawn in by at their top
@@ -72,4 +72,4 @@ TEST(LeaningWalls, HeightIsLeftToWhatTellsItWhereAsked) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::leaning_walls_test

@@ -12,7 +12,7 @@
 #include "tests/controllers/estimation/wall_map.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::localisation_faults_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -67,7 +67,7 @@ struct AlleyRun {
   int count = 0;
 };
 
-class FaultsOf : public testing::TestWithParam<Text> {
+class FaultsOf : public ::testing::TestWithParam<Text> {
  protected:
   /// Numbers that are none are counted under one name or another.
   double refused(const AlleyRun& run) const {
@@ -262,8 +262,8 @@ TEST(DistanceFilterFaults, AnEmptyEllipsoidIsToldAtOnceAndThenAtMostEveryTenSeco
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, FaultsOf,
-                         testing::Values("distance_filter", "map_localisation"),
+                         ::testing::Values("distance_filter", "map_localisation"),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::localisation_faults_test

@@ -12,7 +12,7 @@
 #include "tests/controllers/estimation/localisation_bench.h"
 #include "tests/controllers/estimation/wall_map.h"
 
-namespace vinerow::test {
+namespace vinerow::test::localisation_nis_test {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
@@ -136,4 +136,4 @@ TEST(LocalisationNis, HasTheMomentsOfChiSquareWhereTheErrorsAreAsStated) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::localisation_nis_test

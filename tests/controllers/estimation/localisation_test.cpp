@@ -7,7 +7,7 @@
 
 #include "tests/controllers/estimation/localisation_lab.h"
 
-namespace vinerow::test {
+namespace vinerow::test::localisation_test {
 namespace {
 
 constexpr double kDeg = 0.017453292519943295;
@@ -206,4 +206,4 @@ TEST(Localisation, MissingVinesAndABiasedMap) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::localisation_test

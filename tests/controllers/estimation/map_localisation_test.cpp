@@ -10,7 +10,7 @@
 #include "tests/controllers/estimation/map_localisation_lab.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::map_localisation_test {
 namespace {
 
 constexpr int kSeeds = 20;
@@ -273,4 +273,4 @@ TEST(MapLocalisationLaw, ATickDoesNotAllocate) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::map_localisation_test

@@ -14,7 +14,7 @@
 #include "engine/math/pose.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::position_kalman_test {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -293,4 +293,4 @@ TEST(PositionKalman, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::position_kalman_test

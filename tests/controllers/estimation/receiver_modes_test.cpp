@@ -9,7 +9,7 @@
 #include "engine/core/random.h"
 #include "tests/controllers/estimation/wall_map.h"
 
-namespace vinerow::test {
+namespace vinerow::test::receiver_modes_test {
 namespace {
 
 constexpr double kTick_s = 0.01, kShare = 0.8, kWalkTime_s = 60.0;
@@ -158,4 +158,4 @@ TEST(ReceiverModes, TheSlowErrorGrowsWithTheDilution) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::receiver_modes_test

@@ -7,7 +7,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/row_mesh_map.h"
 
-namespace vinerow::test {
+namespace vinerow::test::row_ground_test {
 namespace {
 
 TEST(RowGround, IsThePlaneOfASlope) {
@@ -125,4 +125,4 @@ TEST(RowGround, AConeSeesItsNearestPointOfTheGround) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::row_ground_test

@@ -9,7 +9,7 @@
 
 #include "tests/controllers/support/row_mesh_map.h"
 
-namespace vinerow::test {
+namespace vinerow::test::row_line_index_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -39,7 +39,7 @@ void expect_same(const LinePoint& found, const LinePoint& expected) {
 }
 
 void expect_as_search_of_all(const RowMap& map, const RowLineIndex& index, const Vector3d& p_W) {
-  SCOPED_TRACE(testing::Message() << "at " << p_W.transpose());
+  SCOPED_TRACE(::testing::Message() << "at " << p_W.transpose());
   const auto found = index.nearest_rows(p_W), expected = search_all(map, p_W);
   expect_same(found.first, expected.first);
   expect_same(found.second, expected.second);
@@ -127,4 +127,4 @@ TEST(RowLineIndex, LeavesOutWhatHasNoPlace) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::row_line_index_test

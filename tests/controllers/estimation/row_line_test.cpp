@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace vinerow::test {
+namespace vinerow::test::row_line_test {
 namespace {
 
 using Line = std::vector<Eigen::Vector3d>;
@@ -39,4 +39,4 @@ TEST(RowLine, PiecesWithoutLengthAreNone) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::row_line_test

@@ -15,7 +15,7 @@
 #include "tests/controllers/support/row_mesh_map.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::row_mesh_index_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -569,4 +569,4 @@ TEST(RangePrediction, FourConesTakeMicrosecondsAndNoHeap) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::row_mesh_index_test

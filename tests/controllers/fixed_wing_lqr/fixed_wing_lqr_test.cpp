@@ -7,7 +7,7 @@
 #include "tests/controllers/parts/random_sets.h"
 #include "tests/controllers/support/aircraft_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::fixed_wing_lqr_test {
 namespace {
 
 AircraftLoopSetup make_setup() {
@@ -89,4 +89,4 @@ TEST(FixedWingLqr, StaysWithItsModelForSmallOffsets) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::fixed_wing_lqr_test

@@ -9,7 +9,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/aircraft_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::fixed_wing_pid_test {
 namespace {
 
 TEST(FixedWingPid, LearnsWhatItIsNotToldOf) {
@@ -93,4 +93,4 @@ TEST(FixedWingPidLaw, DoesNotWindUpAtAStop) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::fixed_wing_pid_test

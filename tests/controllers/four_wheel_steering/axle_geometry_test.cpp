@@ -9,7 +9,7 @@
 #include "engine/core/random.h"
 #include "tests/controllers/four_wheel_steering/oracle.h"
 
-namespace vinerow::test {
+namespace vinerow::test::axle_geometry_test {
 namespace {
 
 TEST(AxleGeometry, GivesTheWheelAnglesOfEveryReferenceCase) {
@@ -111,4 +111,4 @@ TEST(AxleGeometry, TurnsAWheelBackwardsThatTheIcrPasses) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::axle_geometry_test

@@ -11,7 +11,7 @@
 #include "tests/controllers/four_wheel_steering/steered_loop.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::four_wheel_steering_test {
 namespace {
 
 using Mode = LocalCommand::Mode;
@@ -245,4 +245,4 @@ TEST(FourWheelSteering, RefusesVehiclesItCannotSteer) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::four_wheel_steering_test

@@ -9,7 +9,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::test {
+namespace vinerow::test::steering_law_test {
 namespace {
 
 const AxleGeometry kGeometry;
@@ -150,4 +150,4 @@ TEST(SteeringLaw, ComesBackFromFarOffAndWrongWay) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::steering_law_test

@@ -7,7 +7,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/four_wheel_steering/steered_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::tracking_test {
 namespace {
 
 constexpr double kTight_m = 1.77;  // the least the axles allow is 1.767 m
@@ -186,4 +186,4 @@ TEST(Tracking, KeepsSpeedsAndStopsAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::tracking_test

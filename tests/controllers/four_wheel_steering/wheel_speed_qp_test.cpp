@@ -15,7 +15,7 @@
 #include "tests/controllers/four_wheel_steering/oracle.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::wheel_speed_qp_test {
 namespace {
 
 constexpr double kLimit_rad = 0.4014257279586958;  // 23 deg
@@ -232,4 +232,4 @@ TEST(WheelSpeeds, TurnEveryWheelAlikeWhenAskedTo) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::wheel_speed_qp_test

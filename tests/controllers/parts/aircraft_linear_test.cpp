@@ -13,7 +13,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/aircraft_sim.h"
 
-namespace vinerow::test {
+namespace vinerow::test::aircraft_linear_test {
 namespace {
 
 constexpr double kPeriod_s = 0.05;
@@ -148,4 +148,4 @@ TEST(AircraftLinear, PredictsTheNonlinearAircraftForSmallDeviations) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::aircraft_linear_test

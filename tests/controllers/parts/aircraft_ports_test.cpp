@@ -8,7 +8,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/aircraft_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::aircraft_ports_test {
 namespace {
 
 /// Ports alone between signals.
@@ -163,4 +163,4 @@ TEST(AircraftPorts, FollowerTellsWhatTheReferenceDoes) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::aircraft_ports_test

@@ -6,7 +6,7 @@
 #include "tests/controllers/support/aircraft_sim.h"
 #include "tests/controllers/support/plant.h"
 
-namespace vinerow::test {
+namespace vinerow::test::aircraft_test {
 namespace {
 
 TEST(Aircraft, MixesElevatorAndAileronOntoElevons) {
@@ -59,4 +59,4 @@ TEST(Aircraft, RefusesWhatHasNoWingsOrTellsTooLittle) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::aircraft_test

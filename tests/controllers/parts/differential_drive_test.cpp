@@ -5,7 +5,7 @@
 #include "engine/core/error.h"
 #include "tests/controllers/support/mission.h"
 
-namespace vinerow {
+namespace vinerow::differential_drive_test {
 namespace {
 
 TEST(DifferentialDrive, TurnsLeftByFasterRightWheels) {
@@ -67,4 +67,4 @@ TEST(DifferentialDrive, RefusesOtherVehicles) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::differential_drive_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace vinerow::test {
+namespace vinerow::test::discretise_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -87,4 +87,4 @@ TEST(Discretise, StructuralZerosStayZero) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::discretise_test

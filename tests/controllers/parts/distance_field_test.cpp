@@ -7,7 +7,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::distance_field_test {
 namespace {
 
 using Vec = Eigen::Vector2d;
@@ -89,4 +89,4 @@ TEST(DistanceField, WithoutGridEverythingIsFar) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::distance_field_test

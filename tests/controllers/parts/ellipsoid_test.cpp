@@ -9,7 +9,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow::test {
+namespace vinerow::test::ellipsoid_test {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -301,4 +301,4 @@ TEST(PseudoMeasurement, GainIsPositiveForEveryCut) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::ellipsoid_test

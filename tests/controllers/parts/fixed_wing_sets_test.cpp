@@ -11,7 +11,7 @@
 #include "engine/core/random.h"
 #include "tests/controllers/parts/wing_models.h"
 
-namespace vinerow::test {
+namespace vinerow::test::fixed_wing_sets_test {
 namespace {
 
 Eigen::VectorXd supports(const Support& S, const Eigen::MatrixXd& rows) {
@@ -166,4 +166,4 @@ TEST(FixedWingSets, LateralGustBeyondTheLimitIsRefusedWithBothNumbers) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::fixed_wing_sets_test

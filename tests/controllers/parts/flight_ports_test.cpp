@@ -7,7 +7,7 @@
 #include "engine/core/error.h"
 #include "tests/controllers/support/quadrotor_sim.h"
 
-namespace vinerow {
+namespace vinerow::flight_ports_test {
 namespace {
 
 using Phase = ReferenceTrajectory::Phase;
@@ -164,4 +164,4 @@ TEST(FlightPorts, RefusesVehiclesWithoutRotors) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::flight_ports_test

@@ -10,7 +10,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/aircraft_sim.h"
 
-namespace vinerow::test {
+namespace vinerow::test::flight_trim_test {
 namespace {
 
 Aircraft aircraft_of(const AircraftNumbers& numbers) {
@@ -164,4 +164,4 @@ TEST(FlightTrim, TheScaledZagiDoesNotFly) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::flight_trim_test

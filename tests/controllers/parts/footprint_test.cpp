@@ -6,7 +6,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/swept_check.h"
 
-namespace vinerow::test {
+namespace vinerow::test::footprint_test {
 namespace {
 
 using Vec = Eigen::Vector2d;
@@ -123,4 +123,4 @@ TEST(InsetPolygon, MovesEveryEdgeInwards) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::footprint_test

@@ -8,7 +8,7 @@
 #include "controllers/parts/zonotope.h"
 #include "tests/controllers/parts/random_sets.h"
 
-namespace vinerow::test {
+namespace vinerow::test::invariant_set_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -249,4 +249,4 @@ TEST(InvariantSet, SameBitsTwice) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::invariant_set_test

@@ -12,7 +12,7 @@
 #include "tests/controllers/parts/linear_mpc_support.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::linear_mpc_contract_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -269,4 +269,4 @@ TEST(LinearMpcContract, RefusesRowsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::linear_mpc_contract_test

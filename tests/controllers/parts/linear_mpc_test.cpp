@@ -12,7 +12,7 @@
 #include "controllers/parts/riccati.h"
 #include "tests/controllers/parts/linear_mpc_support.h"
 
-namespace vinerow::test {
+namespace vinerow::test::linear_mpc_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -236,4 +236,4 @@ TEST(LinearMpc, ALimitThatNoInputReachesCountsAllTheSame) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::linear_mpc_test

@@ -8,7 +8,7 @@
 #include "tests/controllers/parts/random_sets.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::linear_programme_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -204,4 +204,4 @@ TEST(LinearProgramme, SolvesWithoutHeapAndWithTheSameBitsWhateverCameBefore) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::linear_programme_test

@@ -5,7 +5,7 @@
 #include "controllers/parts/path_pieces.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::path_test {
 namespace {
 
 /// 10 m east, a left semicircle of radius 2, 10 m west.
@@ -80,4 +80,4 @@ TEST(Path, TakesPlansWithoutLength) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::path_test

@@ -9,7 +9,7 @@
 
 #include "tests/controllers/parts/random_sets.h"
 
-namespace vinerow::test {
+namespace vinerow::test::polytope_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -213,4 +213,4 @@ TEST(Polytope, SameBitsTwice) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::polytope_test

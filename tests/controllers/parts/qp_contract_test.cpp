@@ -9,7 +9,7 @@
 #include "tests/controllers/parts/qp_support.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::qp_contract_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -152,4 +152,4 @@ TEST(QpContract, MovesKeepTheProblem) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::qp_contract_test

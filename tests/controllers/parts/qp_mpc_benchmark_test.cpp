@@ -11,7 +11,7 @@
 #include "tests/controllers/parts/qp_support.h"
 #include "tests/support/data.h"
 
-namespace vinerow::test {
+namespace vinerow::test::qp_mpc_benchmark_test {
 namespace {
 
 /// Blocks of "name rows columns" and the numbers row by row, after one line of comment.
@@ -72,7 +72,7 @@ void expect_solved(const std::string& name) {
   EXPECT_LT((P * x + problem.f + G.transpose() * z).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-class QpMpcBenchmark : public testing::TestWithParam<int> {};
+class QpMpcBenchmark : public ::testing::TestWithParam<int> {};
 
 TEST_P(QpMpcBenchmark, Walking) {
   expect_solved("LIPMWALK" + std::to_string(GetParam()));
@@ -81,7 +81,7 @@ TEST_P(QpMpcBenchmark, Balancing) {
   expect_solved("WHLIPBAL" + std::to_string(GetParam()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Text, QpMpcBenchmark, testing::Range(0, 8));
+INSTANTIATE_TEST_SUITE_P(Text, QpMpcBenchmark, ::testing::Range(0, 8));
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::qp_mpc_benchmark_test

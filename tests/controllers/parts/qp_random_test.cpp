@@ -8,7 +8,7 @@
 
 #include "tests/controllers/parts/qp_support.h"
 
-namespace vinerow::test {
+namespace vinerow::test::qp_random_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -231,4 +231,4 @@ TEST(QpRandom, LongWarmRunKeepsItsPrecision) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::qp_random_test

@@ -7,7 +7,7 @@
 
 #include "tests/controllers/parts/qp_support.h"
 
-namespace vinerow::test {
+namespace vinerow::test::qp_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -189,4 +189,4 @@ TEST(Qp, RepeatedAndDependentEqualities) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::qp_test

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-namespace vinerow::test {
+namespace vinerow::test::riccati_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -191,4 +191,4 @@ TEST(SpectralRadius, OfATurnAndOfNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::riccati_test

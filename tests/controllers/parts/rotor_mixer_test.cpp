@@ -9,7 +9,7 @@
 #include "tests/controllers/support/quadrotor_sim.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::rotor_mixer_test {
 namespace {
 
 Rotorcraft make_craft(const test::QuadrotorNumbers& numbers) {
@@ -184,4 +184,4 @@ TEST(RotorMixer, RefusesRotorsThatCannotSteer) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::rotor_mixer_test

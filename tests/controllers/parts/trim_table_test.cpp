@@ -10,7 +10,7 @@
 #include "tests/controllers/support/aircraft_sim.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::trim_table_test {
 namespace {
 
 Aircraft make_aircraft(const AircraftNumbers& numbers = make_mh900_like()) {
@@ -89,4 +89,4 @@ TEST(TrimTable, LooksUpWithoutHeapAndRefusesTheUnflyable) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::trim_table_test

@@ -16,7 +16,7 @@
 #include "tests/controllers/parts/wing_models.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::tube_mpc_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -379,4 +379,4 @@ TEST(TubeMpc, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::tube_mpc_test

@@ -12,7 +12,7 @@
 #include "tests/controllers/parts/random_sets.h"
 #include "tests/controllers/parts/wing_models.h"
 
-namespace vinerow::test {
+namespace vinerow::test::tube_sets_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -240,4 +240,4 @@ TEST(TubeSets, BadInputIsToldApart) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::tube_sets_test

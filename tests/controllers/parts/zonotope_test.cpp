@@ -10,7 +10,7 @@
 #include "controllers/parts/series_support.h"
 #include "tests/controllers/parts/random_sets.h"
 
-namespace vinerow::test {
+namespace vinerow::test::zonotope_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -166,4 +166,4 @@ TEST(SeriesSupport, RefusesUnstableSystemsAndOddDisturbances) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::zonotope_test

@@ -7,7 +7,7 @@
 
 #include "tests/controllers/support/mission.h"
 
-namespace vinerow::test {
+namespace vinerow::test::beyond_paper_test {
 namespace {
 
 constexpr std::array<double, 5> kAccuracies_m = {0.0, 0.01, 0.02, 0.05, 0.1};
@@ -99,4 +99,4 @@ TEST(BeyondPaper, GainOverThePaperInEveryColumn) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::beyond_paper_test

@@ -11,7 +11,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/mission.h"
 
-namespace vinerow {
+namespace vinerow::path_follower_test {
 namespace {
 
 PathFollowerParams make_params() {
@@ -179,4 +179,4 @@ TEST(SlipEstimate, StaysWhenSwitchedOff) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::path_follower_test

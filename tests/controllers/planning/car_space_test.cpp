@@ -11,7 +11,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/block_map.h"
 
-namespace vinerow::test {
+namespace vinerow::test::car_space_test {
 namespace {
 
 using Vec = Eigen::Vector2d;
@@ -183,4 +183,4 @@ TEST(CarPlanners, SameSeedSameTreeWhateverRunsBetween) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::car_space_test

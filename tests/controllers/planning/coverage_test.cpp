@@ -10,7 +10,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/mission.h"
 
-namespace vinerow::test {
+namespace vinerow::test::coverage_test {
 namespace {
 
 using Text = std::string;
@@ -303,7 +303,7 @@ TEST(Waypoints, GoStraightThroughTheAirWhereTheyHaveHeights) {
 }
 
 TEST(Waypoints, ReadsACsvFileAndNamesItsFaults) {
-  const std::string file = testing::TempDir() + "waypoints.csv";
+  const std::string file = ::testing::TempDir() + "waypoints.csv";
   std::ofstream(file) << "x,y\n0,0\n# a comment\n3,0\r\n3;4\n";
   const auto path = make_planner({"waypoints", {{"file", file}}}, kNoRows)->plan(Pose{});
   ASSERT_TRUE(path.ok());
@@ -334,4 +334,4 @@ TEST(Waypoints, RefusesAPathIntoARow) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::coverage_test

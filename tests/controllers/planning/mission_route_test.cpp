@@ -15,7 +15,7 @@
 #include "tests/controllers/support/mission.h"
 #include "tests/support/data.h"
 
-namespace vinerow::test {
+namespace vinerow::test::mission_route_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -83,7 +83,7 @@ std::string write_items(const std::vector<io::MissionItem>& items) {
   mission.items = items;
   const auto file = std::filesystem::temp_directory_path() /
                     (std::string("vinerow_route_") +
-                     testing::UnitTest::GetInstance()->current_test_info()->name() + ".plan");
+                     ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".plan");
   io::write_qgc_plan(mission, file);
   return file;
 }
@@ -237,4 +237,4 @@ TEST(MissionRoute, SurveysComeBackFromBothFormats) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::mission_route_test

@@ -10,7 +10,7 @@
 
 #include "controllers/planning/pose_cells.h"
 
-namespace vinerow {
+namespace vinerow::quartile_list_test {
 namespace {
 
 /// The same rule with sorting: nodes of the lowest quartile that has an open one.
@@ -126,4 +126,4 @@ TEST(PoseCells, CellsAreOfTheSizeAskedAndHeadingsWrap) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::quartile_list_test

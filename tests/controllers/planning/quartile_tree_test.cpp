@@ -7,7 +7,7 @@
 
 #include "tests/controllers/planning/quartile_runs.h"
 
-namespace vinerow {
+namespace vinerow::quartile_tree_test {
 namespace {
 
 using hand_grids::rover_outline_B;
@@ -153,4 +153,4 @@ TEST(QuartileTree, TheTreesStrokesStartAtTheStartAndTouchNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::quartile_tree_test

@@ -11,7 +11,7 @@
 #include "tests/controllers/support/block_map.h"
 #include "tests/controllers/support/swept_check.h"
 
-namespace vinerow::test {
+namespace vinerow::test::route_planner_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -370,4 +370,4 @@ TEST(AnalyticTurn, EveryCandidateArrivesAndTheyAreSorted) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::route_planner_test

@@ -9,7 +9,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/planning/hand_grids.h"
 
-namespace vinerow {
+namespace vinerow::rrt_quartile_planner_test {
 namespace {
 
 using hand_grids::Vineyard;
@@ -164,4 +164,4 @@ TEST(RrtQuartilePlanner, RefusesWhatCannotWork) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::rrt_quartile_planner_test

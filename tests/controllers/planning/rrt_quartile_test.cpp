@@ -7,7 +7,7 @@
 
 #include "tests/controllers/planning/quartile_runs.h"
 
-namespace vinerow {
+namespace vinerow::rrt_quartile_test {
 namespace {
 
 using hand_grids::length_m;
@@ -140,4 +140,4 @@ TEST(RrtQuartile, SaysWhyThereIsNoWay) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::rrt_quartile_test

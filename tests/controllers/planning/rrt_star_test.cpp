@@ -9,7 +9,7 @@
 #include "tests/controllers/support/block_map.h"
 #include "tests/controllers/support/swept_check.h"
 
-namespace vinerow::test {
+namespace vinerow::test::rrt_star_test {
 namespace {
 
 using Vec = Eigen::Vector2d;
@@ -234,4 +234,4 @@ TEST(RrtStar, StopsAtTheFirstWayWithoutIterations) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::rrt_star_test

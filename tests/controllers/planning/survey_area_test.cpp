@@ -11,7 +11,7 @@
 #include "engine/io/geo.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::test {
+namespace vinerow::test::survey_area_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -185,4 +185,4 @@ TEST(SurveyLanes, SwitchTheCameraOffAboveLongNotches) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::survey_area_test

@@ -7,7 +7,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow::test {
+namespace vinerow::test::survey_heights_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -142,4 +142,4 @@ TEST(SurveyHeights, BeyondTheTerrainItsEdgeGoesOn) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::survey_heights_test

@@ -8,7 +8,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow::test {
+namespace vinerow::test::survey_order_test {
 namespace {
 
 OrderTask even_lanes(int count, double spacing_m, double radius_m) {
@@ -125,4 +125,4 @@ TEST(SurveyOrder, AFewNearLanesTakeWideTurns) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::survey_order_test

@@ -9,7 +9,7 @@
 #include "controllers/parts/pose2.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::test {
+namespace vinerow::test::survey_plan_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -340,4 +340,4 @@ TEST(SurveyPlan, GivesTheSameBitsTwice) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::survey_plan_test

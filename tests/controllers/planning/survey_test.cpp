@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "tests/controllers/support/mission.h"
 
-namespace vinerow::test {
+namespace vinerow::test::survey_test {
 namespace {
 
 VehicleDescription plane() {
@@ -108,4 +108,4 @@ TEST(SurveyPart, TurnsAsTheVehicleCan) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::survey_test

@@ -12,7 +12,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/waypoint_guidance/air_bench.h"
 
-namespace vinerow::test {
+namespace vinerow::test::survey_wind_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -127,4 +127,4 @@ TEST(SurveyInWind, TwoRadiiHoldAUTurnWithItsDrift) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::survey_wind_test

@@ -7,7 +7,7 @@
 
 #include "tests/controllers/support/mission.h"
 
-namespace vinerow::test {
+namespace vinerow::test::paper_b_test {
 namespace {
 
 constexpr std::array<double, 5> kAccuracies_m = {0.0, 0.01, 0.02, 0.05, 0.1};
@@ -33,7 +33,7 @@ struct Cell {
   double accuracy;
 };
 
-class LookaheadTimesPitch : public testing::TestWithParam<Cell> {};
+class LookaheadTimesPitch : public ::testing::TestWithParam<Cell> {};
 
 TEST_P(LookaheadTimesPitch, AgreesWithinTwoPercent) {
   const Cell cell = GetParam();
@@ -50,7 +50,7 @@ TEST_P(LookaheadTimesPitch, AgreesWithinTwoPercent) {
 
 INSTANTIATE_TEST_SUITE_P(
     PaperB, LookaheadTimesPitch,
-    testing::Values(Cell{0.5, 0.16, 3.03, 833, .397}, Cell{0.5, 0.33, 3.02, 423, .782},
+    ::testing::Values(Cell{0.5, 0.16, 3.03, 833, .397}, Cell{0.5, 0.33, 3.02, 423, .782},
                     Cell{0.5, 0.66, 3.02, 225, 1.470}, Cell{0.5, 1.0, 3.02, 153, 2.164},
                     Cell{0.5, 1.65, 3.01, 99, 3.355}, Cell{0.75, 0.16, 7.34, 784, .174},
                     Cell{0.75, 0.33, 7.34, 412, .331}, Cell{0.75, 0.66, 7.34, 225, .606},
@@ -152,4 +152,4 @@ TEST(PaperB, CrossedDistanceBetweenCutAndLookaheadChangesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::paper_b_test

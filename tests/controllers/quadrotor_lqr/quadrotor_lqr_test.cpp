@@ -11,7 +11,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/flight_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::quadrotor_lqr_test {
 namespace {
 
 FlightLimits wide_limits() {
@@ -196,4 +196,4 @@ TEST(QuadrotorLqr, RefusesWeightsWithoutAGain) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::quadrotor_lqr_test

@@ -9,7 +9,7 @@
 #include "tests/controllers/quadrotor_mpc/mpc_loop.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::contract_test {
 namespace {
 
 std::string refusal(const Values& values, const VehicleDescription& description,
@@ -159,4 +159,4 @@ TEST(QuadrotorMpc, DoesNotCareForThePlaceOrTheHeadingOfTheWorld) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::contract_test

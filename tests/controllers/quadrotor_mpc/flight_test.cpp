@@ -8,7 +8,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/quadrotor_mpc/mpc_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::flight_test {
 namespace {
 
 /// The first seconds are for learning the wind, which begins with the flight.
@@ -178,4 +178,4 @@ TEST(QuadrotorMpcFlight, BearsANoisyEstimate) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::flight_test

@@ -11,7 +11,7 @@
 #include "controllers/parts/rotor_prediction.h"
 #include "tests/controllers/support/quadrotor_sim.h"
 
-namespace vinerow::test {
+namespace vinerow::test::hover_frame_test {
 namespace {
 
 Rotorcraft q4t() {
@@ -179,4 +179,4 @@ TEST(FlightDisturbance, IsNeverMoreThanTheVehicleCouldCarry) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::hover_frame_test

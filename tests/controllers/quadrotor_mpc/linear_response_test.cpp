@@ -8,7 +8,7 @@
 #include "controllers/quadrotor_mpc/quadrotor_mpc_law.h"
 #include "tests/controllers/quadrotor_mpc/mpc_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::linear_response_test {
 namespace {
 
 constexpr int kStates = 16;
@@ -135,4 +135,4 @@ TEST(QuadrotorMpcLinear, AnswersSmallStepsAsTheLinearModelDoes) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::linear_response_test

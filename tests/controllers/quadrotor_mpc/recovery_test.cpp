@@ -9,7 +9,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/quadrotor_mpc/mpc_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::recovery_test {
 namespace {
 
 /// Flies on and checks at every tick what must never be.
@@ -196,4 +196,4 @@ TEST(QuadrotorMpcRecovery, StandsOnTheGroundWhileALandingStillAsksForLess) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::recovery_test

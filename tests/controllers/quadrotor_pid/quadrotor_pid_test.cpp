@@ -9,7 +9,7 @@
 #include "engine/math/pose.h"
 #include "tests/controllers/support/flight_loop.h"
 
-namespace vinerow::test {
+namespace vinerow::test::quadrotor_pid_test {
 namespace {
 
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
@@ -182,4 +182,4 @@ TEST(QuadrotorPid, TurnsItsNoseInFullFlight) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::quadrotor_pid_test

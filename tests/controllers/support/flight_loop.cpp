@@ -8,7 +8,7 @@
 namespace vinerow::test {
 namespace {
 
-constexpr Duration kStep{1'000'000};
+constexpr Duration kLoopStep{1'000'000};
 
 }  // namespace
 
@@ -65,7 +65,7 @@ FlightLoop::FlightLoop(const FlightSetup& setup)
   context.part = "drone.controller";
   context.vehicle_description = &description_;
   context.gravity_mps2 = setup.numbers.gravity_mps2;
-  context.physics_step = kStep;
+  context.physics_step = kLoopStep;
   context.period = period_of_rate(setup.rate_Hz > 0.0 ? setup.rate_Hz : spec.default_rate_Hz);
   control_period_ = context.period;
   guidance_period_ = period_of_rate(setup.guidance_rate_Hz);
@@ -120,8 +120,8 @@ void FlightLoop::run_until(double time_s, const std::function<void(const FlightL
     }
     if (now_.ns % control_period_.ns == 0) controller_->step(now_);
     if (each_step) each_step(*this);
-    sim_.step(actuators_.value().values, kStep.s());
-    now_ = now_ + kStep;
+    sim_.step(actuators_.value().values, kLoopStep.s());
+    now_ = now_ + kLoopStep;
   }
   estimate_.write(now_, sim_.truth());
 }

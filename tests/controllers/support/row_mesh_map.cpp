@@ -7,7 +7,7 @@ namespace vinerow::test {
 namespace {
 
 constexpr double kHeights_m[] = {0.5, 1.0, 1.5, 2.0};
-constexpr double kHalfWidths_m[] = {0.24, 0.31, 0.29, 0.18};
+constexpr double kRowHalfWidths_m[] = {0.24, 0.31, 0.29, 0.18};
 constexpr std::uint32_t kRing = 8;
 
 /// Corners of a section, counter-clockwise seen from the row's end: up the right side, down the
@@ -18,7 +18,7 @@ void add_section(const RowMeshBlock& block, double along_m, double across_m, Ran
   const double wider_m = block.section_std_m * random.normal();
   const auto corner = [&](std::size_t level, double side) {
     const double half_m =
-        std::max(0.02, kHalfWidths_m[level] + wider_m +
+        std::max(0.02, kRowHalfWidths_m[level] + wider_m +
                            (block.section_std_m > 0.0 ? 0.03 : 0.0) * random.normal());
     const Eigen::Vector3d p = row_mesh_ground(block, along_m, centre_m + side * half_m);
     const Eigen::Vector3d foot = row_mesh_ground(block, along_m, across_m);

@@ -9,10 +9,11 @@
 #include "engine/math/angles.h"
 
 namespace vinerow::test {
-namespace {
 
 using Vec = Eigen::Vector2d;
 using Polygon = std::vector<Vec>;
+
+namespace {
 
 double distance_to_segment(const Vec& p, const Vec& a, const Vec& b) {
   const Vec ab = b - a;
@@ -31,7 +32,7 @@ bool crosses(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
          cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
 }
 
-double distance_between(const Polygon& one, const Polygon& other) {
+double gap_between(const Polygon& one, const Polygon& other) {
   if (contains(one, other[0]) || contains(other, one[0])) return 0.0;
   double least = 1e9;
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -72,8 +73,8 @@ double distance_to_cells(const Polygon& outline_B, const Pose2& pose, const Occu
       // Squares farther from the box around the outline than the least so far need no look.
       const Eigen::AlignedBox2d square(corner, corner + Vec(c, c));
       if (box.squaredExteriorDistance(square) >= least * least) continue;
-      least = std::min(least, distance_between(outline, {corner, corner + Vec(c, 0),
-                                                         corner + Vec(c, c), corner + Vec(0, c)}));
+      least = std::min(least, gap_between(outline, {corner, corner + Vec(c, 0),
+                                                    corner + Vec(c, c), corner + Vec(0, c)}));
       if (least <= 0.0) return 0.0;
     }
   }

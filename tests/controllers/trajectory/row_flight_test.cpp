@@ -12,7 +12,7 @@
 #include "tests/controllers/support/swept_check.h"
 #include "tests/controllers/trajectory/flight_world.h"
 
-namespace vinerow::test {
+namespace vinerow::test::row_flight_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -335,4 +335,4 @@ TEST(RowFlight, RefusesWhatCannotBeFlown) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::row_flight_test

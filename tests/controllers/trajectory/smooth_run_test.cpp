@@ -13,7 +13,7 @@
 #include "controllers/trajectory/yaw_move.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::test {
+namespace vinerow::test::smooth_run_test {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
@@ -133,4 +133,4 @@ TEST(LandingWatch, FeelsTheGroundOnlyNearTheEndAndOnlyWhileSinking) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::smooth_run_test

@@ -10,7 +10,7 @@
 #include "tests/controllers/trajectory/flight_world.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::trajectory_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -513,4 +513,4 @@ TEST(Trajectory, TellsWhatIsWrongWithItsParameters) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::trajectory_test

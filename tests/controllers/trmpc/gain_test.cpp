@@ -9,7 +9,7 @@
 #include "tests/controllers/parts/wing_models.h"
 #include "tests/controllers/support/aircraft_sim.h"
 
-namespace vinerow::test {
+namespace vinerow::test::gain_test {
 namespace {
 
 AircraftLaws laws_of(const AircraftNumbers& numbers) {
@@ -64,4 +64,4 @@ TEST(TubeGains, LqrGainsAreThePrototypes) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::gain_test

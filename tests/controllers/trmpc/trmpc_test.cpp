@@ -12,7 +12,7 @@
 #include "tests/controllers/trmpc/wing_loop.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::trmpc_test {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
@@ -206,4 +206,4 @@ TEST(Trmpc, RefusesWhatCannotBeKept) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::trmpc_test

@@ -8,7 +8,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/waypoint_guidance/air_bench.h"
 
-namespace vinerow::test {
+namespace vinerow::test::air_course_test {
 namespace {
 
 const Values kStop = {{"end", std::string("stop")}};
@@ -232,4 +232,4 @@ TEST(AirCourse, TooStrongWindIsToldOnceAndHeldAgainst) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::air_course_test

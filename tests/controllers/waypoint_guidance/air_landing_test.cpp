@@ -7,7 +7,7 @@
 
 #include "tests/controllers/waypoint_guidance/air_bench.h"
 
-namespace vinerow::test {
+namespace vinerow::test::air_landing_test {
 namespace {
 
 /// Flies a leg and lands at a place. @returns the sentence about it
@@ -31,7 +31,7 @@ TEST(AirLanding, WarnsOfGroundThatNobodyTold) {
   const Event guess = land({{"land_at_m", far}});
   EXPECT_EQ(guess.level, Event::Level::kWarning);
   EXPECT_THAT(guess.text,
-              testing::HasSubstr("; takes the ground there to be at z = 0.0 m as at the start, "
+              ::testing::HasSubstr("; takes the ground there to be at z = 0.0 m as at the start, "
                                  "500 m away: land_height_m tells it"));
 }
 
@@ -41,9 +41,9 @@ TEST(AirLanding, IsSilentWhereTheGroundIsKnown) {
                                Values{{"land_at_m", near}}, Values{}}) {
     const Event known = land(values);
     EXPECT_EQ(known.level, Event::Level::kInfo);
-    EXPECT_THAT(known.text, testing::Not(testing::HasSubstr("takes the ground")));
+    EXPECT_THAT(known.text, ::testing::Not(::testing::HasSubstr("takes the ground")));
   }
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::air_landing_test

@@ -17,11 +17,11 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/waypoint_guidance/air_bench.h"
 
-namespace vinerow::test {
+namespace vinerow::test::air_legs_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 /// Eq. 1 as printed, E = x and N = y.
 double printed_distance_m(const Eigen::Vector3d& i, const Eigen::Vector3d& j,
@@ -324,4 +324,4 @@ TEST(LandingSlope, GlidesAndFlaresToTheTouchdown) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::air_legs_test

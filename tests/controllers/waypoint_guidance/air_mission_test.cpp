@@ -12,11 +12,11 @@
 #include "tests/controllers/waypoint_guidance/air_bench.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::test {
+namespace vinerow::test::air_mission_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 PlaneOptions on_launcher(double yaw_rad = 0.0) {
   PlaneOptions options;
@@ -399,4 +399,4 @@ TEST(AirMission, RefusesParametersThatCannotBeFlown) {
 }
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::air_mission_test

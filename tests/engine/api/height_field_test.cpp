@@ -2,7 +2,7 @@
 
 #include "engine/api/world_model.h"
 
-namespace vinerow {
+namespace vinerow::height_field_test {
 namespace {
 
 HeightField tilted_cell() {
@@ -42,4 +42,4 @@ TEST(HeightField, TheEdgeContinuesOutside) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::height_field_test

@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::parameters_test {
 namespace {
 
 ParameterSet example() {
@@ -77,4 +77,4 @@ TEST(Parameters, GroupsMustBeComplete) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::parameters_test

@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::signal_test {
 namespace {
 
 TEST(Signal, ReadersSeeTheLastValueWithItsTime) {
@@ -107,4 +107,4 @@ TEST(Signal, NanIsFoundAndInfinityIsNot) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::signal_test

@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::survey_camera_test {
 namespace {
 
 SurveyCamera camera_of(const std::string& name) {
@@ -59,4 +59,4 @@ TEST(SurveyCamera, NumbersReplaceThePreset) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::survey_camera_test

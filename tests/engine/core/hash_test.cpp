@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinerow {
+namespace vinerow::hash_test {
 namespace {
 
 // Published test value: XXH3 128 bits of the empty input, seed 0.
@@ -26,4 +26,4 @@ TEST(Hash, ReadingTheDigestDoesNotDisturbIt) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::hash_test

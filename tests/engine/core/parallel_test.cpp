@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::parallel_test {
 namespace {
 
 TEST(ForChunks, CoversEveryItemOnceInChunksThatDependOnNothingElse) {
@@ -53,4 +53,4 @@ TEST(ForChunks, MayBeUsedInsideAChunk) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::parallel_test

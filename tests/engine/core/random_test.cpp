@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::random_test {
 namespace {
 
 // Known answers of the Random123 distribution (kat_vectors, philox4x32-10).
@@ -61,4 +61,4 @@ TEST(Random, NormalHasTheMomentsOfANormalVariable) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::random_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::suggest_test {
 namespace {
 
 TEST(Suggest, EditDistanceCountsInsertionsDeletionsReplacementsAndSwaps) {
@@ -26,4 +26,4 @@ TEST(Suggest, NearestNameIsFoundAndAGuessIsNotMade) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::suggest_test

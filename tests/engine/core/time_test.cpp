@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinerow {
+namespace vinerow::time_test {
 namespace {
 
 TEST(Time, RatesOfSensorsHaveExactPeriods) {
@@ -26,4 +26,4 @@ TEST(Time, DifferencesOfTimesAreDurations) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::time_test

@@ -10,7 +10,7 @@
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
 
-namespace vinerow::io {
+namespace vinerow::io::geo_test {
 namespace {
 
 GeoOrigin origin_deg(double latitude_deg, double longitude_deg, double altitude_m = 0.0) {
@@ -134,4 +134,4 @@ TEST(LocalFrame, RiseholmeVinesMatchTheirGridCoordinates) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::geo_test

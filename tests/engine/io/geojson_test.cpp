@@ -8,13 +8,13 @@
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
 
-namespace vinerow::io {
+namespace vinerow::io::geojson_test {
 namespace {
 
 std::filesystem::path write(const std::string& content) {
   const auto file = std::filesystem::temp_directory_path() /
                     (std::string("vinerow_geojson_") +
-                     testing::UnitTest::GetInstance()->current_test_info()->name() + ".geojson");
+                     ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".geojson");
   std::ofstream(file, std::ios::binary) << content;
   return file;
 }
@@ -119,4 +119,4 @@ TEST(Survey, ReadsTheRiseholmeFiles) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::geojson_test

@@ -12,10 +12,10 @@
 #include "engine/math/angles.h"
 #include "tests/support/folder_test.h"
 
-namespace vinerow::io {
+namespace vinerow::io::height_raster_test {
 namespace {
 
-class HeightRasterTest : public test::FolderTest {
+class HeightRasterTest : public vinerow::test::FolderTest {
  protected:
   HeightRasterTest() : FolderTest("height_raster") {}
 
@@ -125,4 +125,4 @@ TEST_F(HeightRasterTest, RefusesAFileThatIsCutOff) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::height_raster_test

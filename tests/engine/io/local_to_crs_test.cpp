@@ -6,7 +6,7 @@
 #include "engine/io/point_cloud_crs.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::io {
+namespace vinerow::io::local_to_crs_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -60,4 +60,4 @@ TEST(LocalToCrs, RefusesAnUnknownSystem) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::local_to_crs_test

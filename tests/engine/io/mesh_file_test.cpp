@@ -8,13 +8,13 @@
 #include "engine/core/error.h"
 #include "tests/support/data.h"
 
-namespace vinerow::io {
+namespace vinerow::io::mesh_file_test {
 namespace {
 
-class MeshFileTest : public testing::Test {
+class MeshFileTest : public ::testing::Test {
  protected:
   MeshFileTest() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::temp_directory_path() / "vinerow_mesh_file_test" / test->name();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
@@ -244,4 +244,4 @@ TEST_F(MeshFileTest, ObstacleCourseHasTheKnownSize) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::mesh_file_test

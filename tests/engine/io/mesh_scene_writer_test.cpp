@@ -10,7 +10,7 @@
 #include "engine/io/mesh_file.h"
 #include "engine/io/mesh_writer.h"
 
-namespace vinerow::io {
+namespace vinerow::io::mesh_scene_writer_test {
 namespace {
 
 /// A wedge of 1 x 2 x 3 m from `corner` on: its extents tell the axes apart.
@@ -24,10 +24,10 @@ TriangleMesh wedge(const Eigen::Vector3f& corner) {
   return mesh;
 }
 
-class MeshSceneWriterTest : public testing::Test {
+class MeshSceneWriterTest : public ::testing::Test {
  protected:
   MeshSceneWriterTest() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::temp_directory_path() / "vinerow_mesh_scene_test" / test->name();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
@@ -136,4 +136,4 @@ TEST_F(MeshSceneWriterTest, WhatCannotBeWrittenIsSaid) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::mesh_scene_writer_test

@@ -9,7 +9,7 @@
 #include "engine/core/random.h"
 #include "engine/io/mesh_file.h"
 
-namespace vinerow::io {
+namespace vinerow::io::mesh_writer_test {
 namespace {
 
 TriangleMesh random_mesh(int vertices, RandomStream& random) {
@@ -85,4 +85,4 @@ TEST(MeshWriter, RefusesAFolderThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::mesh_writer_test

@@ -14,7 +14,7 @@
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
 
-namespace vinerow::io {
+namespace vinerow::io::mission_file_test {
 namespace {
 
 const std::string kSamples = "mavsdk/cpp/src/mavsdk/plugins/mission_raw/test_plans/";
@@ -22,7 +22,7 @@ const std::string kSamples = "mavsdk/cpp/src/mavsdk/plugins/mission_raw/test_pla
 std::filesystem::path write(const std::string& content, const std::string& ending = ".plan") {
   const auto file = std::filesystem::temp_directory_path() /
                     (std::string("vinerow_mission_") +
-                     testing::UnitTest::GetInstance()->current_test_info()->name() + ending);
+                     ::testing::UnitTest::GetInstance()->current_test_info()->name() + ending);
   std::ofstream(file, std::ios::binary) << content;
   return file;
 }
@@ -294,4 +294,4 @@ TEST(MavCommand, TableIsSortedSoThatEveryCommandIsFound) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::mission_file_test

@@ -5,7 +5,7 @@
 #include "tests/engine/io/point_cloud_files.h"
 #include "tests/engine/io/utm32.h"
 
-namespace vinerow::io {
+namespace vinerow::io::parcel_frame_test {
 namespace {
 
 struct Parcel {
@@ -16,7 +16,7 @@ struct Parcel {
   bool is_fitted;
 };
 
-class ParcelFrameOf : public testing::TestWithParam<Parcel> {};
+class ParcelFrameOf : public ::testing::TestWithParam<Parcel> {};
 
 /// Against the exact frame; what is told of a point must be below a tenth of a millimetre.
 TEST_P(ParcelFrameOf, IsTheExactFrame) {
@@ -46,7 +46,7 @@ TEST_P(ParcelFrameOf, IsTheExactFrame) {
 
 INSTANTIATE_TEST_SUITE_P(
     Systems, ParcelFrameOf,
-    testing::Values(Parcel{"EPSG:25832", 44.99, 9.5, {540000, 4982000, 120}, 100, true},
+    ::testing::Values(Parcel{"EPSG:25832", 44.99, 9.5, {540000, 4982000, 120}, 100, true},
                     Parcel{"EPSG:25832", 44.99, 9.5, {540000, 4982000, 120}, 7500, true},
                     Parcel{"EPSG:4326", 45.0, 9.5, {9.5, 45, 120}, 0.05, true},
                     Parcel{"EPSG:2263", 40.75, -74.0, {984000, 212000, 100}, 5000, true},  // feet
@@ -92,4 +92,4 @@ TEST(ParcelFrame, BoxesWithoutWidth) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::parcel_frame_test

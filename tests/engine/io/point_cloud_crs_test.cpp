@@ -6,7 +6,7 @@
 #include "tests/engine/io/point_cloud_files.h"
 #include "tests/engine/io/utm32.h"
 
-namespace vinerow::io {
+namespace vinerow::io::point_cloud_crs_test {
 namespace {
 
 const GeoOrigin kOrigin{rad_from_deg(45.0), rad_from_deg(9.5), 100.0};
@@ -101,4 +101,4 @@ TEST_F(CloudCrs, DegreesWithoutACrsAreRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::point_cloud_crs_test

@@ -85,7 +85,7 @@ class PointCloudFiles : public vinerow::test::FolderTest {
 /// Position, colour (-1: none) and classification (-1: none) in one line.
 inline std::string shown(const CloudPoint& point) {
   std::string text;
-  for (int k = 0; k < 3; ++k) text += testing::PrintToString(point.position[k]) + " ";
+  for (int k = 0; k < 3; ++k) text += ::testing::PrintToString(point.position[k]) + " ";
   for (std::size_t k = 0; k < 3; ++k) {
     text += std::to_string(point.rgb ? int{(*point.rgb)[k]} : -1) + " ";
   }

@@ -5,7 +5,7 @@
 
 #include "tests/engine/io/point_cloud_files.h"
 
-namespace vinerow::io {
+namespace vinerow::io::point_cloud_las_test {
 namespace {
 
 using Las = PointCloudFiles;
@@ -128,7 +128,7 @@ TEST_F(Las, ReadsEveryVersionAndPointFormat) {
     const int most = minor == 2 ? 3 : minor == 3 ? 5 : 10;
     for (int format = 0; format <= most; ++format) {
       for (const int extra : {0, 5}) {
-        SCOPED_TRACE(testing::Message() << "1." << minor << " format " << format);
+        SCOPED_TRACE(::testing::Message() << "1." << minor << " format " << format);
         HandFile f;
         f.minor = minor;
         f.format = format;
@@ -326,4 +326,4 @@ TEST_F(Las, CutExtendedRecordsAreNamed) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::point_cloud_las_test

@@ -5,7 +5,7 @@
 
 #include "tests/engine/io/point_cloud_files.h"
 
-namespace vinerow::io {
+namespace vinerow::io::point_cloud_ply_test {
 namespace {
 
 using Ply = PointCloudFiles;
@@ -191,4 +191,4 @@ TEST_F(Ply, ColoursBeyondTheirTypeAreNamed) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::point_cloud_ply_test

@@ -7,7 +7,7 @@
 #include "tests/engine/io/point_cloud_files.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::io {
+namespace vinerow::io::point_cloud_test {
 namespace {
 
 class PointCloud : public PointCloudFiles {
@@ -117,7 +117,7 @@ TEST_F(PointCloud, MemoryDoesNotGrowWithTheFile) {
     EXPECT_LT(after, before + kPointCloudMemory);
     std::vector<CloudPoint> block(1000);
     std::size_t count = 0, total = 0, blocks = 0;
-    const test::AllocationCounter allocations;
+    const vinerow::test::AllocationCounter allocations;
     while ((count = reader->read(block)) > 0) {
       ASSERT_LE(count, block.size());
       total += count;
@@ -226,4 +226,4 @@ TEST_F(PointCloud, BrokenBytesAreReadOrRefusedInWords) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::point_cloud_test

@@ -4,7 +4,7 @@
 
 #include "tests/engine/io/point_cloud_files.h"
 
-namespace vinerow::io {
+namespace vinerow::io::point_cloud_text_test {
 namespace {
 
 std::string pcd(const std::string& fields, const std::string& sizes, const std::string& types,
@@ -178,4 +178,4 @@ TEST_F(XyzFiles, FaultsAreNamed) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::point_cloud_text_test

@@ -12,7 +12,7 @@
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
 
-namespace vinerow::io {
+namespace vinerow::io::raster_test {
 namespace {
 
 std::filesystem::path temporary(const std::string& name) {
@@ -224,4 +224,4 @@ TEST(Raster, DavosdorfBecomesAHeightField) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::raster_test

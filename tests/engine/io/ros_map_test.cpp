@@ -10,10 +10,10 @@
 #include "engine/io/pgm.h"
 #include "tests/support/folder_test.h"
 
-namespace vinerow::io {
+namespace vinerow::io::ros_map_test {
 namespace {
 
-class RosMapFiles : public test::FolderTest {
+class RosMapFiles : public vinerow::test::FolderTest {
  protected:
   RosMapFiles() : FolderTest("ros_map") {}
 
@@ -187,4 +187,4 @@ TEST_F(RosMapFiles, AFolderThatIsNotThereIsTold) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::ros_map_test

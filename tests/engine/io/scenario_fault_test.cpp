@@ -3,11 +3,11 @@
 
 #include "tests/engine/io/scenario_fakes.h"
 
-namespace vinerow::io::test {
+namespace vinerow::io::test::scenario_fault_test {
 namespace {
 
-using testing::EndsWith;
-using testing::HasSubstr;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
 
 constexpr const char* kPursuitKeys = "(known: lookahead_m, max_speed_mps, rate_Hz, type)";
 
@@ -286,9 +286,9 @@ TEST(ScenarioFault, SyntaxErrorsNameTheLine) {
   EXPECT_EQ(fault_of(with_line(7, "\twheel_radius_m: 0.2")),
             "scenario:7: is indented with a tab; YAML is indented with spaces");
   EXPECT_THAT(fault_of(with_line(8, "    spawn: {alley: 0")),
-              testing::MatchesRegex("scenario:[0-9]+: is not valid YAML: .*"));
+              ::testing::MatchesRegex("scenario:[0-9]+: is not valid YAML: .*"));
   EXPECT_THAT(fault_of(with_line(7, "    wheel_radius_m: 0.2: 3")),
-              testing::MatchesRegex("scenario:7: is not valid YAML: .*"));
+              ::testing::MatchesRegex("scenario:7: is not valid YAML: .*"));
   EXPECT_EQ(fault_of(std::string("vinerow: 1\nname: a\x01z\n")),
             "scenario:2: holds the control character 0x01; a scenario is plain text");
   EXPECT_EQ(fault_of("vinerow: 1\n---\nvinerow: 1\n"),
@@ -402,4 +402,4 @@ TEST(ScenarioFault, OverridesNameTheirText) {
 }
 
 }  // namespace
-}  // namespace vinerow::io::test
+}  // namespace vinerow::io::test::scenario_fault_test

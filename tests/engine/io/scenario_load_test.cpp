@@ -3,7 +3,7 @@
 
 #include "tests/engine/io/scenario_fakes.h"
 
-namespace vinerow::io::test {
+namespace vinerow::io::test::scenario_load_test {
 namespace {
 
 Scenario parse(const std::string& yaml, const std::filesystem::path& folder = "/") {
@@ -242,7 +242,7 @@ TEST(ScenarioInclude, OwnKeysWinAndMappingsMergeDeeply) {
   EXPECT_EQ(rover.controller->parameters.number("lookahead_m"), 1.0);
   EXPECT_EQ(rover.controller->parameters.number("max_speed_mps"), 3.0);
   EXPECT_THAT(rover.vehicle.parameters.source("wheel_radius_m"),
-              testing::EndsWith("vehicles/cart.yaml:3"));
+              ::testing::EndsWith("vehicles/cart.yaml:3"));
 }
 
 TEST(ScenarioInclude, ListIsMergedFromFirstToLast) {
@@ -332,7 +332,7 @@ TEST(ScenarioPlugins, MissingLibraryIsNamed) {
   } catch (const ConfigError& fault) {
     EXPECT_THAT(
         fault.what(),
-        testing::EndsWith("a.yaml:3: plugins[0] = 'mime.so': no such file (looked for " +
+        ::testing::EndsWith("a.yaml:3: plugins[0] = 'mime.so': no such file (looked for " +
                           (folder.path() / "mime.so").string() + "); did you mean 'mine.so'?"));
   }
 }
@@ -370,4 +370,4 @@ TEST(ScenarioOverride, NewValueDoesNotKeepTheOldSource) {
 }
 
 }  // namespace
-}  // namespace vinerow::io::test
+}  // namespace vinerow::io::test::scenario_load_test

@@ -5,11 +5,11 @@
 
 #include "tests/engine/io/scenario_fakes.h"
 
-namespace vinerow::io {
+namespace vinerow::io::scenario_phases_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 Registry mission_registry() {
   Registry registry = test::fake_registry();
@@ -100,7 +100,7 @@ struct Fault {
   const char* sentence;
 };
 
-class ScenarioPhaseFaults : public testing::TestWithParam<Fault> {};
+class ScenarioPhaseFaults : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(ScenarioPhaseFaults, AreToldWithPlaceAndReason) {
   EXPECT_THAT(fault_of(GetParam().rest), HasSubstr(GetParam().sentence));
@@ -108,7 +108,7 @@ TEST_P(ScenarioPhaseFaults, AreToldWithPlaceAndReason) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, ScenarioPhaseFaults,
-    testing::Values(
+    ::testing::Values(
         Fault{
             "phases:\n  a: {vehicles: [plane], after: [b]}\n  b: {vehicles: [rover], after: [a]}\n",
             "scenario:7: phases.a: would wait for ever: a waits for b waits for a"},
@@ -169,4 +169,4 @@ INSTANTIATE_TEST_SUITE_P(
               "pictures.moments: 'b + 3': unknown phase 'b'"}));
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::scenario_phases_test

@@ -7,10 +7,10 @@
 #include "engine/io/yaml.h"
 #include "tests/engine/io/scenario_fakes.h"
 
-namespace vinerow::io::test {
+namespace vinerow::io::test::scenario_resolved_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(ResolvedScenario, WritesDefaultsSourcesAndAbsolutePaths) {
   const TemporaryFolder folder;
@@ -158,4 +158,4 @@ TEST(ResolvedScenario, NumbersRoundTripToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace vinerow::io::test
+}  // namespace vinerow::io::test::scenario_resolved_test

@@ -9,7 +9,7 @@
 #include "tests/engine/io/scenario_fakes.h"
 #include "tests/support/paths.h"
 
-namespace vinerow::io::test {
+namespace vinerow::io::test::scenario_schema_test {
 namespace {
 
 nlohmann::json json_of(const YamlNode& node) {
@@ -301,4 +301,4 @@ TEST(ScenarioSchema, OfAnEmptyRegistryIsStillASchema) {
 }
 
 }  // namespace
-}  // namespace vinerow::io::test
+}  // namespace vinerow::io::test::scenario_schema_test

@@ -5,7 +5,7 @@
 #include "engine/core/error.h"
 #include "engine/io/yaml.h"
 
-namespace vinerow::io {
+namespace vinerow::io::scenario_yaml_test {
 namespace {
 
 template <class T>
@@ -95,4 +95,4 @@ TEST(Yaml, TextsPrintAndReadBack) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::scenario_yaml_test

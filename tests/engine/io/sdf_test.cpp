@@ -8,13 +8,13 @@
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
 
-namespace vinerow::io {
+namespace vinerow::io::sdf_test {
 namespace {
 
 std::filesystem::path write(const std::string& content) {
   const auto file = std::filesystem::temp_directory_path() /
                     (std::string("vinerow_sdf_") +
-                     testing::UnitTest::GetInstance()->current_test_info()->name() + ".world");
+                     ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".world");
   std::ofstream(file, std::ios::binary) << content;
   return file;
 }
@@ -73,4 +73,4 @@ TEST(Sdf, StageOneHas21IncludesInRowsThreeMetresApart) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::sdf_test

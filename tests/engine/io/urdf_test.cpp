@@ -10,14 +10,14 @@
 #include "tests/support/data.h"
 #include "tests/support/paths.h"
 
-namespace vinerow::io {
+namespace vinerow::io::urdf_test {
 namespace {
 
 const std::filesystem::path kPlain =
     std::filesystem::path(VINEROW_SOURCE_DIR) / "tests/vehicles/data/plain_rover.urdf";
 
 std::filesystem::path write_file(const std::string& name, const std::string& text) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / name;
   std::ofstream(path) << text;
   return path;
 }
@@ -115,4 +115,4 @@ TEST(Urdf, RepeatedMaterialIsTakenOnceAndSaid) {
 }
 
 }  // namespace
-}  // namespace vinerow::io
+}  // namespace vinerow::io::urdf_test

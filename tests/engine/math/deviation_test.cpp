@@ -7,7 +7,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::deviation_test {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -121,4 +121,4 @@ TEST(DeviationMeter, HasNoAccuracyWithoutDeviation) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::deviation_test

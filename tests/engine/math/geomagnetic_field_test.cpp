@@ -4,7 +4,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::geomagnetic_field_test {
 namespace {
 
 TEST(GeomagneticField, IsThatOfThePublishedTestValues) {
@@ -50,4 +50,4 @@ TEST(GeomagneticField, IsFiniteAndSteadyAtThePoles) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::geomagnetic_field_test

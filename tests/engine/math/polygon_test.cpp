@@ -4,7 +4,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::polygon_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -113,4 +113,4 @@ TEST(Polygon, FindsWhereItCrossesItself) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::polygon_test

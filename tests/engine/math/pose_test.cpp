@@ -5,7 +5,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::pose_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -57,4 +57,4 @@ TEST(Angles, WrapKeepsTheDirectionAndPicksTheHalfOpenRange) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::pose_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinerow {
+namespace vinerow::standard_atmosphere_test {
 namespace {
 
 TEST(StandardAtmosphere, IsTheTableOfTheStandard) {
@@ -30,4 +30,4 @@ TEST(StandardAtmosphere, EndsAtItsLimits) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::standard_atmosphere_test

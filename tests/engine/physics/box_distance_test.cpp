@@ -11,7 +11,7 @@
 #include "engine/math/angles.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::physics {
+namespace vinerow::physics::box_distance_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -150,7 +150,7 @@ TEST(BoxDistance, MovesWithTheBoxesAndTakesNoHeap) {
     const Pose X_WA = random_pose(random, 2.0), X_WB = random_pose(random, 2.0);
     const Pose move = random_pose(random, 100.0);
     const Vector3d a = random_half(random), b = random_half(random);
-    test::AllocationCounter counter;
+    vinerow::test::AllocationCounter counter;
     const double here = box_distance_m(X_WA, a, X_WB, b);
     const double there = box_distance_m(move * X_WA, a, move * X_WB, b);
     EXPECT_EQ(counter.count(), 0u);
@@ -159,4 +159,4 @@ TEST(BoxDistance, MovesWithTheBoxesAndTakesNoHeap) {
 }
 
 }  // namespace
-}  // namespace vinerow::physics
+}  // namespace vinerow::physics::box_distance_test

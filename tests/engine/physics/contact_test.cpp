@@ -7,7 +7,7 @@
 #include "engine/math/angles.h"
 #include "tests/engine/physics/small_worlds.h"
 
-namespace vinerow::physics {
+namespace vinerow::physics::contact_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -226,4 +226,4 @@ TEST(Contact, BoxSlidesOverTheEdgesInsideAMeshWithoutStumbling) {
 }
 
 }  // namespace
-}  // namespace vinerow::physics
+}  // namespace vinerow::physics::contact_test

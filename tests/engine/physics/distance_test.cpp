@@ -9,7 +9,7 @@
 #include "engine/physics/triangle_box.h"
 #include "tests/engine/physics/small_worlds.h"
 
-namespace vinerow::physics {
+namespace vinerow::physics::distance_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -150,4 +150,4 @@ TEST(Distance, MaskAndReachAreKept) {
 }
 
 }  // namespace
-}  // namespace vinerow::physics
+}  // namespace vinerow::physics::distance_test

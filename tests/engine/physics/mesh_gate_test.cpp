@@ -11,7 +11,7 @@
 #include "engine/core/random.h"
 #include "tests/engine/physics/small_worlds.h"
 
-namespace vinerow::physics {
+namespace vinerow::physics::mesh_gate_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -85,4 +85,4 @@ TEST(MeshGate, BodiesOfManyShapesTouchExactlyWhenOneShapeDoes) {
 }
 
 }  // namespace
-}  // namespace vinerow::physics
+}  // namespace vinerow::physics::mesh_gate_test

@@ -12,7 +12,7 @@
 #include "tests/engine/physics/small_worlds.h"
 #include "tests/support/data.h"
 
-namespace vinerow::physics {
+namespace vinerow::physics::motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -358,4 +358,4 @@ TEST(FreeMotion, PrincipalAxesOfAFullMatrixGiveItBack) {
 }
 
 }  // namespace
-}  // namespace vinerow::physics
+}  // namespace vinerow::physics::motion_test

@@ -11,7 +11,7 @@
 #include "tests/engine/physics/small_worlds.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::physics {
+namespace vinerow::physics::physics_world_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -306,4 +306,4 @@ TEST(ContactNormals, EdgesOfABoxStandOutAndItsDiagonalsAreFlat) {
 }
 
 }  // namespace
-}  // namespace vinerow::physics
+}  // namespace vinerow::physics::physics_world_test

@@ -11,7 +11,7 @@
 #include "tests/engine/physics/small_worlds.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::physics {
+namespace vinerow::physics::scene_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -282,4 +282,4 @@ TEST(Scene, SharedMeshesAreSeenWhereTheirInstancesStand) {
 }
 
 }  // namespace
-}  // namespace vinerow::physics
+}  // namespace vinerow::physics::scene_test

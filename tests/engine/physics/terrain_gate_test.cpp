@@ -9,7 +9,7 @@
 #include "engine/math/angles.h"
 #include "tests/engine/physics/small_worlds.h"
 
-namespace vinerow::physics {
+namespace vinerow::physics::terrain_gate_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -138,4 +138,4 @@ TEST(TerrainGate, OutsideItsGridItProvesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::physics
+}  // namespace vinerow::physics::terrain_gate_test

@@ -10,7 +10,7 @@
 
 #include "engine/record/ros_mapping.h"
 
-namespace vinerow::record {
+namespace vinerow::record::cdr_test {
 namespace {
 
 /// "00 01 ff" -> bytes; "'text'" stands for its characters.
@@ -272,4 +272,4 @@ TEST(RosMapping, NegativeStampBytes) {
 }
 
 }  // namespace
-}  // namespace vinerow::record
+}  // namespace vinerow::record::cdr_test

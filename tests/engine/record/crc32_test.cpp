@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace vinerow::record {
+namespace vinerow::record::crc32_test {
 namespace {
 
 std::uint32_t crc_of(std::string_view text) {
@@ -38,4 +38,4 @@ TEST(Crc32, PiecesGiveTheSameAsTheWhole) {
 }
 
 }  // namespace
-}  // namespace vinerow::record
+}  // namespace vinerow::record::crc32_test

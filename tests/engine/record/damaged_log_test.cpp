@@ -13,7 +13,7 @@
 #include "tests/engine/record/log_files.h"
 #include "tests/engine/record/message_samples.h"
 
-namespace vinerow::record {
+namespace vinerow::record::damaged_log_test {
 namespace {
 
 using test::bytes_of;
@@ -73,7 +73,7 @@ TEST(DamagedLog, NamesWhatIsNoLog) {
   EXPECT_THROW(LogReader(std::filesystem::temp_directory_path()), ConfigError);
 }
 
-class DamagedLog : public testing::TestWithParam<std::string> {};
+class DamagedLog : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(DamagedLog, CutAnywhereKeepsTheWholeChunks) {
   const auto bytes = sample_log(GetParam());
@@ -159,7 +159,7 @@ TEST_P(DamagedLog, AChunkWithAWrongChecksumIsLeftOutAndCounted) {
   EXPECT_EQ(cut.info().damaged, 1u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Compressions, DamagedLog, testing::Values("zstd", "lz4", "none"));
+INSTANTIATE_TEST_SUITE_P(Compressions, DamagedLog, ::testing::Values("zstd", "lz4", "none"));
 
 TEST(DamagedLog, GarbageBehindTheMagicNeverCrashes) {
   const TemporaryFile file;
@@ -235,4 +235,4 @@ TEST(DamagedLog, AKilledRunLeavesAReadableLog) {
 }
 
 }  // namespace
-}  // namespace vinerow::record
+}  // namespace vinerow::record::damaged_log_test

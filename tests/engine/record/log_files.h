@@ -18,12 +18,12 @@ namespace vinerow::test {
 class TemporaryFile {
  public:
   TemporaryFile() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     static int count = 0;
     std::string name = std::string("vinerow_") + info->test_suite_name() + "_" + info->name() +
                        "_" + std::to_string(count++) + ".mcap";
     for (char& c : name) c = c == '/' ? '_' : c;
-    path_ = std::filesystem::path(testing::TempDir()) / name;
+    path_ = std::filesystem::path(::testing::TempDir()) / name;
   }
   ~TemporaryFile() { std::filesystem::remove(path_); }
   TemporaryFile(const TemporaryFile&) = delete;

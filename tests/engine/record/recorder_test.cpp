@@ -10,7 +10,7 @@
 #include "tests/engine/record/log_files.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::record {
+namespace vinerow::record::recorder_test {
 namespace {
 
 using test::TemporaryFile;
@@ -246,4 +246,4 @@ TEST(Recorder, SaysThatTheDiskIsFullOnce) {
 }
 
 }  // namespace
-}  // namespace vinerow::record
+}  // namespace vinerow::record::recorder_test

@@ -10,7 +10,7 @@
 #include "tests/engine/record/log_files.h"
 #include "tests/engine/record/message_samples.h"
 
-namespace vinerow::record {
+namespace vinerow::record::round_trip_test {
 namespace {
 
 using test::bytes_of;
@@ -18,7 +18,7 @@ using test::TemporaryFile;
 
 constexpr int kSamples = 50;
 
-class RoundTrip : public testing::TestWithParam<std::string> {};
+class RoundTrip : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(RoundTrip, EveryTypeComesBackToTheBit) {
   const TemporaryFile file;
@@ -61,7 +61,7 @@ TEST_P(RoundTrip, EveryTypeComesBackToTheBit) {
   EXPECT_EQ(log.info().damaged, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Compressions, RoundTrip, testing::Values("zstd", "lz4", "none"));
+INSTANTIATE_TEST_SUITE_P(Compressions, RoundTrip, ::testing::Values("zstd", "lz4", "none"));
 
 TEST(RoundTrip, SpecialNumbersComeBackToTheBit) {
   const TemporaryFile file;
@@ -182,4 +182,4 @@ TEST(RoundTrip, LinksWrittenAtAnotherTimeThanTheTruthAreExact) {
 }
 
 }  // namespace
-}  // namespace vinerow::record
+}  // namespace vinerow::record::round_trip_test

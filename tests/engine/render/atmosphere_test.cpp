@@ -4,7 +4,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow::render {
+namespace vinerow::render::atmosphere_test {
 namespace {
 
 TEST(Atmosphere, SunlightFollowsTheAirMass) {
@@ -40,4 +40,4 @@ TEST(Atmosphere, LightIsFiniteAndSkyIsDimmerThanSun) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::atmosphere_test

@@ -4,7 +4,7 @@
 
 #include "engine/render/culling.h"
 
-namespace vinerow::render {
+namespace vinerow::render::cameras_test {
 namespace {
 
 TEST(Cameras, LookAtKeepsTargetInTheCentreAndTheHorizonLevel) {
@@ -90,4 +90,4 @@ TEST(Cameras, ClipMatrixAgreesWithThePinholeModel) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::cameras_test

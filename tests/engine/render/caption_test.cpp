@@ -6,7 +6,7 @@
 
 #include "tests/engine/render/test_scenes.h"
 
-namespace vinerow::render {
+namespace vinerow::render::caption_test {
 namespace {
 
 Image grey_image() {
@@ -92,4 +92,4 @@ TEST(Caption, WithoutFontsThePictureStaysAsItIs) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::caption_test

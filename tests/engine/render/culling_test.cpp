@@ -5,7 +5,7 @@
 #include "engine/core/random.h"
 #include "engine/render/cameras.h"
 
-namespace vinerow::render {
+namespace vinerow::render::culling_test {
 namespace {
 
 TEST(Frustum, NeverRejectsABoxThatHoldsAVisiblePoint) {
@@ -61,4 +61,4 @@ TEST(Lod, SeenDistanceGrowsWhenThePictureGetsSmaller) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::culling_test

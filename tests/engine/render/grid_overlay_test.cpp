@@ -4,7 +4,7 @@
 
 #include "tests/engine/render/test_scenes.h"
 
-namespace vinerow::render {
+namespace vinerow::render::grid_overlay_test {
 namespace {
 
 /// 10 m x 10 m around the origin in cells of 0.1 m, all free.
@@ -163,4 +163,4 @@ TEST(GridOverlay, AnotherGridReplacesTheFirst) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::grid_overlay_test

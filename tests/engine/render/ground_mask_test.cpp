@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinerow::render {
+namespace vinerow::render::ground_mask_test {
 namespace {
 
 TEST(GroundMask, HoldsDistancesToRowsAndAlleys) {
@@ -29,4 +29,4 @@ TEST(GroundMask, WithoutRowsEverythingIsFar) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::ground_mask_test

@@ -7,7 +7,7 @@
 #include "engine/render/builtin_textures.h"
 #include "tests/engine/render/test_scenes.h"
 
-namespace vinerow::render {
+namespace vinerow::render::mesh_preparation_test {
 namespace {
 
 TEST(PrepareMesh, ABoxKeepsItsSharpEdges) {
@@ -87,4 +87,4 @@ TEST(PrepareMesh, TrianglesWithIndicesOutOfRangeAreDropped) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::mesh_preparation_test

@@ -4,7 +4,7 @@
 
 #include "engine/render/builtin_textures.h"
 
-namespace vinerow::render {
+namespace vinerow::render::pixels_test {
 namespace {
 
 TEST(MipChain, EndsAtOnePixelWithTheMeanColour) {
@@ -44,4 +44,4 @@ TEST(BuiltinTextures, AreTheSameInEveryCallAndSquare) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::pixels_test

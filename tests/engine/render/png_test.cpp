@@ -12,7 +12,7 @@
 #include "engine/render/scene.h"
 #include "tests/support/paths.h"
 
-namespace vinerow::render {
+namespace vinerow::render::png_test {
 namespace {
 
 std::string temporary_file(const std::string& name) {
@@ -109,4 +109,4 @@ TEST(ImageDigest, TellsSizeAndEveryPixel) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::png_test

@@ -9,7 +9,7 @@
 #include "tests/engine/render/test_scenes.h"
 #include "tests/support/paths.h"
 
-namespace vinerow::render {
+namespace vinerow::render::renderer_test {
 namespace {
 
 using test::is_red;
@@ -416,4 +416,4 @@ TEST(Renderer, LeafCardsAreSeenThroughBetweenTheLeaves) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::renderer_test

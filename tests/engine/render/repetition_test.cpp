@@ -9,7 +9,7 @@
 #include "engine/math/angles.h"
 #include "tests/engine/render/test_scenes.h"
 
-namespace vinerow::render {
+namespace vinerow::render::repetition_test {
 namespace {
 
 constexpr int kWidth = 768;
@@ -83,4 +83,4 @@ TEST(Ground, NoTileOfItsTexturesIsSeenTwice) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::repetition_test

@@ -5,7 +5,7 @@
 #include "engine/render/culling.h"
 #include "tests/engine/render/test_scenes.h"
 
-namespace vinerow::render {
+namespace vinerow::render::ribbons_test {
 namespace {
 
 TEST(Ribbon, HasItsWidthInPixelsWhateverTheDistance) {
@@ -93,4 +93,4 @@ TEST(Ribbon, FollowsTheGround) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::ribbons_test

@@ -9,7 +9,7 @@
 #include "engine/render/scenery_meshes.h"
 #include "tests/engine/render/test_scenes.h"
 
-namespace vinerow::render {
+namespace vinerow::render::scenery_test {
 namespace {
 
 const Eigen::Vector3d kSun = Eigen::Vector3d(0.0, 1.0, 1.0).normalized();
@@ -127,4 +127,4 @@ TEST(Scenery, RowsAreSeenFromAboveAndOnlyWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace vinerow::render
+}  // namespace vinerow::render::scenery_test

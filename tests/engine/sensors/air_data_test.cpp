@@ -6,12 +6,12 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
-namespace vinerow {
+namespace vinerow::air_data_test {
 namespace {
 
 using Eigen::Vector3d;
 
-class AirDataBench : public testing::Test {
+class AirDataBench : public ::testing::Test {
  protected:
   void start(const test::SensorValues& values) {
     sensor_ = make_air_data(test::sensor_parameters("air_data", values), bench_.context(20.0));
@@ -106,4 +106,4 @@ TEST_F(AirDataBench, ADelayedReadingKeepsItsTime) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::air_data_test

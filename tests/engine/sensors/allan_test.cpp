@@ -9,7 +9,7 @@
 #include "tests/engine/sensors/data_sheet.h"
 #include "tests/engine/sensors/sensor_rig.h"
 
-namespace vinerow {
+namespace vinerow::allan_test {
 namespace {
 
 using test::AllanDeviation;
@@ -144,4 +144,4 @@ TEST(ImuNoise, AnInstabilityBelowTheWhiteNoiseIsRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::allan_test

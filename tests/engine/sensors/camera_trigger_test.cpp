@@ -9,7 +9,7 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
-namespace vinerow {
+namespace vinerow::camera_trigger_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -18,7 +18,7 @@ using test::SensorValues;
 // The RedEdge of paper A by its data sheet: f 5.4 mm, sensor 4.8 x 3.6 mm, 1280 pixels across.
 constexpr double kAcross = 2.4 / 5.4, kAlong = 1.8 / 5.4, kPixel = 4.8 / 1280 / 5.4;
 
-class CameraBench : public testing::Test {
+class CameraBench : public ::testing::Test {
  protected:
   void start(const SensorValues& values, double rate_Hz = 20.0) {
     sensor_ = make_camera_trigger(test::sensor_parameters("camera_trigger", values),
@@ -283,4 +283,4 @@ TEST_F(CameraBench, LanesNeedAPlanner) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::camera_trigger_test

@@ -10,7 +10,7 @@
 #include "tests/engine/sensors/ranging_bench.h"
 #include "tests/engine/sensors/shape_scene.h"
 
-namespace vinerow {
+namespace vinerow::echo_test {
 namespace {
 
 using test::Panel;
@@ -153,4 +153,4 @@ TEST(Echo, ReturnsWithinAPulseAddUp) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::echo_test

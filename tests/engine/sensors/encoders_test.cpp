@@ -9,7 +9,7 @@
 #include "tests/engine/sensors/sensor_parts.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::encoders_test {
 namespace {
 
 using test::SensorBench;
@@ -145,4 +145,4 @@ TEST(Encoders, SaysWhichVehicleTellsNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::encoders_test

@@ -9,7 +9,7 @@
 #include "tests/support/no_alloc.h"
 #include "tests/support/paths.h"
 
-namespace vinerow {
+namespace vinerow::field_sensors_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -209,4 +209,4 @@ TEST(DataSheets, EveryNumberHasASource) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::field_sensors_test

@@ -9,7 +9,7 @@
 #include "engine/sensors/gnss_error.h"
 #include "engine/sensors/gnss_mode.h"
 
-namespace vinerow {
+namespace vinerow::gnss_mode_test {
 namespace {
 
 using Mode = GnssFix::Mode;
@@ -108,7 +108,7 @@ TEST(GnssModes, ContradictionsAreRefused) {
             "rover.sensors.s: time_to_refix_s = 11 s, must be <= time_to_fix_s = 10 s");
 }
 
-class GnssErrorOfMode : public testing::TestWithParam<Mode> {
+class GnssErrorOfMode : public ::testing::TestWithParam<Mode> {
  protected:
   /// Defaults: 0.8 and 1.2 by code, 1.0 and 1.45 by carrier phase; the first on two axes.
   static Dilution usual() {
@@ -216,17 +216,17 @@ TEST_P(GnssErrorOfDataSheet, HalfOfTheErrorsAreSmallerThanItSays) {
   EXPECT_NEAR(near_in_height, 0.5 * kCount, 0.028 * kCount);
 }
 
-std::string name_of(const testing::TestParamInfo<Mode>& parameter) {
+std::string name_of(const ::testing::TestParamInfo<Mode>& parameter) {
   constexpr const char* kNames[] = {"none", "standalone", "sbas", "float", "fixed"};
   return kNames[static_cast<int>(parameter.param)];
 }
 INSTANTIATE_TEST_SUITE_P(All, GnssErrorOfMode,
-                         testing::Values(Mode::kStandalone, Mode::kSbas, Mode::kFloat,
+                         ::testing::Values(Mode::kStandalone, Mode::kSbas, Mode::kFloat,
                                          Mode::kFixed),
                          name_of);
 
 INSTANTIATE_TEST_SUITE_P(All, GnssErrorOfDataSheet,
-                         testing::Values(Mode::kStandalone, Mode::kSbas, Mode::kFixed), name_of);
+                         ::testing::Values(Mode::kStandalone, Mode::kSbas, Mode::kFixed), name_of);
 
 TEST(GnssError, ABaseStationFarAwayAddsAMillimetrePerKilometre) {
   const auto walk_m = [](double baseline_m) {
@@ -237,4 +237,4 @@ TEST(GnssError, ABaseStationFarAwayAddsAMillimetrePerKilometre) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::gnss_mode_test

@@ -10,7 +10,7 @@
 #include "tests/engine/sensors/sensor_rig.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::gnss_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -210,4 +210,4 @@ TEST(Gnss, TheDataSheetsAreReadAndDiffer) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::gnss_test

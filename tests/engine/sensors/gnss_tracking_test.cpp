@@ -8,7 +8,7 @@
 
 #include "tests/engine/sensors/gnss_bench.h"
 
-namespace vinerow {
+namespace vinerow::gnss_tracking_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -128,4 +128,4 @@ TEST(GnssTracking, AfterABlockageCodeComesBackBeforePhase) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::gnss_tracking_test

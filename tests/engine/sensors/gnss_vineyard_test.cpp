@@ -6,7 +6,7 @@
 #include "tests/engine/sensors/gnss_bench.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow {
+namespace vinerow::gnss_vineyard_test {
 namespace {
 
 using test::GnssBench;
@@ -60,4 +60,4 @@ TEST(GnssVineyard, NearTheGroundBetweenRowsFixAndErrorAreWorse) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::gnss_vineyard_test

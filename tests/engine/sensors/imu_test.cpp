@@ -5,7 +5,7 @@
 #include "tests/engine/sensors/sensor_rig.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::imu_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -194,4 +194,4 @@ TEST(Imu, AStepWithEverythingOnAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::imu_test

@@ -9,7 +9,7 @@
 #include "tests/engine/sensors/shape_scene.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::lidar_test {
 namespace {
 
 using test::SensorValues;
@@ -224,4 +224,4 @@ TEST(Lidar, RefusesBadInputInOneSentence) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::lidar_test

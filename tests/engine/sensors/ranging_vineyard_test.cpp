@@ -15,7 +15,7 @@
 #include "tests/support/data.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow {
+namespace vinerow::ranging_vineyard_test {
 namespace {
 
 struct Riseholme {
@@ -157,4 +157,4 @@ TEST(RangingInAVineyard, WhatAScannerSeesAreTheSurveyedPolesAndVines) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::ranging_vineyard_test

@@ -7,7 +7,7 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
-namespace vinerow {
+namespace vinerow::sensors_test {
 namespace {
 
 using test::SensorBench;
@@ -208,4 +208,4 @@ TEST(Ultrasound, NothingInRangeReadsInfinity) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::sensors_test

@@ -10,7 +10,7 @@
 #include "tests/engine/sensors/shape_scene.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::ultrasound_test {
 namespace {
 
 using test::Panel;
@@ -245,4 +245,4 @@ TEST(Ultrasound, RefusesBadInputInOneSentence) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::ultrasound_test

@@ -13,7 +13,7 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::air_metrics_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -28,7 +28,7 @@ PathPoint point(double x, double y, PathKind kind, int alley = -1) {
   return result;
 }
 
-class WingBench : public testing::Test {
+class WingBench : public ::testing::Test {
  protected:
   WingBench() {
     description_.numbers["wing_span_m"] = 0.9;
@@ -298,4 +298,4 @@ TEST_F(WingBench, AStepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::air_metrics_test

@@ -11,7 +11,7 @@
 #include "engine/core/random.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::alley_traffic_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -534,7 +534,7 @@ TEST(AlleyTraffic, NobodyMeetsAndNobodyWaitsForEverUnsaid) {
     while (!yard.is_done()) {
       yard.step();
       yard.expect_apart();
-      if (testing::Test::HasFatalFailure()) FAIL() << "seed " << seed;
+      if (::testing::Test::HasFatalFailure()) FAIL() << "seed " << seed;
       double sum_m = 0.0;
       for (const Mover& mover : yard.movers) sum_m += mover.at_m;
       const double now_s = 0.1 * static_cast<double>(yard.ticks);
@@ -558,4 +558,4 @@ TEST(AlleyTraffic, NobodyMeetsAndNobodyWaitsForEverUnsaid) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::alley_traffic_test

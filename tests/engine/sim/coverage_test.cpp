@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/math/pose.h"
 
-namespace vinerow {
+namespace vinerow::coverage_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -258,4 +258,4 @@ TEST(Coverage, RefusesBadParcels) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::coverage_test

@@ -11,7 +11,7 @@
 #include "engine/sim/run.h"
 #include "tests/engine/sim/small_run.h"
 
-namespace vinerow {
+namespace vinerow::crash_test {
 namespace {
 
 const char* const kScenario = R"(
@@ -130,4 +130,4 @@ TEST_F(CrashRun, RefusesAnotherWordForWhatACrashDoes) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::crash_test

@@ -11,7 +11,7 @@
 #include "engine/sim/frame_composer.h"
 #include "tests/engine/sim/small_parts.h"
 
-namespace vinerow {
+namespace vinerow::estimate_drawing_test {
 namespace {
 
 constexpr double kGround_m = 7.0;
@@ -121,7 +121,7 @@ TEST(EstimateDrawing, EarlierEllipsesTouchButDoNotOverlap) {
 }
 
 /// A statue at (0, 0) whose estimator says (1, 0.5), with one observer, on level ground.
-class EstimatePicture : public testing::Test {
+class EstimatePicture : public ::testing::Test {
  protected:
   EstimatePicture() {
     io::VehicleConfig rover;
@@ -281,4 +281,4 @@ TEST_F(EstimatePicture, SeenAslantTheMapFadesBeforeItRunsTogether) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::estimate_drawing_test

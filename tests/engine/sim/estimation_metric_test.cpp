@@ -12,7 +12,7 @@
 #include "engine/sim/metrics/estimation.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::estimation_metric_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -317,4 +317,4 @@ TEST(EstimationMetric, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::estimation_metric_test

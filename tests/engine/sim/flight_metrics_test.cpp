@@ -13,7 +13,7 @@
 #include "engine/sim/metrics/wheel_slip.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::flight_metrics_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -98,7 +98,7 @@ PlannedPath two_rows_and_home() {
   return path;
 }
 
-class FlightBench : public testing::Test {
+class FlightBench : public ::testing::Test {
  protected:
   using Make = std::unique_ptr<Metric> (*)(const ParameterSet&, const MetricContext&);
 
@@ -371,4 +371,4 @@ TEST_F(FlightBench, AStepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::flight_metrics_test

@@ -8,11 +8,11 @@
 #include "engine/render/cameras.h"
 #include "tests/engine/sim/small_parts.h"
 
-namespace vinerow {
+namespace vinerow::frame_composer_test {
 namespace {
 
 /// One vehicle without links on level ground at 7 m, with a plan and its tree written at 1 s.
-class ComposedFrame : public testing::Test {
+class ComposedFrame : public ::testing::Test {
  protected:
   ComposedFrame() {
     io::VehicleConfig rover;
@@ -232,4 +232,4 @@ TEST_F(ComposedFrame, AViewOfTheWholeGridShowsTheParcelsBoundary) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::frame_composer_test

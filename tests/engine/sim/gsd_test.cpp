@@ -11,7 +11,7 @@
 #include "engine/sim/metrics/survey_coverage.h"
 #include "tests/engine/sensors/fixed_scene.h"
 
-namespace vinerow {
+namespace vinerow::gsd_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 // MicaSense RedEdge, paper A, section 2: pixels of 3.75 um (4.8 mm / 1280), lens of 5.4 mm.
 constexpr double kPitch_m = 3.75e-6, kFocal_m = 5.4e-3, kHalfColumns = 640.0;
 
-class GsdBench : public testing::Test {
+class GsdBench : public ::testing::Test {
  protected:
   GsdBench() {
     plane_.numbers["wing_span_m"] = 0.9;
@@ -117,4 +117,4 @@ TEST_F(GsdBench, BankedByFiveDegreesItIsOnePixelWithinOnePercent) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::gsd_test

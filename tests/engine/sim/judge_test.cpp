@@ -5,7 +5,7 @@
 #include "engine/core/error.h"
 #include "engine/sim/judge.h"
 
-namespace vinerow {
+namespace vinerow::judge_test {
 namespace {
 
 io::Criterion criterion(const std::string& metric, std::optional<double> min,
@@ -44,4 +44,4 @@ TEST(Judge, UnknownMetricsAreRefusedWithTheNearest) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::judge_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::map_edges_test {
 namespace {
 
 double total_length_m(const LineList& lines) {
@@ -79,4 +79,4 @@ TEST(MapEdges, OfEveryRowAndOfNoneNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::map_edges_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vinerow {
+namespace vinerow::map_ground_test {
 namespace {
 
 /// z = 0.5 x + 0.25 y + 3 over 20 m x 10 m from (-5, 2).
@@ -50,4 +50,4 @@ TEST(MapGround, HasNothingElse) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::map_ground_test

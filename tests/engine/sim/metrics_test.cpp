@@ -11,7 +11,7 @@
 #include "engine/sim/metrics/wheel_slip.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::metrics_test {
 namespace {
 
 using Results = std::map<std::string, double>;
@@ -322,4 +322,4 @@ TEST(Travel, StandingDriftCountsFromWhereTheSpringsHaveSettled) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::metrics_test

@@ -13,10 +13,10 @@
 #include "tests/engine/sim/mission_parts.h"
 #include "tests/engine/sim/small_run.h"
 
-namespace vinerow {
+namespace vinerow::mission_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Survey for 2 s, a job of 3 s, then two vehicles side by side for 1 s and 4 s.
 const char* const kScenario = R"(
@@ -233,4 +233,4 @@ TEST_F(MissionRun, HowNearOthersCameIsMeasured) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::mission_test

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vinerow {
+namespace vinerow::phase_moments_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -55,4 +55,4 @@ TEST_F(PhaseMoments, FollowNobodyWhoStandsParked) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::phase_moments_test

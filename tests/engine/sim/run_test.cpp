@@ -13,7 +13,7 @@
 #include "engine/sim/log_trace.h"
 #include "tests/engine/sim/small_run.h"
 
-namespace vinerow {
+namespace vinerow::run_test {
 namespace {
 
 const char* const kScenario = R"(
@@ -153,4 +153,4 @@ TEST_F(SmallRun, TheMapIsInTheLogOnceWhereTheWorldHasOne) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::run_test

@@ -4,7 +4,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::scheduler_test {
 namespace {
 
 TEST(Scheduler, AnHourHoldsExactlyTheSamplesOfEachRate) {
@@ -88,4 +88,4 @@ TEST(Scheduler, PeriodsThatTheStepDoesNotDivideAreRefusedWithBothNumbers) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::scheduler_test

@@ -13,7 +13,7 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sim/small_parts.h"
 
-namespace vinerow {
+namespace vinerow::sensor_run_test {
 namespace {
 
 /// Registered sensors at their default rates on a scheduler, without physics.
@@ -126,4 +126,4 @@ vehicles:
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::sensor_run_test

@@ -9,7 +9,7 @@
 #include "engine/physics/box_distance.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow {
+namespace vinerow::separation_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -112,4 +112,4 @@ TEST(Separation, IsTheLeastOfAllTicksWithoutHeap) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::separation_test

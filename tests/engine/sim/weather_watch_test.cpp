@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::weather_watch_test {
 namespace {
 
 using Verdict = WeatherWatch::Verdict;
@@ -67,4 +67,4 @@ TEST(WeatherWatch, AGustIsWaitedOut) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::weather_watch_test

@@ -8,7 +8,7 @@
 #include "engine/math/angles.h"
 #include "tests/vehicles/small_worlds.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::diff_drive_rover_test {
 namespace {
 
 using namespace test;
@@ -112,4 +112,4 @@ TEST(DiffDriveRoverParams, RejectsBadNumbersByName) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::diff_drive_rover_test

@@ -6,7 +6,7 @@
 #include "tests/vehicles/fixed_wing/reference_aircraft.h"
 #include "tests/vehicles/fixed_wing/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::fixed_wing_flight_test {
 namespace {
 
 using namespace test;
@@ -257,4 +257,4 @@ TEST(FixedWingFlight, AStepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::fixed_wing_flight_test

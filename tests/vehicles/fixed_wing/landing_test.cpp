@@ -4,7 +4,7 @@
 
 #include "tests/vehicles/fixed_wing/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::landing_test {
 namespace {
 
 using namespace test;
@@ -108,4 +108,4 @@ TEST(FixedWingLanding, WatchesItsWingTips) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::landing_test

@@ -9,7 +9,7 @@
 #include "tests/support/paths.h"
 #include "tests/vehicles/fixed_wing/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::launch_test {
 namespace {
 
 using namespace test;
@@ -239,4 +239,4 @@ TEST(FixedWingParameters, RefusesWhatDoesNotFly) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::launch_test

@@ -15,7 +15,7 @@
 #include "tests/support/data.h"
 #include "tests/vehicles/fixed_wing/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::nesc_test {
 namespace {
 
 using namespace test;
@@ -123,7 +123,7 @@ double sphere_error_m(WorldModel world, const Eigen::Vector4d& start, double tim
   run_in_round_gravity(rig, time_s);
   const Eigen::Vector4d exact = exact_sphere(start, time_s, 30000, wind_mps);
   const Vector3d error = rig.body().X_WB.p - Vector3d(exact[0], 0, exact[1]);
-  testing::Test::RecordProperty("error_um", std::to_string(1e6 * error.norm()));
+  ::testing::Test::RecordProperty("error_um", std::to_string(1e6 * error.norm()));
   EXPECT_NEAR(rig.body().v_WB_W.x(), exact[2], 2e-6);
   EXPECT_NEAR(rig.body().v_WB_W.z(), exact[3], 2e-6);
   return error.norm();
@@ -217,4 +217,4 @@ TEST(FixedWingNesc, Case03TumblingBrickWithDamping) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::nesc_test

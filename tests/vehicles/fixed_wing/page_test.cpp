@@ -10,7 +10,7 @@
 
 #include "tests/vehicles/fixed_wing/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::page_test {
 namespace {
 
 using namespace test;
@@ -197,4 +197,4 @@ TEST(FixedWingPage, LateralMatricesComeOut) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::page_test

@@ -6,7 +6,7 @@
 
 #include "tests/vehicles/four_wheel_steering_rover/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::driving_test {
 namespace {
 
 using namespace test;
@@ -140,4 +140,4 @@ TEST(FourWheelSteeringRover, ReachesItsTopSpeedUphillAndNoMore) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::driving_test

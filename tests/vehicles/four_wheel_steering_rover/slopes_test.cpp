@@ -5,7 +5,7 @@
 
 #include "tests/vehicles/four_wheel_steering_rover/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::slopes_test {
 namespace {
 
 using namespace test;
@@ -122,4 +122,4 @@ TEST(FourWheelSteeringRover, ABatteryLastsEightHoursOfRowsOnFourteenDegrees) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::slopes_test

@@ -6,7 +6,7 @@
 #include "tests/vehicles/four_wheel_steering_rover/rig.h"
 #include "vehicles/parts/double_ackermann.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::steering_test {
 namespace {
 
 using namespace test;
@@ -216,4 +216,4 @@ TEST(FourWheelSteeringRoverParams, RejectsBadNumbersByName) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::steering_test

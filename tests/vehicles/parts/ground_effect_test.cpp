@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::ground_effect_test {
 namespace {
 
 TEST(GroundEffect, OneRotorFollowsCheesemanAndBennett) {
@@ -52,4 +52,4 @@ TEST(GroundEffect, IsBoundedAndEnds) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::ground_effect_test

@@ -6,7 +6,7 @@
 #include "vehicles/diff_drive_rover/rover_mesh.h"
 #include "vehicles/parts/wheel_mesh.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::mesh_builder_test {
 namespace {
 
 /// Signed volume by the divergence theorem; positive when faces look outwards.
@@ -101,4 +101,4 @@ TEST(RoverMesh, StandsAboveTheGroundAndIsOfTheVehiclesSize) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::mesh_builder_test

@@ -7,7 +7,7 @@
 #include "engine/core/error.h"
 #include "vehicles/parts/battery.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::motor_test {
 namespace {
 
 TEST(Motor, TorqueSpeedCurveHasItsThreeParts) {
@@ -114,4 +114,4 @@ TEST(Battery, CountsEnergyAndCharge) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::motor_test

@@ -6,7 +6,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::planar_motion_test {
 namespace {
 
 TEST(PlanarMotion, QuarterCircleIsExact) {
@@ -32,4 +32,4 @@ TEST(PlanarMotion, OneStepEqualsManyAtAnyYawRate) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::planar_motion_test

@@ -4,7 +4,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::propeller_test {
 namespace {
 
 TEST(Propeller, PullsAsBernoulliSays) {
@@ -55,4 +55,4 @@ TEST(Propeller, RefusesBadNumbers) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::propeller_test

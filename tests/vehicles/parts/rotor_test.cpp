@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::rotor_test {
 namespace {
 
 /// Means of w, w^2, w^3 over a step by Simpson's rule on the exponential.
@@ -74,4 +74,4 @@ TEST(RotorParams, RefusesAnImpossibleRotor) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::rotor_test

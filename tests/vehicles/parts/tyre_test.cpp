@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::tyre_test {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -151,4 +151,4 @@ TEST(TyreParams, RejectsBadValuesByName) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::tyre_test

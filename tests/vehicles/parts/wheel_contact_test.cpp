@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::wheel_contact_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -125,4 +125,4 @@ TEST(WheelContact, HangsFreeWhenTheGroundIsOutOfReach) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::wheel_contact_test

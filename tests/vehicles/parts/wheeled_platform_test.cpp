@@ -12,7 +12,7 @@
 #include "vehicles/diff_drive_rover/diff_drive_rover.h"
 #include "vehicles/parts/wheel_parameters.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::wheeled_platform_test {
 namespace {
 
 using namespace test;
@@ -361,4 +361,4 @@ TEST(WheeledPlatformParams, RejectsBadMass) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::wheeled_platform_test

@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::wing_aerodynamics_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -180,4 +180,4 @@ TEST(WingAerodynamics, RefusesBadNumbers) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::wing_aerodynamics_test

@@ -8,7 +8,7 @@
 
 #include "tests/vehicles/payloads/payload_rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::canopy_camera_test {
 namespace {
 
 using namespace test;
@@ -197,4 +197,4 @@ TEST(CanopyCamera, BadParametersAreToldInASentence) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::canopy_camera_test

@@ -13,7 +13,7 @@
 #include "tests/vehicles/payloads/payload_rig.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::canopy_patches_test {
 namespace {
 
 using namespace test;
@@ -274,4 +274,4 @@ TEST(CanopyNumbers, AreWeightedByArea) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::canopy_patches_test

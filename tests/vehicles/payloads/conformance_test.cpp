@@ -10,7 +10,7 @@
 #include "tests/support/no_alloc.h"
 #include "tests/vehicles/payloads/payload_rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::payloads_conformance_test {
 namespace {
 
 using namespace test;
@@ -23,7 +23,7 @@ WorldModel windy_rows() {
   return world;
 }
 
-class PayloadConformance : public testing::TestWithParam<std::string> {
+class PayloadConformance : public ::testing::TestWithParam<std::string> {
  protected:
   const PartSpec& spec() const { return vehicle_registry().spec(PartKind::kPayload, GetParam()); }
 };
@@ -140,8 +140,8 @@ TEST_P(PayloadConformance, DoesSomethingToTheCanopyAndTellsItTwiceTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PayloadConformance,
-                         testing::ValuesIn(vehicle_registry().names(PartKind::kPayload)),
+                         ::testing::ValuesIn(vehicle_registry().names(PartKind::kPayload)),
                          [](const auto& parameter) { return parameter.param; });
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::payloads_conformance_test

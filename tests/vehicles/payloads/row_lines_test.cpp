@@ -10,7 +10,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::row_lines_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -105,4 +105,4 @@ TEST(RowLines, NothingIsBesideAVehicleThatTurnsIsFarOrBeyondTheEnd) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::row_lines_test

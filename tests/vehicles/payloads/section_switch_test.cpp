@@ -7,7 +7,7 @@
 
 #include "tests/vehicles/payloads/payload_rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::section_switch_test {
 namespace {
 
 using namespace test;
@@ -130,4 +130,4 @@ TEST(SectionSwitch, OnLegsOnlyWhereThePlanHasOne) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::section_switch_test

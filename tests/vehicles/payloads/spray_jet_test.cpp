@@ -10,7 +10,7 @@
 #include "engine/physics/world_scene.h"
 #include "tests/vehicles/payloads/payload_rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::spray_jet_test {
 namespace {
 
 using namespace test;
@@ -167,4 +167,4 @@ TEST(TraceSpray, AStormThatStopsTheJetIsNoTrouble) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::spray_jet_test

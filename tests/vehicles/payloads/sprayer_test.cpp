@@ -9,7 +9,7 @@
 #include "tests/vehicles/payloads/payload_rig.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::sprayer_test {
 namespace {
 
 using namespace test;
@@ -230,4 +230,4 @@ TEST(Sprayer, BadParametersAreToldInASentence) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::sprayer_test

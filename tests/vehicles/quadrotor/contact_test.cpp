@@ -4,7 +4,7 @@
 
 #include "tests/vehicles/quadrotor/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::contact_test {
 namespace {
 
 using namespace test;
@@ -197,4 +197,4 @@ TEST(QuadrotorCrash, StaysTheFirstReason) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::contact_test

@@ -4,7 +4,7 @@
 
 #include "tests/vehicles/quadrotor/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::faults_test {
 namespace {
 
 using namespace test;
@@ -111,4 +111,4 @@ TEST(QuadrotorFaults, AnEmptyBatteryOnTheGroundIsNoCrash) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::faults_test

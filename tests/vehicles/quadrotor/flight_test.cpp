@@ -4,7 +4,7 @@
 
 #include "tests/vehicles/quadrotor/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::quadrotor_flight_test {
 namespace {
 
 using namespace test;
@@ -205,4 +205,4 @@ TEST(QuadrotorFlight, ThinAirCarriesLess) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::quadrotor_flight_test

@@ -6,7 +6,7 @@
 #include "tests/vehicles/quadrotor/rig.h"
 #include "vehicles/quadrotor/quadrotor_mesh.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::layout_test {
 namespace {
 
 using namespace test;
@@ -213,4 +213,4 @@ TEST(QuadrotorParams, SpecAndStructAgree) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::layout_test

@@ -7,7 +7,7 @@
 #include "tests/vehicles/quadrotor/reference_flight.h"
 #include "tests/vehicles/quadrotor/rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::model_test {
 namespace {
 
 using namespace test;
@@ -176,4 +176,4 @@ TEST(QuadrotorFlight, AStepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::model_test

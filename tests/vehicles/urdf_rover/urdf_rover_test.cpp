@@ -13,7 +13,7 @@
 #include "tests/support/paths.h"
 #include "tests/vehicles/small_worlds.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::urdf_rover_test {
 namespace {
 
 using namespace test;
@@ -202,4 +202,4 @@ TEST(Husky, DrivesASquareAndACircle) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::urdf_rover_test

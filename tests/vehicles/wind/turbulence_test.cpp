@@ -9,7 +9,7 @@
 #include "tests/vehicles/wind/spectrum.h"
 #include "tests/vehicles/wind/wind_rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::turbulence_test {
 namespace {
 
 using namespace test;
@@ -304,4 +304,4 @@ TEST(Turbulence, DoesNotFreezeWhereAVehicleDriftsWithTheWind) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::turbulence_test

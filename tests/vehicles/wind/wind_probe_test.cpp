@@ -11,7 +11,7 @@
 #include "tests/support/no_alloc.h"
 #include "tests/vehicles/wind/wind_rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::wind_probe_test {
 namespace {
 
 using namespace test;
@@ -303,4 +303,4 @@ TEST(WindProbe, RefusesAWindThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::wind_probe_test

@@ -9,7 +9,7 @@
 
 #include "tests/vehicles/wind/wind_rig.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::wind_shelter_test {
 namespace {
 
 using namespace test;
@@ -159,4 +159,4 @@ TEST(WindShelter, NoneWithoutRowsOrAttenuation) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::wind_shelter_test

@@ -11,7 +11,7 @@
 #include "tests/vehicles/wind/wind_rig.h"
 #include "vehicles/diff_drive_rover/diff_drive_rover.h"
 
-namespace vinerow::vehicles {
+namespace vinerow::vehicles::windblown_rover_test {
 namespace {
 
 using namespace test;
@@ -194,4 +194,4 @@ TEST(WindblownRover, AnotherRoverChangesNoGustOfTheFirst) {
 }
 
 }  // namespace
-}  // namespace vinerow::vehicles
+}  // namespace vinerow::vehicles::windblown_rover_test

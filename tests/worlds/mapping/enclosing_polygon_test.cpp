@@ -13,7 +13,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::enclosing_polygon_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -47,8 +47,8 @@ struct Excess {
     worst = std::max(worst, excess);
   }
   void record(const std::string& name) const {
-    testing::Test::RecordProperty(name + "_mean_percent", std::to_string(100.0 * sum / count));
-    testing::Test::RecordProperty(name + "_worst_percent", std::to_string(100.0 * worst));
+    ::testing::Test::RecordProperty(name + "_mean_percent", std::to_string(100.0 * sum / count));
+    ::testing::Test::RecordProperty(name + "_worst_percent", std::to_string(100.0 * worst));
   }
 };
 
@@ -224,7 +224,7 @@ TEST(EnclosingPolygon, IsTheSmallestOfAllChoicesAndGreedyIsNotBelowIt) {
     const Polygon points = random_points(random, 5 + round % 8);
     const int hull_corners = static_cast<int>(convex_hull(points).size());
     for (int corners = 3; corners < std::min(hull_corners, 7); ++corners) {
-      SCOPED_TRACE(testing::Message() << "round " << round << ", corners " << corners);
+      SCOPED_TRACE(::testing::Message() << "round " << round << ", corners " << corners);
       const Least least = brute_force(points, corners);
       const double expected = std::min(least.along_hull_m2, least.free_m2);
       const double smallest = smallest_m2(points, corners), fast = greedy_m2(points, corners);
@@ -247,7 +247,7 @@ TEST(EnclosingPolygon, IsTheSmallestOfAllChoicesAndGreedyIsNotBelowIt) {
   for (const auto& [corners, excess] : greedy_excess) {
     excess.record("greedy_excess_" + std::to_string(corners));
   }
-  RecordProperty("farthest_from_brute_force", testing::PrintToString(farthest));
+  RecordProperty("farthest_from_brute_force", ::testing::PrintToString(farthest));
 }
 
 TEST(EnclosingPolygon, NoTangentsTurnedAtWillLeaveLess) {
@@ -473,4 +473,4 @@ TEST(EnclosingPolygon, RefusesWhatHasNoPolygon) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::enclosing_polygon_test

@@ -7,10 +7,10 @@
 #include "engine/math/polygon.h"
 #include "tests/worlds/mapping/cloud_map_fixture.h"
 
-namespace vinerow::test {
+namespace vinerow::test::map_conformance_test {
 namespace {
 
-class MapConformance : public testing::TestWithParam<std::pair<std::string, std::string>> {
+class MapConformance : public ::testing::TestWithParam<std::pair<std::string, std::string>> {
  protected:
   std::unique_ptr<RowMap> make(std::uint64_t seed = 1) const {
     ParameterSet parameters = map_parameters(GetParam().first);
@@ -114,10 +114,10 @@ std::vector<std::pair<std::string, std::string>> all_maps() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(AllMaps, MapConformance, testing::ValuesIn(all_maps()),
+INSTANTIATE_TEST_SUITE_P(AllMaps, MapConformance, ::testing::ValuesIn(all_maps()),
                          [](const auto& test_info) {
                            return test_info.param.first + "_of_" + test_info.param.second;
                          });
 
 }  // namespace
-}  // namespace vinerow::test
+}  // namespace vinerow::test::map_conformance_test

@@ -6,7 +6,7 @@
 #include "tests/worlds/mapping/grid_search.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::obstacles_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -130,4 +130,4 @@ TEST(Obstacles, WrongOnesAreNamed) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::obstacles_test

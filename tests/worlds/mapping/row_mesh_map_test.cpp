@@ -13,7 +13,7 @@
 #include "tests/worlds/mapping/map_fixture.h"
 #include "worlds/mapping/chain_errors.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::row_mesh_map_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -365,7 +365,7 @@ TEST(RowMeshMap, RowsWithoutCanopyAreAsWideAndHighAsTheySay) {
 }
 
 TEST(RowMeshMap, IsWrittenAndReadBitForBit) {
-  const std::string folder = testing::TempDir() + "row_mesh_map_files";
+  const std::string folder = ::testing::TempDir() + "row_mesh_map_files";
   std::filesystem::remove_all(folder);
   ParameterSet options = parameters();
   options.set("save_to", folder);
@@ -412,4 +412,4 @@ TEST(RowMeshMap, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::row_mesh_map_test

@@ -9,7 +9,7 @@
 #include "tests/worlds/world_fixture.h"
 #include "worlds/mapping/map_parameters.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::world_map_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -201,4 +201,4 @@ TEST(WorldMap, ReliefKeepsTheSteepnessOfParcelFUnlessGiven) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::world_map_test

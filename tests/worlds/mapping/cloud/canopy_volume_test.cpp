@@ -7,7 +7,7 @@
 
 #include "tests/worlds/mapping/cloud/cloud_scene.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::canopy_volume_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -120,4 +120,4 @@ TEST(CanopyByRow, GivesEachPieceToTheNearestRow) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::canopy_volume_test

@@ -11,7 +11,7 @@
 #include "worlds/mapping/cloud/folder/map_frame.h"
 #include "worlds/mapping/occupancy.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::cloud_map_type_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -26,7 +26,7 @@ struct Notes {
 };
 
 /// A map's folder of the test, and the world of kind "vineyard" that it is given to.
-class CloudMapType : public testing::Test {
+class CloudMapType : public ::testing::Test {
  protected:
   std::string save(const CloudMap& map) const {
     const auto folder = folders_.path() / "map";
@@ -261,4 +261,4 @@ TEST_F(CloudMapType, RefusesAFolderThatIsNoMap) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::cloud_map_type_test

@@ -10,7 +10,7 @@
 #include "tests/worlds/mapping/cloud/cloud_scene.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::cloud_truth_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -174,4 +174,4 @@ TEST(TruthFileName, StandsBesideTheCloud) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::cloud_truth_test

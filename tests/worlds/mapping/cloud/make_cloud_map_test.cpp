@@ -11,7 +11,7 @@
 #include "tests/worlds/mapping/cloud/synthetic_parcel.h"
 #include "worlds/mapping/virtual_walls.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::make_cloud_map_test {
 namespace {
 
 using test::SyntheticParcel;
@@ -241,4 +241,4 @@ TEST(MakeCloudMap, RefusesOptionsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::make_cloud_map_test

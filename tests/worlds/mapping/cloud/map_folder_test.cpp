@@ -20,7 +20,7 @@
 #include "tests/worlds/mapping/cloud_map_fixture.h"
 #include "worlds/mapping/cloud/folder/map_json.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::map_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -435,4 +435,4 @@ TEST_F(MapFolder, RefusesToWriteWhatIsNotSound) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::map_folder_test

@@ -15,7 +15,7 @@
 #include "tests/support/data.h"
 #include "tests/support/folder_test.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::read_cloud_test {
 namespace {
 
 /// 60 m by 40 m of ground around (45, 9.5), 120 to 123 m high, as latitude, longitude and height.
@@ -408,4 +408,4 @@ TEST_F(ReadCloud, HugeNumbersAreRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::read_cloud_test

@@ -11,7 +11,7 @@
 #include "worlds/mapping/cloud/rows/row_points.h"
 #include "worlds/mapping/cloud/rows/row_tracking.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::row_detection_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -161,7 +161,7 @@ TEST(RowDetection, EveryDirectionAndSpacing) {
     parcel.spacing_m = 1.5 + 0.3 * k;
     parcel.density_per_m2 = 100.0;
     const Errors errors = errors_of(parcel, find(parcel));
-    SCOPED_TRACE(testing::Message() << parcel.angle_deg << " deg, " << parcel.spacing_m << " m");
+    SCOPED_TRACE(::testing::Message() << parcel.angle_deg << " deg, " << parcel.spacing_m << " m");
     expect_all_rows(parcel, errors);
     EXPECT_LT(errors.end_m, 0.3);
     EXPECT_LT(errors.direction_deg, 0.1);
@@ -386,4 +386,4 @@ TEST(RowPoints, TallWeedsBesideARowAreNotItsCanopy) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::row_detection_test

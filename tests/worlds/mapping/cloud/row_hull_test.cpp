@@ -11,7 +11,7 @@
 #include "worlds/mapping/cloud/hulls/section_directions.h"
 #include "worlds/mapping/enclosing_polygon.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::row_hull_test {
 namespace {
 
 using test::Sampling;
@@ -101,7 +101,7 @@ TEST(RowHull, BoxCylinderAndConeHaveTheirVolume) {
   };
   for (const auto& shape : cases) {
     for (const double noise_m : {0.0, 0.01}) {
-      SCOPED_TRACE(testing::Message() << shape.name << " " << noise_m);
+      SCOPED_TRACE(::testing::Message() << shape.name << " " << noise_m);
       const RowHulls hulls = hulls_of(row_of(shape.section, 0.0, length_m, {.noise_m = noise_m}));
       ASSERT_EQ(hulls.meshes_W.size(), 1u);
       // The octagon around an ellipse is 5.5 % larger; for 98.5 % of the points within 1 cm, faces
@@ -436,4 +436,4 @@ TEST(RowHull, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::row_hull_test

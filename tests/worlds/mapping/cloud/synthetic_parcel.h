@@ -10,7 +10,7 @@
 #include "worlds/mapping/cloud/parcel_cloud.h"
 #include "worlds/parts/row_curve.h"
 
-namespace vinerow::worlds::test {
+namespace vinerow::test {
 
 /// Rows with canopy of elliptic cross-section on a plane or a wavy hillside.
 struct SyntheticParcel {
@@ -54,14 +54,14 @@ struct SyntheticParcel {
 };
 
 struct SyntheticCloud {
-  ParcelCloud cloud;
+  worlds::ParcelCloud cloud;
   int missing_vines = 0;
 };
 
 inline SyntheticCloud make_synthetic_cloud(const SyntheticParcel& parcel) {
   RandomStream random(parcel.seed, "", "synthetic_parcel");
   SyntheticCloud made;
-  ParcelCloud& cloud = made.cloud;
+  worlds::ParcelCloud& cloud = made.cloud;
   cloud.origin_W = {std::round(parcel.middle_W.x()), std::round(parcel.middle_W.y()),
                     std::round(parcel.middle_W.z())};
   const auto add = [&](const Eigen::Vector2d& p, double height_m) {
@@ -126,4 +126,4 @@ inline SyntheticCloud make_synthetic_cloud(const SyntheticParcel& parcel) {
   return made;
 }
 
-}  // namespace vinerow::worlds::test
+}  // namespace vinerow::test

@@ -5,7 +5,7 @@
 #include "engine/core/error.h"
 #include "tests/worlds/mapping/cloud/cloud_scene.h"
 
-namespace vinerow::worlds {
+namespace vinerow::worlds::uniform_cloud_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -155,4 +155,4 @@ TEST(UniformCloud, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds
+}  // namespace vinerow::worlds::uniform_cloud_test

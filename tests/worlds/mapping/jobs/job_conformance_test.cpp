@@ -8,7 +8,7 @@
 
 #include "tests/worlds/mapping/jobs/job_fixture.h"
 
-namespace vinerow {
+namespace vinerow::job_conformance_test {
 namespace {
 
 using test::job_parameters;
@@ -23,7 +23,7 @@ ParameterSet small_parameters(const std::string& type) {
   return parameters;
 }
 
-class JobConformance : public testing::TestWithParam<std::string> {
+class JobConformance : public ::testing::TestWithParam<std::string> {
  protected:
   const PartSpec& spec() const { return test::all_parts().spec(PartKind::kJob, GetParam()); }
   /// What the job cannot do without, of the small vineyard.
@@ -99,8 +99,8 @@ TEST_P(JobConformance, GivesWhatItSaysTheSameTwice) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Jobs, JobConformance,
-                         testing::ValuesIn(test::all_parts().names(PartKind::kJob)),
+                         ::testing::ValuesIn(test::all_parts().names(PartKind::kJob)),
                          [](const auto& job) { return job.param; });
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::job_conformance_test

@@ -6,14 +6,14 @@
 
 #include "tests/worlds/mapping/jobs/job_fixture.h"
 
-namespace vinerow {
+namespace vinerow::job_failures_test {
 namespace {
 
 using test::job_parameters;
 using test::ScratchFolder;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class JobFailures : public testing::Test {
+class JobFailures : public ::testing::Test {
  protected:
   std::string refused(const std::string& type, const ParameterSet& parameters) const {
     return test::config_error_of(
@@ -102,4 +102,4 @@ TEST_F(JobFailures, PlanPassesOnWhyThereIsNone) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::job_failures_test

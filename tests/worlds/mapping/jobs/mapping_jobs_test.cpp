@@ -15,7 +15,7 @@
 #include "worlds/mapping/cloud/parcel_cloud.h"
 #include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
-namespace vinerow {
+namespace vinerow::mapping_jobs_test {
 namespace {
 
 using test::job_parameters;
@@ -31,7 +31,7 @@ std::vector<io::CloudPoint> read_points(const std::filesystem::path& file) {
 }
 
 /// A survey of a few rows of Parcel F, flown by the command, and its world.
-class FlownSurvey : public testing::Test {
+class FlownSurvey : public ::testing::Test {
  protected:
   FlownSurvey() {
     const std::string scenario =
@@ -246,4 +246,4 @@ TEST(PlanJob, PlansForItsVehicleOnTheMapThatItIsGiven) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::mapping_jobs_test

@@ -60,15 +60,15 @@ struct Element {
   }
 };
 
-struct PlyHeader {
+struct TrapHeader {
   std::vector<Element> elements;
   std::vector<std::string> lines;  // without line ends
   bool big_endian = false;
 };
 
 /// @returns nullopt for ASCII files and for headers this reader does not understand
-std::optional<PlyHeader> read_header(std::istream& stream) {
-  PlyHeader header;
+std::optional<TrapHeader> read_header(std::istream& stream) {
+  TrapHeader header;
   constexpr std::size_t kMostLines = 10000;
   for (std::string line; std::getline(stream, line) && header.lines.size() < kMostLines;) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -122,7 +122,7 @@ std::uint64_t read_unsigned(const char* bytes, std::size_t size, bool big_endian
 }
 
 /// Walks over the data as the header describes it.
-void check_data(const PlyHeader& header, const std::string& data,
+void check_data(const TrapHeader& header, const std::string& data,
                 const std::filesystem::path& file) {
   std::size_t at = 0, vertices = 0;
   for (const Element& element : header.elements) {
@@ -161,7 +161,7 @@ void check_data(const PlyHeader& header, const std::string& data,
 }
 
 /// The same file with a byte before each vertex. @pre the first element is scalar
-std::string add_guard(const PlyHeader& header, const std::string& data) {
+std::string add_guard(const TrapHeader& header, const std::string& data) {
   std::string content;
   int elements = 0;
   for (const std::string& line : header.lines) {
@@ -187,7 +187,7 @@ std::optional<std::string> check_ply(const std::filesystem::path& file) {
         "mesh file '{}' is cut off or no PLY: its header has no 'end_header'", file.string()));
   }
   std::ifstream stream(file, std::ios::binary);
-  const std::optional<PlyHeader> header = read_header(stream);
+  const std::optional<TrapHeader> header = read_header(stream);
   if (!header || header->elements.empty()) return std::nullopt;
   const std::string data((std::istreambuf_iterator<char>(stream)),
                          std::istreambuf_iterator<char>());

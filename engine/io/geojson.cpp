@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/core/suggest.h"
 #include "engine/math/angles.h"
 
@@ -24,12 +26,9 @@ struct Place {
 };
 
 json parse_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code error;
-  if (!stream || std::filesystem::is_directory(file, error)) {
-    throw ConfigError(fmt::format("GeoJSON file '{}' does not exist", file.string()));
-  }
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::optional<std::string> bytes = read_bytes(file);
+  if (!bytes) throw ConfigError(fmt::format("GeoJSON file '{}' does not exist", file.string()));
+  std::string& text = *bytes;
   const std::string kByteOrderMark = "\xEF\xBB\xBF";
   if (text.rfind(kByteOrderMark, 0) == 0) text.erase(0, 3);
   try {

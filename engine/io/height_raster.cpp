@@ -1,24 +1,18 @@
 #include "engine/io/height_raster.h"
 
 #include <fmt/format.h>
-#include <gdal_priv.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "engine/core/error.h"
+#include "engine/io/gdal_handles.h"
 #include "engine/io/quiet_gdal.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::io {
 namespace {
-
-struct DatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
 
 struct Options {
   char** list = nullptr;

@@ -63,7 +63,7 @@ void read_records(BlockFile& file, const Records& records, LasCrs& crs) {
   }
 }
 
-void read_count(const BlockFile& file, const std::uint8_t* head, LasHeader& header) {
+void read_las_count(const BlockFile& file, const std::uint8_t* head, LasHeader& header) {
   const std::uint32_t legacy = load<std::uint32_t>(head + 107);
   header.point_count = legacy;
   if (header.minor < 4) return;
@@ -164,7 +164,7 @@ LasHeader read_las_header(BlockFile& file) {
     file.fail(fmt::format("has points of {} bytes, format {} has at least {}", header.record_bytes,
                           header.point_format, las_point_bytes(header.point_format)));
   }
-  read_count(file, head, header);
+  read_las_count(file, head, header);
   read_grid(file, head, header);
 
   LasCrs crs;

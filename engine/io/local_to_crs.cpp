@@ -1,25 +1,16 @@
 #include "engine/io/local_to_crs.h"
 
 #include <fmt/format.h>
-#include <ogr_spatialref.h>
 
 #include <cmath>
 
 #include "engine/core/error.h"
+#include "engine/io/gdal_handles.h"
 #include "engine/io/geo.h"
 #include "engine/io/quiet_gdal.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::io {
-namespace {
-
-struct TransformDestroyer {
-  void operator()(OGRCoordinateTransformation* t) const {
-    OGRCoordinateTransformation::DestroyCT(t);
-  }
-};
-
-}  // namespace
 
 struct LocalToCrs::Impl {
   Impl(const std::string& text, const GeoOrigin& origin) : frame(origin) {
@@ -49,7 +40,7 @@ struct LocalToCrs::Impl {
   LocalFrame frame;
   double height_m = 1.0;  ///< metres of one unit of z
   std::string name;
-  std::unique_ptr<OGRCoordinateTransformation, TransformDestroyer> from_wgs84;
+  Transformation from_wgs84;
 };
 
 LocalToCrs::LocalToCrs(const std::string& crs, const GeoOrigin& origin) {

@@ -12,18 +12,12 @@
 #include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/io/assimp_traps.h"
 #include "engine/io/mesh_references.h"
 
 namespace vinerow::io {
 namespace {
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 void check_readable(const std::filesystem::path& file, const std::string& extension,
                     const Assimp::Importer& importer) {

@@ -50,13 +50,13 @@ void save(const std::string& bytes, const std::filesystem::path& file) {
 }
 
 template <class T>
-void append(std::string& bytes, const T* data, std::size_t count) {
+void append_array(std::string& bytes, const T* data, std::size_t count) {
   bytes.append(reinterpret_cast<const char*>(data), count * sizeof(T));
 }
 
 void append_number(std::string& bytes, std::size_t number) {
   const auto word = static_cast<std::uint32_t>(number);
-  append(bytes, &word, 1);
+  append_array(bytes, &word, 1);
 }
 
 void pad(std::string& bytes, char with) {
@@ -114,7 +114,7 @@ void write_glb(std::span<const NamedMesh> meshes, const std::filesystem::path& f
     std::size_t begin = data.size();
     Eigen::Vector3f low = mesh.vertices.front(), high = low;
     for (const Eigen::Vector3f& v : mesh.vertices) {
-      append(data, v.data(), 3);
+      append_array(data, v.data(), 3);
       low = low.cwiseMin(v);
       high = high.cwiseMax(v);
     }
@@ -132,9 +132,9 @@ void write_glb(std::span<const NamedMesh> meshes, const std::filesystem::path& f
         const std::uint16_t corners[] = {static_cast<std::uint16_t>(t[0]),
                                          static_cast<std::uint16_t>(t[1]),
                                          static_cast<std::uint16_t>(t[2])};
-        append(data, corners, 3);
+        append_array(data, corners, 3);
       } else {
-        append(data, t.data(), 3);
+        append_array(data, t.data(), 3);
       }
     }
     accessors.push_back({{"bufferView", add_view(begin, kIndices)},

@@ -4,11 +4,12 @@
 
 #include <bit>
 #include <fstream>
-#include <iterator>
+#include <string>
 #include <string_view>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/core/hash.h"
 
 namespace vinerow::io {
@@ -18,7 +19,7 @@ static_assert(std::endian::native == std::endian::little,
               "the PLY writer copies memory as little-endian");
 
 template <int N>
-void append(std::string& bytes, const Eigen::Matrix<float, N, 1>& value) {
+void append_floats(std::string& bytes, const Eigen::Matrix<float, N, 1>& value) {
   const std::size_t size = sizeof(float) * N;
   bytes.append(reinterpret_cast<const char*>(value.data()), size);
 }
@@ -51,10 +52,10 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file) {
 
   bytes.reserve(bytes.size() + count * 44 + mesh.triangles.size() * 13);
   for (std::size_t i = 0; i < count; ++i) {
-    append<3>(bytes, mesh.vertices[i]);
-    if (normals) append<3>(bytes, mesh.normals[i]);
-    if (uvs) append<2>(bytes, mesh.uvs[i]);
-    if (colours) append<3>(bytes, mesh.colours[i]);
+    append_floats<3>(bytes, mesh.vertices[i]);
+    if (normals) append_floats<3>(bytes, mesh.normals[i]);
+    if (uvs) append_floats<2>(bytes, mesh.uvs[i]);
+    if (colours) append_floats<3>(bytes, mesh.colours[i]);
   }
   for (const auto& t : mesh.triangles) {
     bytes += '\3';
@@ -69,9 +70,7 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file) {
 }
 
 bool is_intact_ply(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
+  const std::string text = read_bytes(file).value_or("");
   const std::size_t line_end = kBeginning.size() + 32;  // the digest's hexadecimal digits
   return text.size() > line_end && text.rfind(kBeginning, 0) == 0 && text[line_end] == '\n' &&
          text.substr(kBeginning.size(), 32) ==

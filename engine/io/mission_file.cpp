@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
+#include <optional>
+#include <string>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/io/mav_command.h"
 #include "engine/io/mission_item_check.h"
 #include "engine/io/qgc_plan.h"
@@ -73,12 +75,9 @@ Geodetic place_of(const MissionItem& item) {
 }
 
 MissionFile read_mission(const std::filesystem::path& file) {
-  std::error_code error;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file, error)) {
-    throw ConfigError(fmt::format("mission file '{}' does not exist", file.string()));
-  }
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::optional<std::string> bytes = read_bytes(file);
+  if (!bytes) throw ConfigError(fmt::format("mission file '{}' does not exist", file.string()));
+  std::string& text = *bytes;
   const std::string kByteOrderMark = "\xEF\xBB\xBF";
   if (text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
   const std::size_t begin = text.find_first_not_of(" \t\r\n");

@@ -75,7 +75,7 @@ Scalar scalar_of(const BlockFile& file, const std::string& type, const std::stri
                   type.substr(0, 40), size.substr(0, 40)));
 }
 
-void read_fields(const BlockFile& file, const Lines& lines, PcdHeader& header) {
+void read_pcd_fields(const BlockFile& file, const Lines& lines, PcdHeader& header) {
   const std::vector<std::string>& names = demand(file, lines, "FIELDS");
   const std::vector<std::string>& sizes = demand(file, lines, "SIZE");
   const std::vector<std::string>& types = demand(file, lines, "TYPE");
@@ -108,7 +108,7 @@ void read_fields(const BlockFile& file, const Lines& lines, PcdHeader& header) {
   }
 }
 
-void read_count(const BlockFile& file, const Lines& lines, PcdHeader& header) {
+void read_pcd_count(const BlockFile& file, const Lines& lines, PcdHeader& header) {
   const std::uint64_t width = number(file, "WIDTH", demand(file, lines, "WIDTH").front());
   const std::uint64_t height = number(file, "HEIGHT", demand(file, lines, "HEIGHT").front());
   // No file has more bytes than this, so no honest product overflows.
@@ -140,8 +140,8 @@ PcdHeader read_pcd_header(BlockFile& file) {
     file.fail(fmt::format("has DATA {}, must be ascii or binary", data.substr(0, 40)));
   }
   header.ascii = data == "ascii";
-  read_fields(file, lines, header);
-  read_count(file, lines, header);
+  read_pcd_fields(file, lines, header);
+  read_pcd_count(file, lines, header);
   return header;
 }
 

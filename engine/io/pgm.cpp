@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/io/yaml.h"
 
 namespace vinerow::io {
@@ -30,13 +32,12 @@ std::string readable(const std::string& bytes) {
 class PgmReader {
  public:
   explicit PgmReader(const std::filesystem::path& file) : file_(file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::error_code error;
-    if (!stream || std::filesystem::is_directory(file, error)) {
+    std::optional<std::string> bytes = read_bytes(file);
+    if (!bytes) {
       throw ConfigError(
           fmt::format("image '{}' does not exist{}", file.string(), nearest_file_hint(file)));
     }
-    bytes_.assign(std::istreambuf_iterator<char>(stream), {});
+    bytes_ = std::move(*bytes);
   }
 
   /// "P5" or "P2".

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <fstream>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/io/block_file.h"
 #include "engine/io/point_cloud_las.h"
 #include "engine/io/point_cloud_pcd.h"
@@ -21,13 +20,6 @@ namespace {
 bool is_text_extension(const std::string& extension) {
   constexpr std::array<std::string_view, 5> kText = {".xyz", ".csv", ".txt", ".asc", ".pts"};
   return std::find(kText.begin(), kText.end(), extension) != kText.end();
-}
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "engine/io/point_cloud_crs.h"
 
 #include <fmt/format.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <array>
@@ -9,19 +8,13 @@
 #include <cstdlib>
 
 #include "engine/core/error.h"
+#include "engine/io/gdal_handles.h"
 #include "engine/io/geo.h"
 #include "engine/io/quiet_gdal.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::io {
 namespace {
-
-struct TransformDestroyer {
-  void operator()(OGRCoordinateTransformation* t) const {
-    OGRCoordinateTransformation::DestroyCT(t);
-  }
-};
-using Transformation = std::unique_ptr<OGRCoordinateTransformation, TransformDestroyer>;
 
 OGRSpatialReference parse_crs(const std::string& text) {
   OGRSpatialReference crs;

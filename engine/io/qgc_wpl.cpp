@@ -22,7 +22,7 @@ constexpr const char* kFieldNames[] = {"index",       "current",     "frame",   
 constexpr std::size_t kFieldCount = 12;
 
 /// Twelve numbers of a line; NaN is allowed where a parameter is meant.
-std::array<double, kFieldCount> read_fields(const std::string& line, const std::string& where) {
+std::array<double, kFieldCount> read_wpl_fields(const std::string& line, const std::string& where) {
   std::istringstream stream(line);
   std::array<double, kFieldCount> fields{};
   std::string word;
@@ -78,7 +78,7 @@ MissionFile parse_qgc_wpl(const std::string& text, const std::filesystem::path& 
   for (int number = 1; std::getline(stream, line);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string where = mission_place(file, number);
-    const auto fields = read_fields(line, where);
+    const auto fields = read_wpl_fields(line, where);
     MissionItem item;
     item.number = number++;
     item.frame = static_cast<int>(fields[2]);

@@ -1,8 +1,6 @@
 #include "engine/io/raster.h"
 
 #include <fmt/format.h>
-#include <gdal_priv.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <array>
@@ -11,24 +9,13 @@
 #include <memory>
 
 #include "engine/core/error.h"
+#include "engine/io/gdal_handles.h"
 #include "engine/io/geo.h"
 #include "engine/io/quiet_gdal.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::io {
 namespace {
-
-struct DatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
-
-struct TransformDestroyer {
-  void operator()(OGRCoordinateTransformation* t) const {
-    OGRCoordinateTransformation::DestroyCT(t);
-  }
-};
-using Transformation = std::unique_ptr<OGRCoordinateTransformation, TransformDestroyer>;
 
 OGRSpatialReference make_crs(const std::string& wkt) {
   OGRSpatialReference crs;
@@ -37,6 +24,8 @@ OGRSpatialReference make_crs(const std::string& wkt) {
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return crs;
 }
+
+}  // namespace
 
 /// From WGS84 (longitude, latitude in degrees) to the raster's CRS.
 class ToRaster {
@@ -87,6 +76,8 @@ class ToRaster {
   Transformation transformation_;
   std::array<double, 4> inverse_{};
 };
+
+namespace {
 
 [[noreturn]] void fail_outside(const ElevationRaster& raster, double latitude_rad,
                                double longitude_rad) {

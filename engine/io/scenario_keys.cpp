@@ -1,8 +1,8 @@
 #include "engine/io/scenario_keys.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "engine/core/constants.h"
 #include "engine/core/suggest.h"
 
 namespace vinerow::io {
@@ -152,7 +152,6 @@ const std::vector<StructuralKey>& pictures_keys() {
 }
 
 const std::vector<ParameterSpec>& criterion_fields() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static const std::vector<ParameterSpec> fields = {
       required(text_parameter("metric", "", "<vehicle>.<metric>, e.g. rover.cross_track_rms_m")),
       optional(

@@ -37,14 +37,14 @@ const PhaseConfig* find_phase(const std::vector<PhaseConfig>& phases, const std:
   return found == phases.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> names_of(const std::vector<PhaseConfig>& phases) {
+std::vector<std::string> phase_names(const std::vector<PhaseConfig>& phases) {
   std::vector<std::string> names;
   for (const PhaseConfig& phase : phases) names.push_back(phase.name);
   return names;
 }
 
 std::string unknown_phase(const std::string& name, const std::vector<PhaseConfig>& phases) {
-  const std::vector<std::string> known = names_of(phases);
+  const std::vector<std::string> known = phase_names(phases);
   return fmt::format("unknown phase '{}'{} (known: {})", name, did_you_mean(name, known),
                      known.empty() ? "none" : join(known));
 }
@@ -127,7 +127,7 @@ class PhaseReader {
   }
 
   void check_phase_keys(const YamlNode& node, const std::string& path, const PhaseConfig& phase) {
-    std::vector<std::string> known = io::names_of(phase_fields());
+    std::vector<std::string> known = names_of(phase_fields());
     known.insert(known.end(), {"job", "criteria"});
     for (const ProductPort& port : ports_of(phase, context_.registry)) known.push_back(port.key);
     check_keys(node, path, known, phase.job ? fmt::format("job '{}'", phase.job->type) : "",

@@ -11,7 +11,7 @@
 namespace vinerow::io {
 namespace {
 
-Eigen::Vector3d vector_of(const ParameterSet& values, const char* name) {
+Eigen::Vector3d vector_parameter(const ParameterSet& values, const char* name) {
   const std::vector<double>& v = values.numbers(name);
   return {v[0], v[1], v[2]};
 }
@@ -67,8 +67,8 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
   camera.show_map = values.boolean("show_map");
   if (kind == "fixed") {
     camera.kind = CameraKind::kFixed;
-    camera.p_W = vector_of(values, "position_m");
-    camera.target_W = vector_of(values, "look_at_m");
+    camera.p_W = vector_parameter(values, "position_m");
+    camera.target_W = vector_parameter(values, "look_at_m");
   } else if (kind == "chase") {
     camera.kind = CameraKind::kChase;
     camera.distance_m = values.number("distance_m");
@@ -88,7 +88,7 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
     camera.every = static_cast<int>(values.integer("every"));
   } else {
     camera.kind = CameraKind::kOnBoard;
-    camera.offset_B = vector_of(values, "offset_m");
+    camera.offset_B = vector_parameter(values, "offset_m");
     camera.yaw_rad = rad_from_deg(values.number("yaw_deg"));
     camera.pitch_rad = rad_from_deg(values.number("pitch_deg"));
   }

@@ -15,7 +15,7 @@ namespace {
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-void load(XMLDocument& document, const std::filesystem::path& file) {
+void load_document(XMLDocument& document, const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     throw ConfigError(fmt::format("SDF file '{}' does not exist", file.string()));
@@ -91,7 +91,7 @@ void read_geometries(const XMLElement& link, const char* kind, const Pose& X_ML,
 
 std::vector<SdfInclude> read_sdf_includes(const std::filesystem::path& file) {
   XMLDocument document;
-  load(document, file);
+  load_document(document, file);
   const XMLElement* sdf = document.FirstChildElement("sdf");
   const XMLElement* world = sdf ? sdf->FirstChildElement("world") : nullptr;
   if (world == nullptr) {
@@ -128,7 +128,7 @@ std::optional<std::filesystem::path> find_sdf_model(
 std::vector<SdfMesh> read_sdf_meshes(const std::filesystem::path& model_folder) {
   const std::filesystem::path file = model_folder / "model.sdf";
   XMLDocument document;
-  load(document, file);
+  load_document(document, file);
   const XMLElement* sdf = document.FirstChildElement("sdf");
   const XMLElement* model = sdf ? sdf->FirstChildElement("model") : nullptr;
   if (model == nullptr) {

@@ -6,11 +6,12 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <fstream>
+#include <optional>
 #include <set>
-#include <sstream>
+#include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 
 namespace vinerow::io {
 namespace {
@@ -34,15 +35,13 @@ class ComplaintCatcher final : public console_bridge::OutputHandler {
   std::string first_;
 };
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
+std::string read_urdf_text(const std::filesystem::path& file) {
+  std::optional<std::string> text = read_bytes(file);
+  if (!text) {
     throw ConfigError(
         fmt::format("URDF file '{}' does not exist or cannot be read", file.string()));
   }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  return std::move(*text);
 }
 
 /// `$(optenv NAME some default)` -> `some default`.
@@ -135,13 +134,13 @@ std::filesystem::path resolve_mesh(const std::string& name, const std::filesyste
   return path;
 }
 
-Eigen::Vector3d vector_of(const urdf::Vector3& v) {
+Eigen::Vector3d from_urdf(const urdf::Vector3& v) {
   return {v.x, v.y, v.z};
 }
 
 Pose pose_of(const urdf::Pose& pose) {
   const urdf::Rotation& q = pose.rotation;
-  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), vector_of(pose.position)};
+  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(), from_urdf(pose.position)};
 }
 
 UrdfShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
@@ -152,7 +151,7 @@ UrdfShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
   switch (geometry.type) {
     case urdf::Geometry::BOX:
       shape.kind = UrdfShapeKind::kBox;
-      shape.size_m = vector_of(static_cast<const urdf::Box&>(geometry).dim);
+      shape.size_m = from_urdf(static_cast<const urdf::Box&>(geometry).dim);
       break;
     case urdf::Geometry::CYLINDER:
       shape.kind = UrdfShapeKind::kCylinder;
@@ -166,7 +165,7 @@ UrdfShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
     case urdf::Geometry::MESH: {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
       shape.kind = UrdfShapeKind::kMesh;
-      shape.mesh_scale = vector_of(mesh.scale);
+      shape.mesh_scale = from_urdf(mesh.scale);
       shape.mesh_file = resolve_mesh(mesh.filename, urdf, packages, link);
       break;
     }
@@ -240,7 +239,7 @@ void add_tree(const urdf::Link& source, int parent_joint, const Packages& packag
     joint.kind = kind_of(source_joint.type);
     joint.parent_link = index;
     joint.X_PJ = pose_of(source_joint.parent_to_joint_origin_transform);
-    const Eigen::Vector3d axis = vector_of(source_joint.axis);
+    const Eigen::Vector3d axis = from_urdf(source_joint.axis);
     if (axis.norm() > 1e-9) joint.axis_J = axis.normalized();
     model.joints.push_back(joint);
     add_tree(*child, static_cast<int>(model.joints.size()) - 1, packages, model);
@@ -253,7 +252,7 @@ UrdfModel load_urdf(const std::filesystem::path& file, const Packages& packages)
   UrdfModel model;
   model.file = std::filesystem::absolute(file);
   const std::string text =
-      check_xml(replace_optenv(read_text(file), model.notes), file.string(), model.notes);
+      check_xml(replace_optenv(read_urdf_text(file), model.notes), file.string(), model.notes);
 
   urdf::ModelInterfaceSharedPtr parsed;
   ComplaintCatcher complaints;

@@ -96,7 +96,7 @@ bool looks_like_number(std::string_view text) {
 }
 
 /// @pre looks_like_number(text). Overflow gives an infinity, underflow a zero.
-double parse_number(std::string_view text) {
+double parse_yaml_number(std::string_view text) {
   const bool negative = text[0] == '-';
   if (text[0] == '-' || text[0] == '+') text.remove_prefix(1);
   double value = 0.0;
@@ -152,7 +152,7 @@ YamlScalar scalar_value(const YamlNode& scalar) {
     const char* begin = text[0] == '+' ? text.data() + 1 : text.data();
     if (std::from_chars(begin, end, value).ec == std::errc()) return value;
   }
-  return parse_number(text);
+  return parse_yaml_number(text);
 }
 
 void fail_at(const SourceMark& mark, const std::string& sentence) {

@@ -5,13 +5,15 @@
 #include <cstddef>
 #include <iterator>
 
+#include "engine/core/constants.h"
+
 namespace vinerow {
 namespace {
 
 constexpr double kEarthRadius_m = 6'356'766.0;
 constexpr double kGasConstant_JpkgK = 8314.32 / 28.9644;  // the standard's R* over M0
 /// g0 M0 / R*, K/m.
-constexpr double kHydrostatic_Kpm = 9.80665 / kGasConstant_JpkgK;
+constexpr double kHydrostatic_Kpm = kStandardGravity_mps2 / kGasConstant_JpkgK;
 
 /// A layer: base, temperature there, its change with height. Table 4 of the standard.
 struct Layer {

@@ -77,7 +77,8 @@ std::int8_t calc_bend(const TriangleMesh& mesh, const HalfEdge& half, const Half
 }
 
 /// The rule of the header, for a point where the surface may lean up to `most_rad` from `face`.
-std::optional<Vector3d> judge(const Vector3d& normal, const Vector3d& face, double most_rad) {
+std::optional<Vector3d> judge_normal(const Vector3d& normal, const Vector3d& face,
+                                     double most_rad) {
   const double lean_rad = angle_between(normal, face);
   if (lean_rad <= kNoise_rad) return face;
   if (lean_rad <= most_rad + kNoise_rad) return normal;
@@ -164,7 +165,7 @@ std::optional<Vector3d> ContactNormals::correct_on_terrain(const Vector3d& p_W,
     const bool stands_out = rise_m < plane_m - 1e-9;
     if (stands_out) most_rad = std::max(most_rad, angle_between(faces_W[k], face_W));
   }
-  const std::optional<Vector3d> judged = judge(normal_W, face_W, most_rad);
+  const std::optional<Vector3d> judged = judge_normal(normal_W, face_W, most_rad);
   return judged || distance_m > -kDeep_m ? judged : face_W;
 }
 
@@ -192,7 +193,7 @@ std::optional<Vector3d> ContactNormals::correct_on_mesh(int mesh_index, int tria
       const double out = bend == kOpenEdge ? bend : side * bend;
       most_rad = std::max(most_rad, out * kBendUnit_rad);
     }
-    if (const auto judged = judge(normal_M, side * face_M, most_rad)) {
+    if (const auto judged = judge_normal(normal_M, side * face_M, most_rad)) {
       return Vector3d(instance.X_WM.q * *judged);
     }
   }

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/constants.h"
+
 namespace vinerow::physics {
 namespace {
 
 using Eigen::Vector3d;
 
 constexpr int kBlockCells = 16;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Steps through squares of a grid along a line: which square, and from which t to which t.
 class GridWalk {

@@ -9,11 +9,10 @@
 #include "engine/record/ros_mapping.h"
 
 namespace vinerow::record {
-namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-struct Entry {
+struct RecordedSignal {
   const SignalBase* signal = nullptr;
   Duration min_period;
   FrameNames frames;
@@ -23,11 +22,13 @@ struct Entry {
   std::uint64_t seen = 0;
   bool recorded = false;
   Time last_stamp;
-  void (*write)(McapWriter&, const Entry&, Time now) = nullptr;
+  void (*write)(McapWriter&, const RecordedSignal&, Time now) = nullptr;
 };
 
+namespace {
+
 template <class T>
-void write_messages(McapWriter& writer, const Entry& entry, Time now) {
+void write_messages(McapWriter& writer, const RecordedSignal& entry, Time now) {
   const T& value = static_cast<const Signal<T>&>(*entry.signal).value();
   const Time stamp = entry.signal->stamp();
   const bool is_body_known =
@@ -80,7 +81,7 @@ struct Recorder::Impl {
   }
 
   template <class T>
-  void set_type(Entry& entry) {
+  void set_type(RecordedSignal& entry) {
     if (std::string_view(entry.signal->type()) != T::kType) return;
     entry.write = &write_messages<T>;
     entry.channel = add_channel(*entry.signal, RosMapping<T>::kType, "");
@@ -91,10 +92,10 @@ struct Recorder::Impl {
 
   /// Every signal learns where its vehicle is from "<vehicle>/truth", in whatever order they come.
   void connect_truth() {
-    for (const Entry& truth : entries) {
+    for (const RecordedSignal& truth : entries) {
       if (truth.signal->name() != truth.frames.prefix + "truth") continue;
       if (std::string_view(truth.signal->type()) != Odometry::kType) continue;
-      for (Entry& entry : entries) {
+      for (RecordedSignal& entry : entries) {
         if (entry.frames.prefix != truth.frames.prefix) continue;
         entry.truth = static_cast<const Signal<Odometry>*>(truth.signal);
       }
@@ -114,7 +115,7 @@ struct Recorder::Impl {
   WallClock::duration flush_period;
   McapWriter writer;
   std::map<std::string, std::uint16_t> schema_ids;
-  std::vector<Entry> entries;
+  std::vector<RecordedSignal> entries;
   WallClock::time_point last_flush = WallClock::now();
   Time last_now;
   bool finished = false;
@@ -136,7 +137,7 @@ Recorder::~Recorder() {
 }
 
 void Recorder::add_signal(const SignalBase& signal, Duration min_period) {
-  Entry entry;
+  RecordedSignal entry;
   entry.signal = &signal;
   entry.min_period = min_period;
   entry.frames = FrameNames::of_signal(signal.name());
@@ -150,7 +151,7 @@ void Recorder::record(Time now) {
   Impl& impl = *impl_;
   if (impl.finished || impl.failed) return;
   impl.last_now = now;
-  for (Entry& entry : impl.entries) {
+  for (RecordedSignal& entry : impl.entries) {
     if (entry.signal->sequence() == entry.seen) continue;
     entry.seen = entry.signal->sequence();
     const Time stamp = entry.signal->stamp();

@@ -18,20 +18,20 @@ int padded(int size) {
 }
 
 /// Bytes of a size that is padded already.
-struct Plane {
+struct BytePlane {
   int width, height;
   std::vector<std::uint8_t> bytes;
 
-  Plane(int w, int h) : width(w), height(h), bytes(static_cast<std::size_t>(w) * h) {}
+  BytePlane(int w, int h) : width(w), height(h), bytes(static_cast<std::size_t>(w) * h) {}
   std::uint8_t* row(int y) { return &bytes[static_cast<std::size_t>(y) * width]; }
   const std::uint8_t* row(int y) const { return &bytes[static_cast<std::size_t>(y) * width]; }
 };
 
 /// 1 taken, 0 free.
-Plane taken_of(const OccupancyGrid& grid, int cells_a_texel) {
+BytePlane taken_of(const OccupancyGrid& grid, int cells_a_texel) {
   const auto texels = [&](int cells) { return (cells - 1) / cells_a_texel + 1; };
   const int width = texels(grid.columns), height = texels(grid.rows);
-  Plane taken(padded(width), padded(height));
+  BytePlane taken(padded(width), padded(height));
   for (int j = 0; j < grid.rows; ++j) {
     const std::uint8_t* in = &grid.cells[static_cast<std::size_t>(j) * grid.columns];
     std::uint8_t* out = taken.row(j / cells_a_texel);
@@ -49,8 +49,8 @@ Plane taken_of(const OccupancyGrid& grid, int cells_a_texel) {
 }
 
 /// Means with the neighbours, weights 1 2 1 along each side; 255: all taken.
-Plane soften(const Plane& taken) {
-  Plane along(taken.width, taken.height), soft(taken.width, taken.height);
+BytePlane soften(const BytePlane& taken) {
+  BytePlane along(taken.width, taken.height), soft(taken.width, taken.height);
   const auto blend = [](int before, int here, int after) {
     return static_cast<std::uint8_t>(before + 2 * here + after);
   };
@@ -77,7 +77,7 @@ Plane soften(const Plane& taken) {
 /// Distance of taken texels to the free ones, from centre to edge; 255: kGridDepth_m or more.
 /// Chamfer distances in two sweeps (G. Borgefors, "Distance transformations in digital images",
 /// 1986): 3 for a side, 4 for a diagonal.
-Plane depths_of(const Plane& taken, double texel_m) {
+BytePlane depths_of(const BytePlane& taken, double texel_m) {
   constexpr int kFar = 1 << 14;
   const int width = taken.width, height = taken.height;
   const double scale = 255.0 * texel_m / (3.0 * kGridDepth_m);
@@ -100,7 +100,7 @@ Plane depths_of(const Plane& taken, double texel_m) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) sweep(x, y, 1);
   }
-  Plane out(width, height);
+  BytePlane out(width, height);
   for (int y = height - 1; y >= 0; --y) {
     for (int x = width - 1; x >= 0; --x) {
       sweep(x, y, -1);
@@ -112,7 +112,7 @@ Plane depths_of(const Plane& taken, double texel_m) {
 }
 
 /// Half the size on each side; sizes are even.
-GridLevel halve(const GridLevel& from) {
+GridLevel halve_level(const GridLevel& from) {
   GridLevel to{from.width / 2, from.height / 2, {}};
   to.texels.resize(2 * static_cast<std::size_t>(to.width) * to.height);
   for (int y = 0; y < to.height; ++y) {
@@ -133,9 +133,9 @@ std::vector<GridLevel> make_grid_levels(const OccupancyGrid& grid, int& cells_a_
   cells_a_texel = 1;
   const int longest = std::max(grid.columns, grid.rows);
   while ((longest - 1) / cells_a_texel >= kLargestSide) cells_a_texel *= 2;
-  const Plane taken = taken_of(grid, cells_a_texel);
-  const Plane soft = soften(taken);
-  const Plane depth = depths_of(taken, grid.cell_m * cells_a_texel);
+  const BytePlane taken = taken_of(grid, cells_a_texel);
+  const BytePlane soft = soften(taken);
+  const BytePlane depth = depths_of(taken, grid.cell_m * cells_a_texel);
 
   GridLevel first{taken.width, taken.height, {}};
   first.texels.resize(2 * taken.bytes.size());
@@ -144,7 +144,7 @@ std::vector<GridLevel> make_grid_levels(const OccupancyGrid& grid, int& cells_a_
     first.texels[2 * i + 1] = depth.bytes[i];
   }
   std::vector<GridLevel> levels = {std::move(first)};
-  while (levels.size() < kLevels) levels.push_back(halve(levels.back()));
+  while (levels.size() < kLevels) levels.push_back(halve_level(levels.back()));
   return levels;
 }
 

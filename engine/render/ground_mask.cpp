@@ -60,12 +60,6 @@ void clear(Pixels& pixels) {
   }
 }
 
-int power_of_two(double cells) {
-  int n = 1;
-  while (n < cells && n < 2048) n *= 2;
-  return n;
-}
-
 }  // namespace
 
 double GroundMask::lookup(double x, double y, int channel) const {
@@ -93,8 +87,8 @@ GroundMask make_ground_mask(const RowMap& rows) {
   mask.corner_W = box.min().array() - border;
   mask.size_m = box.sizes().array() + 2.0 * border;
   constexpr double kWantedCell_m = 0.12;
-  mask.pixels = Pixels(power_of_two(mask.size_m.x() / kWantedCell_m),
-                       power_of_two(mask.size_m.y() / kWantedCell_m));
+  mask.pixels = Pixels(texture_side(mask.size_m.x() / kWantedCell_m),
+                       texture_side(mask.size_m.y() / kWantedCell_m));
   clear(mask.pixels);
   for (const PlantRow& row : rows.rows) stamp_line(mask, row.line_W, 0);
   for (const Alley& alley : rows.alleys) stamp_line(mask, alley.line_W, 1);

@@ -14,17 +14,17 @@ std::uint8_t byte(float v) {
 }
 
 /// Grey planes that strokes are painted on; wraps around at the edges.
-struct Plane {
+struct GreyPlane {
   int size;
   std::vector<float> value;
-  explicit Plane(int n, float fill) : size(n), value(static_cast<std::size_t>(n) * n, fill) {}
+  explicit GreyPlane(int n, float fill) : size(n), value(static_cast<std::size_t>(n) * n, fill) {}
   float& at(int x, int y) {
     return value[static_cast<std::size_t>(y & (size - 1)) * size + (x & (size - 1))];
   }
 };
 
 /// Blades of grass lying and standing in all directions, the later the lighter and higher.
-void paint_grass(Plane& brightness, Plane& dryness, Plane& height) {
+void paint_grass(GreyPlane& brightness, GreyPlane& dryness, GreyPlane& height) {
   Scatter scatter(31);
   const int n = brightness.size;
   constexpr int kBlades = 11000;
@@ -83,9 +83,9 @@ float soil_value(float u, float v, float& height) {
 const Pixels& ground_texture() {
   static const Pixels texture = [] {
     constexpr int kSize = 512;
-    Plane grass(kSize, 0.12f);
-    Plane dry(kSize, 0.3f);
-    Plane height(kSize, 0.1f);
+    GreyPlane grass(kSize, 0.12f);
+    GreyPlane dry(kSize, 0.3f);
+    GreyPlane height(kSize, 0.1f);
     paint_grass(grass, dry, height);
     Pixels pixels(kSize, kSize);
     for (int y = 0; y < kSize; ++y) {

@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::size_t kMostFields = 250;
 
-int power_of_two(double cells) {
-  int n = 1;
-  while (n < cells && n < 2048) n *= 2;
-  return n;
-}
-
 /// Calls `paint(pixel)` for every pixel whose middle lies in a convex polygon.
 template <class Paint>
 void fill(LandUse& land, const std::vector<Eigen::Vector2d>& polygon_W, Paint&& paint) {
@@ -108,8 +102,8 @@ LandUse make_land_use(const Scenery& scenery, const HeightField& terrain,
   land.corner_W = terrain.corner_W;
   land.size_m = {terrain.width_m(), terrain.depth_m()};
   constexpr double kWantedCell_m = 0.5;
-  land.pixels = Pixels(power_of_two(land.size_m.x() / kWantedCell_m),
-                       power_of_two(land.size_m.y() / kWantedCell_m));
+  land.pixels = Pixels(texture_side(land.size_m.x() / kWantedCell_m),
+                       texture_side(land.size_m.y() / kWantedCell_m));
   for (std::size_t i = 1; i < land.pixels.rgba.size(); i += 4) land.pixels.rgba[i] = 255;
   const std::size_t count = std::min(scenery.fields.size(), kMostFields);
   for (std::size_t i = 0; i < count; ++i) {

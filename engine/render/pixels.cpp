@@ -7,7 +7,7 @@ namespace vinerow::render {
 
 namespace {
 
-Pixels halve(const Pixels& from, bool weight_by_alpha) {
+Pixels halve_pixels(const Pixels& from, bool weight_by_alpha) {
   Pixels to(std::max(1, from.width / 2), std::max(1, from.height / 2));
   for (int y = 0; y < to.height; ++y) {
     for (int x = 0; x < to.width; ++x) {
@@ -34,10 +34,16 @@ Pixels halve(const Pixels& from, bool weight_by_alpha) {
 
 }  // namespace
 
+int texture_side(double cells) {
+  int n = 1;
+  while (n < cells && n < 2048) n *= 2;
+  return n;
+}
+
 std::vector<Pixels> mip_chain(const Pixels& base) {
   std::vector<Pixels> levels = {base};
   while (levels.back().width > 1 || levels.back().height > 1) {
-    levels.push_back(halve(levels.back(), false));
+    levels.push_back(halve_pixels(levels.back(), false));
   }
   return levels;
 }
@@ -55,7 +61,7 @@ std::vector<Pixels> mip_chain_with_coverage(const Pixels& base) {
   std::vector<Pixels> levels = {base};
   const double wanted = alpha_coverage(base);
   while (levels.back().width > 1 || levels.back().height > 1) {
-    levels.push_back(halve(levels.back(), true));
+    levels.push_back(halve_pixels(levels.back(), true));
   }
   for (std::size_t level = 1; level < levels.size(); ++level) {
     double low = 0.25;

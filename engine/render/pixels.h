@@ -19,6 +19,9 @@ struct Pixels {
   }
 };
 
+/// The side of a texture for so many cells: the power of two above, at most 2048.
+int texture_side(double cells);
+
 /// Level 0 is `base`, each further level half the size (2x2 mean) down to 1x1.
 /// Powers of two only.
 std::vector<Pixels> mip_chain(const Pixels& base);

@@ -1,5 +1,6 @@
 #include "engine/sensors/imu.h"
 
+#include "engine/core/constants.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/mounted_sensor.h"
 #include "engine/sensors/triad.h"
@@ -9,8 +10,6 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-constexpr double kStandardGravity_mps2 = 9.80665;  // in which data sheets state g-sensitivity
 
 TriadNames gyro_names() {
   return {"gyro",

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/mounted_sensor.h"
@@ -13,7 +13,6 @@
 namespace vinerow {
 namespace {
 
-constexpr double kNothing_m = std::numeric_limits<double>::infinity();
 constexpr int kMostBeams = 20'000;
 constexpr int kMostSubRays = 15;
 
@@ -64,7 +63,7 @@ class Lidar final : public MountedSensor<LaserScan> {
     }
     scan_.angle_step_rad = rad_from_deg(parameters.number("angle_step_deg"));
     scan_.first_angle_rad = -0.5 * scan_.angle_step_rad * (beams_ - 1);
-    scan_.ranges_m.assign(beams_, kNothing_m);
+    scan_.ranges_m.assign(beams_, kInfinity);
     true_scan_ = scan_;
     readings_.prefill(scan_);
     const double width_rad = rad_from_deg(parameters.number("divergence_deg"));
@@ -87,11 +86,11 @@ class Lidar final : public MountedSensor<LaserScan> {
       const double noise = random_.normal(), luck = random_.uniform();
       double& truth_m = true_scan_.ranges_m[beam];
       const Echo echo = cast(beam, truth_m);
-      double reading_m = kNothing_m;
+      double reading_m = kInfinity;
       if (luck < (1.0 - dropout_share_) * detection_probability(echo.power) && !is_silent) {
         const double r = echo.distance_m;
         reading_m = r + offset_m_ + (noise_std_m_ + noise_growth_ * r) * noise;
-        if (reading_m < scan_.min_range_m || reading_m > scan_.max_range_m) reading_m = kNothing_m;
+        if (reading_m < scan_.min_range_m || reading_m > scan_.max_range_m) reading_m = kInfinity;
       }
       scan_.ranges_m[beam] = reading_m;
     }
@@ -100,7 +99,7 @@ class Lidar final : public MountedSensor<LaserScan> {
 
  private:
   struct Echo {
-    double distance_m = kNothing_m;
+    double distance_m = kInfinity;
     double power = 0.0;
   };
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/echo.h"
@@ -15,7 +15,6 @@
 namespace vinerow {
 namespace {
 
-constexpr double kNothing_m = std::numeric_limits<double>::infinity();
 constexpr double kFreezing_K = 273.15;
 
 /// When a sensor fires: at phase, phase + cycle, phase + 2 cycle ... of its ticks.
@@ -93,7 +92,7 @@ class Ultrasound final : public MountedSensor<RangeSample> {
     } else {
       heard_m = truth.range_m = shortest_m(truth.X_WS);
     }
-    sample.range_m = readings_.is_in_outage(now) ? kNothing_m : reading_of(heard_m, fate);
+    sample.range_m = readings_.is_in_outage(now) ? kInfinity : reading_of(heard_m, fate);
     readings_.push(now, sample, truth);
   }
 
@@ -118,7 +117,7 @@ class Ultrasound final : public MountedSensor<RangeSample> {
 
   /// Shortest hit, infinity if there is none. Rays need not reach farther than the shortest so far.
   double shortest_m(const Pose& X_WS) const {
-    double nearest_m = kNothing_m;
+    double nearest_m = kInfinity;
     for (const ConeRay& ray : rays_) {
       const auto hit =
           scene_->cast_ray(X_WS.p, X_WS.q * ray.dir_S, std::min(nearest_m, max_range_m_));
@@ -138,7 +137,7 @@ class Ultrasound final : public MountedSensor<RangeSample> {
   /// The same, leaving out what comes farther than `after_m` behind the shortest hit.
   double listen_up_to(const Pose& X_WS, double after_m, double& nearest_m) {
     returns_.clear();
-    nearest_m = kNothing_m;
+    nearest_m = kInfinity;
     for (const ConeRay& ray : rays_) {
       const Eigen::Vector3d dir_W = X_WS.q * ray.dir_S;
       const auto hit = scene_->cast_ray(X_WS.p, dir_W, std::min(nearest_m + after_m, max_range_m_));
@@ -157,9 +156,9 @@ class Ultrasound final : public MountedSensor<RangeSample> {
       const double until_m = std::max(min_range_m_, std::min(heard_m, max_range_m_));
       return min_range_m_ + fate.false_place * (until_m - min_range_m_);
     }
-    if (fate.is_missed || !std::isfinite(heard_m)) return kNothing_m;
+    if (fate.is_missed || !std::isfinite(heard_m)) return kInfinity;
     const double reading_m = round_to_step(scale_ * heard_m + fate.noise_m, resolution_m_);
-    return reading_m > max_range_m_ ? kNothing_m : std::max(min_range_m_, reading_m);
+    return reading_m > max_range_m_ ? kInfinity : std::max(min_range_m_, reading_m);
   }
 
   const SceneQuery* scene_;

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "engine/core/check.h"
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check(const TrafficVehicle& vehicle) {
   const std::pair<const char*, double> lengths[] = {{"length_m", vehicle.length_m},

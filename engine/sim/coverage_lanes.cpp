@@ -18,7 +18,7 @@ struct Lane {
   double across_m = 0.0;          ///< mean
 };
 
-Vector2d middle_of(const Footprint& footprint) {
+Vector2d middle_of_footprint(const Footprint& footprint) {
   Vector2d sum = Vector2d::Zero();
   for (const Vector2d& corner : footprint.polygon_W) sum += corner;
   return sum / static_cast<double>(footprint.polygon_W.size());
@@ -28,7 +28,8 @@ Vector2d middle_of(const Footprint& footprint) {
 Vector2d direction_of(const std::map<int, std::vector<const Footprint*>>& by_lane) {
   Vector2d longest = Vector2d::Zero();
   for (const auto& [lane, footprints] : by_lane) {
-    const Vector2d way = middle_of(*footprints.back()) - middle_of(*footprints.front());
+    const Vector2d way =
+        middle_of_footprint(*footprints.back()) - middle_of_footprint(*footprints.front());
     if (way.norm() > longest.norm()) longest = way;
   }
   return longest.norm() > 0.0 ? Vector2d(longest.normalized()) : Vector2d::Zero();
@@ -68,7 +69,7 @@ std::vector<double> side_overlaps(const std::vector<Footprint>& footprints) {
   for (const auto& [number, members] : by_lane) {
     Lane lane;
     for (const Footprint* footprint : members) {
-      const Vector2d middle = middle_of(*footprint);
+      const Vector2d middle = middle_of_footprint(*footprint);
       lane.pictures.push_back({footprint, along.dot(middle)});
       lane.across_m += Vector2d(-along.y(), along.x()).dot(middle);
     }

@@ -15,13 +15,13 @@
 namespace vinerow {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 /// Track points closer than this are left out.
 constexpr double kTrackPitch_m = 0.5;
 
 /// The parameters of the scenario's metric `survey`; its defaults where it names none.
-ParameterSet survey_parameters(const io::Scenario& scenario) {
+ParameterSet survey_metric_parameters(const io::Scenario& scenario) {
   for (const io::NamedPart& metric : scenario.metrics) {
     if (metric.part.type == survey_coverage_spec().name) return metric.part.parameters;
   }
@@ -66,11 +66,11 @@ Polygon hull_of(const std::vector<LaneShot>& shots) {
   return convex_hull(std::move(corners));
 }
 
-Json json_of(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+ordered_json json_of(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-Json json_of(const Eigen::Vector3d& p) {
+ordered_json json_of(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
@@ -91,7 +91,7 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
   if (!has_shots) return {};
 
   const io::Scenario scenario = scenario_of_log(log, registry);
-  const ParameterSet parameters = survey_parameters(scenario);
+  const ParameterSet parameters = survey_metric_parameters(scenario);
   CoverageOptions options = read_coverage_options(parameters);
   options.cell_m = choice.cell_m.value_or(options.cell_m);
   if (!choice.parcel_W.empty()) options.parcel_W = choice.parcel_W;
@@ -127,7 +127,7 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
 }
 
 std::string coverage_json(const SurveyCoverage& coverage) {
-  Json numbers, parcel = Json::array(), pictures = Json::array();
+  ordered_json numbers, parcel = ordered_json::array(), pictures = ordered_json::array();
   for (const std::string& name : coverage_number_names()) {
     numbers[name] = json_of(coverage.map.numbers.at(name));
   }
@@ -135,9 +135,9 @@ std::string coverage_json(const SurveyCoverage& coverage) {
   for (const LaneShot& taken : coverage.shots) {
     const CameraShot& shot = taken.shot;
     const Eigen::Quaterniond& q = shot.X_WS.q;
-    Json corners = nullptr;
+    ordered_json corners = nullptr;
     if (shot.on_ground) {
-      corners = Json::array();
+      corners = ordered_json::array();
       for (const Eigen::Vector3d& corner : shot.corners_W) corners.push_back(json_of(corner));
     }
     pictures.push_back({{"index", shot.index},
@@ -148,7 +148,7 @@ std::string coverage_json(const SurveyCoverage& coverage) {
                         {"gsd_m", shot.gsd_m},
                         {"corners_m", corners}});
   }
-  return Json{{"scenario", coverage.scenario},
+  return ordered_json{{"scenario", coverage.scenario},
               {"vehicle", coverage.vehicle},
               {"camera", coverage.camera},
               {"cell_m", coverage.options.cell_m},

@@ -13,9 +13,7 @@ constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 
 constexpr int kEllipsePoints = 96;
 constexpr int kEarlierPoints = 48;
 constexpr double kLeastSpacing_m = 1.0;
-/// Ellipses hover this much above the ground, so that grass does not swallow them.
-constexpr double kHover_m = 0.06;
-constexpr double kTrailPitch_m = 0.05;
+constexpr double kEstimatePitch_m = 0.05;
 /// What is nearer to the ground needs no plumb line.
 constexpr double kLeastPlumb_m = 0.3;
 /// What canopy hides is still seen, but as hidden.
@@ -86,7 +84,7 @@ void add_trail(const Trace<Odometry>& trace, const Odometry& now, std::size_t en
   const Eigen::Vector3d below(0, 0, -look.down_m);
   for (std::size_t i = 0; i <= end; ++i) {
     const Eigen::Vector3d p = trace.values[i].X_WB * below;
-    if (!trail.points_W.empty() && (trail.points_W.back() - p).norm() < kTrailPitch_m) continue;
+    if (!trail.points_W.empty() && (trail.points_W.back() - p).norm() < kEstimatePitch_m) continue;
     trail.points_W.push_back(p);
   }
   trail.points_W.push_back(now.X_WB * below);

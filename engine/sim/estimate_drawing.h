@@ -11,6 +11,9 @@
 
 namespace vinerow {
 
+/// Lines hover this much above what they follow, so that grass does not swallow them.
+inline constexpr double kHover_m = 0.06;
+
 struct EstimateLook {
   Eigen::Vector3f colour = {1, 0, 0};
   double down_m = 0.0;    ///< the trail runs so far below the body's origin

@@ -6,6 +6,7 @@
 
 #include "engine/math/angles.h"
 #include "engine/render/cameras.h"
+#include "engine/sim/estimate_drawing.h"
 
 namespace vinerow {
 namespace {
@@ -16,8 +17,6 @@ const Eigen::Vector3f kRayColour{1.0f, 0.25f, 0.1f};
 /// Trails of the first vehicles; more vehicles start again.
 const Eigen::Vector3f kTrailColours[] = {
     {1.0f, 0.72f, 0.05f}, {1.0f, 0.3f, 0.7f}, {0.3f, 0.95f, 0.9f}};
-/// Lines hover this much above what they follow, so that grass does not swallow them.
-constexpr double kHover_m = 0.06;
 /// A chasing eye comes no nearer to the ground behind what flies.
 constexpr double kLeastEyeHeight_m = 0.5;
 /// Beams of a laser scan that are drawn, at most; every echo is.

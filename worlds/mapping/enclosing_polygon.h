@@ -9,7 +9,7 @@
 /// The Visual Computer 1 (1985): some c-gon of least area has all sides but one along sides of the
 /// convex hull, and the remaining one, if it is not, touches a hull corner with its middle.
 ///
-/// Both functions: in any plane, in m. All points are inside to 1e-12 of their extent, or to the
+/// In any plane, in m. All points are inside to 1e-12 of their extent, or to the
 /// rounding of their coordinates where that is more. Points whose hull has at most `corners`
 /// corners get the hull, all others a polygon of exactly `corners`.
 ///
@@ -25,14 +25,8 @@
 namespace vinerow::worlds {
 
 /// The least area there is. Cost: n points sorted; of h hull corners at most O(h^3 corners), of
-/// which what cannot beat the polygon below is left out: 0.03 ms for 20 hull corners and 8, 0.3 ms
-/// for 60, 2 ms for 120.
+/// which what cannot beat a greedy choice of sides is left out: 0.03 ms for 20 hull corners and 8,
+/// 0.3 ms for 60, 2 ms for 120.
 Result<Polygon> smallest_enclosing_polygon(const Polygon& points, int corners);
-
-/// By taking from the hull, again and again, the side that adds the least area; a triangle is then
-/// the smallest around the quadrilateral. Around noisy canopy sections 0.1 % above the least area
-/// with 8 corners (at worst 1.1 %), 0.7 % (3.1 %) with 6, 6 % (21 %) with 4; triangles around few
-/// random points 2 % (45 %). Cost: O(h^2), 0.06 ms for 60 hull corners.
-Result<Polygon> greedy_enclosing_polygon(const Polygon& points, int corners);
 
 }  // namespace vinerow::worlds

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/core/error.h"
 #include "engine/render/png.h"
-#include "engine/sim/simulation.h"
 #include "tools/vinerow/map_pictures.h"
-#include "worlds/mapping/jobs/cloud_map_job.h"
+#include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_points.h"
 
 namespace vinerow::tools {
 namespace {
@@ -58,20 +59,21 @@ std::vector<fs::path> write_map_pictures(const worlds::CloudMap& map,
   return files;
 }
 
-std::vector<fs::path> write_job_pictures(const io::Scenario& scenario, const RunResult& result,
-                                         const Registry& registry) {
+std::vector<fs::path> write_job_pictures(const io::Scenario& scenario, const RunResult& result) {
   std::vector<fs::path> files;
-  std::unique_ptr<WorldModel> world;
   for (const io::PhaseConfig& phase : scenario.phases) {
-    if (!phase.job || phase.job->type != "cloud_map") continue;
     const PhaseReport* report = find_phase(result, phase.name);
+    if (report == nullptr || !report->product || report->product->kind != ProductKind::kMap) {
+      continue;
+    }
+    const fs::path& folder = report->product->file;
     const auto cloud = cloud_of(phase, result);
-    if (report == nullptr || !report->product || !cloud) continue;
-    if (!world) world = build_world(scenario, registry);
-    const worlds::CloudMapWork work =
-        worlds::work_out_cloud_map(phase.job->parameters, *world, *cloud, true);
-    const auto drawn = write_map_pictures(work.map, work.cloud, work.options.occupancy,
-                                          scenario.name, report->product->file);
+    if (folder.empty() || !cloud) continue;
+    const std::optional<worlds::MapPoints> points = worlds::load_map_points(folder);
+    if (!points) continue;
+    const auto drawn =
+        write_map_pictures(worlds::load_map(folder), worlds::read_classified_cloud(*points, *cloud),
+                           points->occupancy, scenario.name, folder);
     files.insert(files.end(), drawn.begin(), drawn.end());
   }
   return files;

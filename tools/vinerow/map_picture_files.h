@@ -22,10 +22,10 @@ std::vector<std::filesystem::path> write_map_pictures(const worlds::CloudMap& ma
                                                       const std::string& title,
                                                       const std::filesystem::path& folder);
 
-/// The same of every map that a job `cloud_map` made in a run, into the folder of its product. The
-/// map is worked out again from the cloud: a job keeps no classes of points.
+/// The same of every map that a job made of a cloud in a run, into the folder of its product, from
+/// what that folder keeps (map_points.h) and the cloud that the job took. A map without points has
+/// no pictures. @throws ConfigError where files of a product are not as they were written
 std::vector<std::filesystem::path> write_job_pictures(const io::Scenario& scenario,
-                                                      const RunResult& result,
-                                                      const Registry& registry);
+                                                      const RunResult& result);
 
 }  // namespace vinerow::tools

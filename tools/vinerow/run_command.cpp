@@ -153,7 +153,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
                                                options.out / "coverage.png"));
       });
       try_to_write("pictures of maps",
-                   [&] { print_files("map", write_job_pictures(scenario, result, registry)); });
+                   [&] { print_files("map", write_job_pictures(scenario, result)); });
     }
     if (!arguments->no_report) {
       try_to_write("report", [&] {

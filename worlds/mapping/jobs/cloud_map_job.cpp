@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "worlds/mapping/cloud/folder/cloud_map_type.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_points.h"
 #include "worlds/mapping/cloud/make_cloud_map.h"
 #include "worlds/mapping/cloud/map_comparison.h"
 #include "worlds/mapping/cloud/reading/cloud_source.h"
@@ -107,25 +109,13 @@ CloudMapOptions read_cloud_map_options(const ParameterSet& parameters, const Wor
   return options;
 }
 
-CloudReadOptions read_reading(const ParameterSet& parameters, const WorldModel& world,
-                              bool with_colours) {
+CloudReadOptions read_reading(const ParameterSet& parameters, const WorldModel& world) {
   CloudReadOptions reading;
   reading.crs = parameters.text("crs");
   reading.origin = world.origin;
   reading.thin = static_cast<std::uint64_t>(parameters.integer("thin"));
-  reading.with_colours = with_colours;
+  reading.with_colours = false;
   return reading;
-}
-
-CloudMapWork work_out(const CloudMapOptions& options, const CloudReadOptions& reading,
-                      const std::filesystem::path& file) {
-  CloudMapWork work;
-  work.options = options;
-  CloudReadReport read;
-  work.cloud = read_parcel_cloud(file, reading, read);
-  work.map = make_cloud_map(work.cloud, options);
-  add_source(read, work.map);
-  return work;
 }
 
 class CloudMapJob : public Job {
@@ -133,7 +123,7 @@ class CloudMapJob : public Job {
   CloudMapJob(const ParameterSet& parameters, const JobContext& context)
       : context_(context),
         options_(read_cloud_map_options(parameters, *context.world)),
-        reading_(read_reading(parameters, *context.world, false)),
+        reading_(read_reading(parameters, *context.world)),
         like_world_(parameters.text("numbering") == "world") {}
 
   Result<JobOutcome> run(const std::map<std::string, Product>& inputs) override {
@@ -146,9 +136,7 @@ class CloudMapJob : public Job {
 
  private:
   JobOutcome make(const std::filesystem::path& file) const {
-    // The points are as many as the memory of a mission: they go before the truth comes.
-    const CloudMap map = work_out(options_, reading_, file).map;
-    save_map(map, context_.folder);
+    const CloudMap map = make_files(file);
     JobOutcome outcome;
     outcome.numbers = {
         {"points", static_cast<double>(map.report.points)},
@@ -169,6 +157,18 @@ class CloudMapJob : public Job {
     return outcome;
   }
 
+  /// The map, and the folder's files. The points are as many as the memory of a mission: they go
+  /// before the truth comes.
+  CloudMap make_files(const std::filesystem::path& file) const {
+    CloudReadReport read;
+    ParcelCloud cloud = read_parcel_cloud(file, reading_, read);
+    CloudMap map = make_cloud_map(cloud, options_);
+    add_source(read, map);
+    save_map(map, context_.folder);
+    save_map_points({reading_, options_.occupancy, std::move(cloud.classes)}, context_.folder);
+    return map;
+  }
+
   /// From the folder, so that a run on the same folder later knows the same bits.
   RowMap told_map() const {
     MapContext context;
@@ -186,12 +186,6 @@ class CloudMapJob : public Job {
 };
 
 }  // namespace
-
-CloudMapWork work_out_cloud_map(const ParameterSet& parameters, const WorldModel& world,
-                                const std::filesystem::path& cloud, bool with_colours) {
-  return work_out(read_cloud_map_options(parameters, world),
-                  read_reading(parameters, world, with_colours), cloud);
-}
 
 void register_cloud_map_job(Registry& registry) {
   PartSpec spec;

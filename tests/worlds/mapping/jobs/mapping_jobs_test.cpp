@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "engine/io/point_cloud.h"
 #include "engine/io/scenario.h"
@@ -12,6 +14,8 @@
 #include "engine/sim/simulation.h"
 #include "tests/worlds/mapping/jobs/job_fixture.h"
 #include "worlds/mapping/cloud/folder/cloud_map_type.h"
+#include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_points.h"
 #include "worlds/mapping/cloud/parcel_cloud.h"
 #include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
@@ -114,7 +118,9 @@ TEST_F(FlownSurvey, JobsMakeTheBytesThatTheCommandsMake) {
     auto expected = test::files_in(out);
     expected.erase("report.html");
     expected.erase("timing.json");
-    const auto files = test::files_in(folder_.path() / name);
+    auto files = test::files_in(folder_.path() / name);
+    // What each point is the job alone keeps: pictures are drawn from it after the run.
+    EXPECT_EQ(files.erase("points.json") + files.erase("points.classes"), 2u);
     EXPECT_EQ(files.size(), expected.size());
     for (const auto& [file, bytes] : expected) {
       EXPECT_TRUE(files.count(file) == 1 && files.at(file) == bytes) << file << " differs";
@@ -137,6 +143,14 @@ TEST(CloudMapJob, GivesTheMapThatItsFolderHoldsForVehicles) {
                                   {{"cloud", test::make_cloud(folder.path() / "cloud")}});
   ASSERT_TRUE(made) << made.reason();
   EXPECT_EQ(made->product.file, folder.path() / "map");
+  const auto points = worlds::load_map_points(made->product.file);
+  ASSERT_TRUE(points);
+  const worlds::ParcelCloud cloud =
+      worlds::read_classified_cloud(*points, folder.path() / "cloud" / "cloud.las");
+  const worlds::CloudMapReport report = worlds::load_map(made->product.file).report;
+  EXPECT_EQ(std::count(cloud.classes.begin(), cloud.classes.end(), worlds::PointClass::kCanopy),
+            report.canopy_points);
+  EXPECT_EQ(std::ssize(cloud.classes), report.points);
   ParameterSet of_folder = test::map_parameters("cloud_map");
   of_folder.set("folder", made->product.file.string());
   const auto told =

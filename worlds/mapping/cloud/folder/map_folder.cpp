@@ -81,7 +81,7 @@ void save_map(const CloudMap& map, const fs::path& folder) {
   }
   // Until map.json is there again the folder is no map.
   for (const char* file : {"map.json", "report.json", "terrain.tif", "occupancy.yaml",
-                           "occupancy.pgm", "rows.geojson"}) {
+                           "occupancy.pgm", "rows.geojson", "points.json", "points.classes"}) {
     fs::remove(folder / file, error);
   }
   save_meshes(map.map.meshes, (folder / "meshes").string());

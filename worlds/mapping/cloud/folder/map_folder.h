@@ -7,6 +7,7 @@
 ///     terrain.tif      ground, GeoTIFF (height_raster.h)
 ///     occupancy.yaml, occupancy.pgm   ROS map (ros_map.h)
 ///     rows.geojson     rows, ends, alleys, boundary in WGS84, where the origin is known
+///     points.json, points.classes   what each point is, in the map of a job (map_points.h)
 
 #include <filesystem>
 

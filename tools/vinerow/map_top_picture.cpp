@@ -25,7 +25,7 @@ constexpr Rgb kMapContour = {170, 150, 116};
 constexpr int kTallestTop = 1300, kTopLegend = 110;
 constexpr std::size_t kMostPoints = 12'000'000;
 
-PlanView view_of(const RowMap& map) {
+PlanView plan_of(const RowMap& map) {
   Eigen::AlignedBox2d box;
   for (const PlantRow& row : map.rows) {
     for (const Vector3d& p : row.line_W) box.extend(Vector2d(p.head<2>()));
@@ -202,7 +202,7 @@ void draw_top_legend(Canvas& canvas, double y, double low_m, double high_m, bool
 
 render::Image draw_top(const worlds::CloudMap& map, const worlds::ParcelCloud& cloud,
                        const std::string& title) {
-  const PlanView view = view_of(map.map);
+  const PlanView view = plan_of(map.map);
   Canvas canvas(kPictureWidth, view.height, kPaper);
   const double contour_m =
       map.map.terrain ? draw_shaded_ground(canvas, view, *map.map.terrain) : 0.0;

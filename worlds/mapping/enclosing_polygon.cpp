@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "engine/core/constants.h"
 #include "engine/math/planar.h"
 
 namespace vinerow::worlds {
@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargestCoordinate = 1e9;
 constexpr double kThinnest = 1e-9;  ///< hull area over extent squared: below, points on a line
 /// A hull corner that stands out by less, over the extent, is rounding. It would give a side that

@@ -34,7 +34,7 @@ RowCurve curve_of(const PlantRow& row) {
 }
 
 /// Height of the ground below the rows, from the terrain or by rays.
-GroundHeight ground_of(const WorldModel& world, const SceneQuery& scene) {
+GroundHeight ground_in(const WorldModel& world, const SceneQuery& scene) {
   if (world.terrain) {
     return [&world](double x, double y) { return world.terrain->height_m(x, y); };
   }
@@ -118,7 +118,7 @@ class Surveyor {
 
   std::vector<RowMesh> survey(RowMeshReport& report) {
     std::vector<std::vector<SectionChain>> chains;
-    const GroundHeight ground = ground_of(*context_.world, *context_.scene);
+    const GroundHeight ground = ground_in(*context_.world, *context_.scene);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const RowCurve curve = curve_of(rows_[k]);
       RandomStream random = stream(fmt::format("sections.row_{:02}", k));
@@ -231,7 +231,7 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
   RowMeshReport& made = report != nullptr ? *report : own;
   made = {};
   auto map = std::make_unique<RowMap>(context.world->rows);
-  lift_rows(ground_of(*context.world, *context.scene), parameters.numbers("section_spacing_m")[1],
+  lift_rows(ground_in(*context.world, *context.scene), parameters.numbers("section_spacing_m")[1],
             map->rows);
   Surveyor surveyor(parameters, context);
   if (parameters.has("folder")) {

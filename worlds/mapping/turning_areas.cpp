@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-double distance_m(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
+double from_segment_m(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   const Vector2d d = b - a;
   const double length2 = d.squaredNorm();
   const double share = length2 > 0.0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
@@ -19,9 +19,10 @@ double distance_m(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
 }
 
 /// Of two segments that do not cross.
-double distance_m(const VirtualWall& a, const VirtualWall& b) {
-  return std::min({distance_m(a.from_W, b.from_W, b.to_W), distance_m(a.to_W, b.from_W, b.to_W),
-                   distance_m(b.from_W, a.from_W, a.to_W), distance_m(b.to_W, a.from_W, a.to_W)});
+double between_walls_m(const VirtualWall& a, const VirtualWall& b) {
+  return std::min(
+      {from_segment_m(a.from_W, b.from_W, b.to_W), from_segment_m(a.to_W, b.from_W, b.to_W),
+       from_segment_m(b.from_W, a.from_W, a.to_W), from_segment_m(b.to_W, a.from_W, a.to_W)});
 }
 
 Vector2d end_point(const PlantRow& row, RowEnd end) {
@@ -133,7 +134,7 @@ std::vector<TurningArea> make_turning_areas(const RowMap& map,
     TurningArea area;
     area.row = k;
     area.end = open;
-    area.width_m = distance_m(*before, *after);
+    area.width_m = between_walls_m(*before, *after);
     area.polygon_W = area_between(*before, *after, open_W,
                                   row.line_W[row.line_W.size() / 2].head<2>() * 0.5 +
                                       row.line_W[row.line_W.size() / 2 - 1].head<2>() * 0.5,

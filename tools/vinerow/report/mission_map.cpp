@@ -52,7 +52,7 @@ class Projection {
 };
 
 /// Lines every so many metres, the same along both axes; the axes' texts where there is room.
-void draw_grid(const Projection& at, const MapStyle& style, Svg& svg) {
+void draw_grid_lines(const Projection& at, const MapStyle& style, Svg& svg) {
   if (!style.with_axes) return;
   const Axis x(at.shown().x, at.left(), style.width, 10);
   const double step_m = x.ticks().size() > 1 ? x.ticks()[1] - x.ticks()[0] : at.shown().x.span();
@@ -266,7 +266,7 @@ std::string mission_map(const RunFolder& run, const std::vector<VehicleLog>& veh
   const Projection at(view, style);
   Svg svg(style.width, at.full_height(), "map", style.label);
   svg.rect(at.left(), 0, style.width - at.left(), at.bottom(), "ground");
-  draw_grid(at, style, svg);
+  draw_grid_lines(at, style, svg);
   svg.raw(fmt::format("<svg x=\"{}\" y=\"0\" width=\"{}\" height=\"{}\" viewBox=\"{} 0 {} {}\">\n",
                       px(at.left()), px(style.width - at.left()), px(at.bottom()), px(at.left()),
                       px(style.width - at.left()), px(at.bottom())));

@@ -108,7 +108,7 @@ int score_of(const RunFolder& run, const io::CameraConfig* camera, double time_s
   return score;
 }
 
-std::string read_bytes(const fs::path& file) {
+std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -199,7 +199,7 @@ std::string embedded(const Picture& picture, int most_width) {
     height = small.height;
     bytes = render::encode_png(small);
   } else {
-    bytes = fs::file_size(picture.file) <= kSmall_bytes ? read_bytes(picture.file)
+    bytes = fs::file_size(picture.file) <= kSmall_bytes ? bytes_of(picture.file)
                                                         : render::encode_png(*pixels);
   }
   return fmt::format(

@@ -13,7 +13,8 @@ using nlohmann::json;
 
 constexpr double kTolerance_m = 0.03;
 
-double distance_m(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+double from_stretch_m(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                      const Eigen::Vector3d& b) {
   const Eigen::Vector3d along = b - a;
   const double length2 = along.squaredNorm();
   const double share = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
@@ -45,7 +46,7 @@ std::vector<Eigen::Vector3d> simplify_line(const std::vector<Eigen::Vector3d>& p
     double farthest_m = tolerance_m;
     std::size_t at = begin;
     for (std::size_t i = begin + 1; i < end; ++i) {
-      const double away_m = distance_m(points[i], points[begin], points[end]);
+      const double away_m = from_stretch_m(points[i], points[begin], points[end]);
       if (away_m > farthest_m) {
         farthest_m = away_m;
         at = i;

@@ -34,7 +34,7 @@ struct Chapter {
 };
 
 /// All that chapters are made of.
-struct Material {
+struct PageMaterial {
   RunFolder run;
   std::vector<VehicleLog> vehicles;
   std::vector<Track> tracks;
@@ -42,8 +42,8 @@ struct Material {
   int picture_width = 1280;
 };
 
-Material read_material(const std::filesystem::path& folder, const Registry& registry) {
-  Material m;
+PageMaterial read_material(const std::filesystem::path& folder, const Registry& registry) {
+  PageMaterial m;
   m.run = read_run_folder(folder, registry);
   m.vehicles = read_vehicles(m.run);
   for (const VehicleLog& vehicle : m.vehicles) m.tracks.push_back(make_track(vehicle));
@@ -57,7 +57,7 @@ Material read_material(const std::filesystem::path& folder, const Registry& regi
   return m;
 }
 
-std::string hero(const Material& m) {
+std::string hero(const PageMaterial& m) {
   const Picture* picture = hero_picture(m.run, m.vehicles, m.frames);
   const auto whole = whole_view(m.run, m.vehicles);
   const auto parcel = parcel_view(m.run, m.vehicles);
@@ -88,7 +88,7 @@ std::string hero(const Material& m) {
 }
 
 /// Phases, else what the vehicles did when.
-std::string time_lines(const Material& m) {
+std::string time_lines(const PageMaterial& m) {
   const std::vector<TimeRow> phases = phase_rows(m.run);
   if (!phases.empty()) {
     return "<div class=\"scroll\">" + time_line(phases, m.run.end_s(), "phases of the mission") +
@@ -100,7 +100,7 @@ std::string time_lines(const Material& m) {
          "</div>\n" + activity_legend(rows);
 }
 
-std::string first_screen(const Material& m) {
+std::string first_screen(const PageMaterial& m) {
   const std::string description = m.run.scenario ? m.run.scenario->description : "";
   std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n",
                                 escaped(title_of(m.run.text("scenario"))), escaped(description));
@@ -108,7 +108,7 @@ std::string first_screen(const Material& m) {
          time_lines(m);
 }
 
-std::string map_chapter(const Material& m) {
+std::string map_chapter(const PageMaterial& m) {
   const auto whole = whole_view(m.run, m.vehicles);
   if (!whole) return "";
   MapStyle style;
@@ -130,7 +130,7 @@ std::string map_chapter(const Material& m) {
   return out;
 }
 
-std::string way_figures(const Material& m, const VehicleLog& vehicle, const Track& track) {
+std::string way_figures(const PageMaterial& m, const VehicleLog& vehicle, const Track& track) {
   const std::vector<VehicleLog> alone = {vehicle};
   std::string out;
   MapStyle style;
@@ -156,7 +156,7 @@ std::string way_figures(const Material& m, const VehicleLog& vehicle, const Trac
   return out;
 }
 
-std::string plots_chapter(const Material& m) {
+std::string plots_chapter(const PageMaterial& m) {
   if (!m.run.log) {
     return "<p>The run wrote no log, so there are no plots of it: <code>vinerow run</code> without "
            "<code>--no-log</code> writes one.</p>\n";
@@ -179,7 +179,7 @@ std::string plots_chapter(const Material& m) {
   return out;
 }
 
-std::string pictures_chapter(const Material& m) {
+std::string pictures_chapter(const PageMaterial& m) {
   const Picture* hero = hero_picture(m.run, m.vehicles, m.frames);
   std::string out;
   for (const auto* pictures : {&m.coverage, &m.products, &m.frames}) {
@@ -206,7 +206,7 @@ std::string replay_chapter(const RunFolder& run) {
   return replay_section(input);
 }
 
-std::string page(const Material& m) {
+std::string page(const PageMaterial& m) {
   const std::vector<Chapter> chapters = {
       {"verdicts", "Verdicts", criteria_table(m.run) + metrics_table(m.run)},
       {"phases", "Phases", phase_table(m.run)},

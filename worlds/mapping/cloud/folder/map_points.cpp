@@ -25,7 +25,7 @@ nlohmann::json parse_points(const std::filesystem::path& file) {
   }
 }
 
-PointClass class_of(char byte, const std::filesystem::path& file) {
+PointClass point_class(char byte, const std::filesystem::path& file) {
   const auto of = static_cast<PointClass>(byte);
   switch (of) {
     case PointClass::kUnclassified:
@@ -107,7 +107,7 @@ std::optional<MapPoints> load_map_points(const std::filesystem::path& folder) {
                                   classes.string(), all.size(), count));
   }
   points.classes.reserve(all.size());
-  for (const char byte : all) points.classes.push_back(class_of(byte, classes));
+  for (const char byte : all) points.classes.push_back(point_class(byte, classes));
   return points;
 }
 

@@ -192,7 +192,7 @@ struct Ground {
 };
 
 /// The mode that the lowest heights are drawn to.
-Ground ground_of(const std::uint32_t* counts) {
+Ground lowest_peak(const std::uint32_t* counts) {
   std::uint64_t all = 0;
   for (int b = 0; b < kHeightBins; ++b) all += counts[b];
   if (all < 3) return {};
@@ -311,7 +311,7 @@ CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m) {
   std::vector<Ground> ground(lattice.size());
   CloudTerrain terrain;
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
-    ground[cell] = ground_of(histograms.of(cell));
+    ground[cell] = lowest_peak(histograms.of(cell));
     if (ground[cell].weight > 0.0f) terrain.covered_m2 += cell_m * cell_m;
   }
   // Hulls of a few metres first, then what is left of wider ones.

@@ -174,7 +174,7 @@ class Tracker {
   std::vector<std::uint8_t> taken_;
 };
 
-double distance_m(const RowTrack& track, const Vector2d& p) {
+double from_track_m(const RowTrack& track, const Vector2d& p) {
   double best = std::numeric_limits<double>::infinity();
   for (const Vector2d& q : track) best = std::min(best, (q - p).squaredNorm());
   return std::sqrt(best);
@@ -198,11 +198,11 @@ bool goes_on(const RowTrack& first, const RowTrack& second, const std::vector<Ro
   const Vector2d middle = 0.5 * (first.back() + second.front());
   return std::any_of(all.begin(), all.end(), [&](const RowTrack& other) {
     return &other != &first && &other != &second &&
-           distance_m(other, middle) < 1.6 * options.spacing_m;
+           from_track_m(other, middle) < 1.6 * options.spacing_m;
   });
 }
 
-std::vector<RowTrack> join(std::vector<RowTrack> tracks, const RowTrackingOptions& options) {
+std::vector<RowTrack> join_tracks(std::vector<RowTrack> tracks, const RowTrackingOptions& options) {
   for (;;) {
     double nearest_m = std::numeric_limits<double>::infinity();
     std::size_t a = 0, b = 0;
@@ -245,7 +245,7 @@ std::vector<RowTrack> join(std::vector<RowTrack> tracks, const RowTrackingOption
 
 std::vector<RowTrack> track_rows(const CanopyRaster& raster, const std::vector<RowPatch>& patches,
                                  const RowTrackingOptions& options) {
-  return join(Tracker(raster, options).run(patches), options);
+  return join_tracks(Tracker(raster, options).run(patches), options);
 }
 
 }  // namespace vinerow::worlds

@@ -8,7 +8,7 @@ namespace vinerow::worlds {
 namespace {
 
 /// Somewhere on the ground of the area.
-Eigen::Vector3d middle_of(const SurveyArea& area, const WorldModel& world) {
+Eigen::Vector3d cloud_middle(const SurveyArea& area, const WorldModel& world) {
   const Eigen::Vector2d p = area.box_W().center();
   return {p.x(), p.y(), world.terrain ? world.terrain->height_m(p.x(), p.y()) : 0.0};
 }
@@ -42,7 +42,7 @@ template <class Sample, class Empty>
 Result<WrittenCloud> write(const SceneQuery& scene, const WorldModel& world, const SurveyArea& area,
                            std::uint64_t seed, const CloudTarget& target, const Sample& sample,
                            const Empty& empty) {
-  CloudFile file(target.file, target.options, world.origin, middle_of(area, world));
+  CloudFile file(target.file, target.options, world.origin, cloud_middle(area, world));
   CloudSampling sampling;
   sampling.file = target.name;
   sampling.crs = target.options.crs;

@@ -11,7 +11,7 @@ namespace vinerow {
 namespace {
 
 // Rounding of distances between cell centres: standing still must stay free.
-constexpr double kRounding_m = 1e-3;
+constexpr double kStandingSlack_m = 1e-3;
 // Of equals, the one that steers least: per rad of both axles, far below any weight of J.
 constexpr double kCalmness_per_rad = 0.01;
 
@@ -108,8 +108,8 @@ DwaTerms DwaLaw::judge(const Rollout& rollout, const DwaTask& task) const {
 
 Room DwaLaw::calc_need(const Pose2& pose, const Room& wanted) const {
   const Room now = rooms_.measure(outline_, pose);
-  return {std::min(wanted.known_m, now.known_m - kRounding_m),
-          std::min(wanted.unknown_m, now.unknown_m - kRounding_m)};
+  return {std::min(wanted.known_m, now.known_m - kStandingSlack_m),
+          std::min(wanted.unknown_m, now.unknown_m - kStandingSlack_m)};
 }
 
 DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/constants.h"
+
 namespace vinerow {
 namespace {
 constexpr float kFar = static_cast<float>(PointField::kReach_m);
@@ -40,7 +42,6 @@ void PointField::build(const Eigen::Vector2d& centre_W, std::span<const Eigen::V
 }
 
 double PointField::at(const Eigen::Vector2d& p_W) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (empty_) return kInfinity;
   const double x = (p_W.x() - corner_W_.x()) / kSpacing_m;
   const double y = (p_W.y() - corner_W_.y()) / kSpacing_m;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/constants.h"
+
 namespace vinerow {
 namespace {
 
@@ -103,7 +105,6 @@ double DiscOutline::uncovered_m(const std::vector<Eigen::Vector2d>& outline_B) c
 
 Room RoomFinder::measure_discs(const std::vector<DiscOutline::Disc>& discs,
                                const Eigen::Vector2d& p_W, const Eigen::Vector2d& ahead) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Room room{kInfinity, kInfinity};
   const Eigen::Vector2d left = left_of(ahead);
   for (const DiscOutline::Disc& disc : discs) {

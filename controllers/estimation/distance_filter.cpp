@@ -19,20 +19,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::string name_of(const EstimatorContext& context) {
+std::string distance_filter_name(const EstimatorContext& context) {
   return context.part + " (distance_filter)";
 }
 
-const RowMap* map_of(const ParameterSet& parameters, const EstimatorContext& context) {
+const RowMap* find_map(const ParameterSet& parameters, const EstimatorContext& context) {
   return parameters.boolean("use_map") ? context.map : nullptr;
 }
 
-std::vector<RangeSensorModel> read_range_sensors(const ParameterSet& parameters,
-                                                 const EstimatorContext& context,
-                                                 const GroundReference& ground) {
+std::vector<RangeSensorModel> read_filter_sensors(const ParameterSet& parameters,
+                                                  const EstimatorContext& context,
+                                                  const GroundReference& ground) {
   if (!parameters.boolean("use_map")) return {};
   std::vector<RangeSensorModel> sensors =
-      find_range_sensors(parameters.texts("ranges"), context, name_of(context));
+      find_range_sensors(parameters.texts("ranges"), context, distance_filter_name(context));
   std::erase_if(sensors, [&](const RangeSensorModel& s) { return ground.looks_down(s.name); });
   for (RangeSensorModel& sensor : sensors) {
     sensor.bound_m = parameters.number("range_bound_m");
@@ -52,8 +52,8 @@ class DistanceFilter final : public Estimator {
         start_std_m_(parameters.number("start_std_m")),
         yaw_std_rad_(rad_from_deg(parameters.number("yaw_std_deg"))),
         inertial_std_m_(parameters.number("inertial_std_m")),
-        ground_(parameters, context, map_of(parameters, context), name_of(context)),
-        sensors_(read_range_sensors(parameters, context, ground_)),
+        ground_(parameters, context, find_map(parameters, context), distance_filter_name(context)),
+        sensors_(read_filter_sensors(parameters, context, ground_)),
         index_(make_index(context)),
         law_(read_distance_filter_params(parameters),
              context.map != nullptr ? context.map->accuracy : MapAccuracy{},
@@ -104,7 +104,7 @@ class DistanceFilter final : public Estimator {
  private:
   std::optional<RowMeshIndex> make_index(const EstimatorContext& context) const {
     if (sensors_.empty()) return std::nullopt;
-    demand_row_meshes(context, name_of(context), "say use_map: false");
+    demand_row_meshes(context, distance_filter_name(context), "say use_map: false");
     return std::optional<RowMeshIndex>(std::in_place, *context.map);
   }
 

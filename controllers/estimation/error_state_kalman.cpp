@@ -7,8 +7,6 @@
 namespace vinerow {
 namespace {
 
-using I = ErrorIndex;
-
 /// Beyond what any unit on a vehicle reads: a broken message.
 constexpr double kMaxRate_radps = 200.0;
 constexpr double kMaxForce_mps2 = 2000.0;
@@ -110,14 +108,14 @@ void ErrorStateKalman::propagate(const Eigen::Vector3d& w_B, const Eigen::Vector
   const double gyro_walk = noise.gyro_walk_radps2_rtHz * noise.gyro_walk_radps2_rtHz;
   const double accel_walk = noise.accel_walk_mps3_rtHz * noise.accel_walk_mps3_rtHz;
   for (int axis = 0; axis < 3; ++axis) {
-    const int p = I::kPosition + axis, v = I::kVelocity + axis;
+    const int p = ErrorIndex::kPosition + axis, v = ErrorIndex::kVelocity + axis;
     P_(p, p) += accel * dt * dt * dt / 3.0;
     P_(p, v) += 0.5 * accel * dt * dt;
     P_(v, p) += 0.5 * accel * dt * dt;
     P_(v, v) += accel * dt;
-    P_(I::kAttitude + axis, I::kAttitude + axis) += gyro * dt;
-    P_(I::kGyroBias + axis, I::kGyroBias + axis) += gyro_walk * dt;
-    P_(I::kAccelBias + axis, I::kAccelBias + axis) += accel_walk * dt;
+    P_(ErrorIndex::kAttitude + axis, ErrorIndex::kAttitude + axis) += gyro * dt;
+    P_(ErrorIndex::kGyroBias + axis, ErrorIndex::kGyroBias + axis) += gyro_walk * dt;
+    P_(ErrorIndex::kAccelBias + axis, ErrorIndex::kAccelBias + axis) += accel_walk * dt;
   }
   if (!(P_.diagonal().minCoeff() >= 0.0 && P_.diagonal().maxCoeff() < kMaxVariance)) repair();
 }
@@ -135,7 +133,7 @@ Correction ErrorStateKalman::correct_vector(const Eigen::Vector3d& innovation, c
 
 template <int N>
 Correction ErrorStateKalman::correct(const Eigen::Matrix<double, N, 1>& innovation,
-                                     const Eigen::Matrix<double, N, I::kCount>& H,
+                                     const Eigen::Matrix<double, N, ErrorIndex::kCount>& H,
                                      const Eigen::Matrix<double, N, 1>& variances,
                                      double gate_sigma) {
   const bool valid = started_ && innovation.allFinite() && H.allFinite() && variances.allFinite() &&
@@ -186,13 +184,15 @@ bool ErrorStateKalman::inject(const ErrorVector& dx) {
   const NavState corrected = state_.plus(dx);
   if (!corrected.is_finite()) return false;
   state_ = corrected;
-  const Eigen::Vector3d turn = dx.segment<3>(I::kAttitude);
+  const Eigen::Vector3d turn = dx.segment<3>(ErrorIndex::kAttitude);
   const Eigen::Matrix3d G = Eigen::Matrix3d::Identity() + skew(0.5 * turn);
-  P_.middleRows<3>(I::kAttitude) = (G * P_.middleRows<3>(I::kAttitude)).eval();
-  P_.middleCols<3>(I::kAttitude) = (P_.middleCols<3>(I::kAttitude) * G.transpose()).eval();
+  P_.middleRows<3>(ErrorIndex::kAttitude) = (G * P_.middleRows<3>(ErrorIndex::kAttitude)).eval();
+  P_.middleCols<3>(ErrorIndex::kAttitude) =
+      (P_.middleCols<3>(ErrorIndex::kAttitude) * G.transpose()).eval();
 
-  drift_p_ += dx.segment<3>(I::kPosition) - (time_ - begin_).s() * dx.segment<3>(I::kVelocity);
-  drift_v_ += dx.segment<3>(I::kVelocity);
+  drift_p_ += dx.segment<3>(ErrorIndex::kPosition) -
+              (time_ - begin_).s() * dx.segment<3>(ErrorIndex::kVelocity);
+  drift_v_ += dx.segment<3>(ErrorIndex::kVelocity);
   drift_att_ += turn;
   return true;
 }
@@ -202,7 +202,7 @@ bool ErrorStateKalman::is_sound() const {
   const ErrorVector variances = P_.diagonal();
   if (!(variances.minCoeff() >= 0.0 && variances.maxCoeff() < kMaxVariance)) return false;
   const double bound = 1.0 + 1e-6;
-  for (int i = 0; i < I::kCount; ++i) {
+  for (int i = 0; i < ErrorIndex::kCount; ++i) {
     for (int j = 0; j < i; ++j) {
       if (!(P_(i, j) * P_(i, j) <= bound * variances[i] * variances[j] + 1e-30)) return false;
     }
@@ -216,7 +216,7 @@ void ErrorStateKalman::repair() {
   ++repairs_;
   const ErrorVector variances = P_.diagonal();
   P_.setZero();
-  for (int i = 0; i < I::kCount; ++i) {
+  for (int i = 0; i < ErrorIndex::kCount; ++i) {
     const auto good = [](double variance) { return variance > 0.0 && std::isfinite(variance); };
     const double variance = good(variances[i])          ? variances[i]
                             : good(start_variances_[i]) ? start_variances_[i]
@@ -231,14 +231,14 @@ void ErrorStateKalman::restart_at(const Eigen::Vector3d& p_WI, const Eigen::Vect
   state_.v_WI = v_WI;
   P_.topRows<6>().setZero();
   P_.leftCols<6>().setZero();
-  P_.diagonal().segment<3>(I::kPosition) = p_variances;
-  P_.diagonal().segment<3>(I::kVelocity).setConstant(v_variance);
+  P_.diagonal().segment<3>(ErrorIndex::kPosition) = p_variances;
+  P_.diagonal().segment<3>(ErrorIndex::kVelocity).setConstant(v_variance);
   trace_.clear();
   remember();
 }
 
 void ErrorStateKalman::loosen_attitude(double tilt_variance, double yaw_variance) {
-  P_.diagonal().segment<3>(I::kAttitude) +=
+  P_.diagonal().segment<3>(ErrorIndex::kAttitude) +=
       Eigen::Vector3d(tilt_variance, tilt_variance, yaw_variance);
 }
 

@@ -41,15 +41,15 @@ MapLocalisationParams read_params(const ParameterSet& parameters) {
   return params;
 }
 
-std::string name_of(const EstimatorContext& context) {
+std::string map_localisation_name(const EstimatorContext& context) {
   return context.part + " (map_localisation)";
 }
 
-std::vector<RangeSensorModel> read_range_sensors(const ParameterSet& parameters,
-                                                 const EstimatorContext& context,
-                                                 const GroundReference& ground) {
+std::vector<RangeSensorModel> read_cone_sensors(const ParameterSet& parameters,
+                                                const EstimatorContext& context,
+                                                const GroundReference& ground) {
   std::vector<RangeSensorModel> sensors =
-      find_range_sensors(parameters.texts("ranges"), context, name_of(context));
+      find_range_sensors(parameters.texts("ranges"), context, map_localisation_name(context));
   std::erase_if(sensors, [&](const RangeSensorModel& s) { return ground.looks_down(s.name); });
   for (RangeSensorModel& sensor : sensors) {
     sensor.fan_rays = static_cast<int>(parameters.integer("cone_rays"));
@@ -58,8 +58,8 @@ std::vector<RangeSensorModel> read_range_sensors(const ParameterSet& parameters,
   return sensors;
 }
 
-const RowMap& map_of(const EstimatorContext& context) {
-  demand_row_meshes(context, name_of(context), "");
+const RowMap& demand_map(const EstimatorContext& context) {
+  demand_row_meshes(context, map_localisation_name(context), "");
   return *context.map;
 }
 
@@ -71,9 +71,9 @@ class MapLocalisation final : public Estimator {
         start_std_m_(parameters.number("start_std_m")),
         on_map_(parameters.text("place") == "on_map"),
         max_range_m_(parameters.number("max_range_m")),
-        map_(map_of(context)),
-        ground_(parameters, context, &map_, name_of(context)),
-        sensors_(read_range_sensors(parameters, context, ground_)),
+        map_(demand_map(context)),
+        ground_(parameters, context, &map_, map_localisation_name(context)),
+        sensors_(read_cone_sensors(parameters, context, ground_)),
         index_(map_),
         law_(read_params(parameters), map_, index_, sensors_),
         random_(context.random("start")) {

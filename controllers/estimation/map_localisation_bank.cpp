@@ -10,8 +10,6 @@
 namespace vinerow {
 namespace {
 
-using State = LocalisationState;
-
 constexpr double kLeastWeight = 1e-6;  // a filter that is less likely is dropped
 constexpr double kLeastPrior = 0.02;   // an alley beside is never ruled out by the start alone
 constexpr double kSame_m = 0.3;        // filters as near as this are one,
@@ -19,8 +17,8 @@ constexpr double kMuchWider = 3.0;     // but for those that are this much less 
 
 /// Whether it tells nothing beyond another. A filter about the same place that is far less sure of
 /// it may still go elsewhere: where the other is lost it is what is left of their alley.
-bool follows(const State& state, const State& other) {
-  const auto variance_m2 = [](const State& s) {
+bool follows(const LocalisationState& state, const LocalisationState& other) {
+  const auto variance_m2 = [](const LocalisationState& s) {
     return s.covariance().topLeftCorner<2, 2>().trace();
   };
   return (other.p_W() - state.p_W()).norm() < kSame_m &&
@@ -174,7 +172,7 @@ void MapLocalisationLaw::keep(const Filter& filter) {
 Eigen::Matrix3d MapLocalisationLaw::position_covariance() const {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (int i = 0; i < count_; ++i) {
-    const State& other = filters_[i].state;
+    const LocalisationState& other = filters_[i].state;
     const Eigen::Vector3d beside_m = other.p_W() - state().p_W();
     covariance += filters_[i].weight * (Eigen::Matrix3d(other.covariance().topLeftCorner<3, 3>()) +
                                         beside_m * beside_m.transpose());
@@ -189,15 +187,16 @@ Eigen::Vector3d MapLocalisationLaw::position_on_map() const {
 Eigen::Matrix3d MapLocalisationLaw::position_on_map_covariance() const {
   Eigen::Matrix3d covariance = map_shift_variance_m2().matrix().asDiagonal();
   for (int i = 0; i < count_; ++i) {
-    const State& other = filters_[i].state;
+    const LocalisationState& other = filters_[i].state;
     const auto block = [&](int row, int column) {
       return Eigen::Matrix3d(other.covariance().block<3, 3>(row, column));
     };
-    const Eigen::Matrix3d shared = block(State::kPosition, State::kMap);
+    const Eigen::Matrix3d shared = block(LocalisationState::kPosition, LocalisationState::kMap);
     const Eigen::Vector3d beside_m = other.p_W() - other.map_shift_W() - position_on_map();
     covariance += filters_[i].weight *
-                  (block(State::kPosition, State::kPosition) + block(State::kMap, State::kMap) -
-                   shared - shared.transpose() + beside_m * beside_m.transpose());
+                  (block(LocalisationState::kPosition, LocalisationState::kPosition) +
+                   block(LocalisationState::kMap, LocalisationState::kMap) - shared -
+                   shared.transpose() + beside_m * beside_m.transpose());
   }
   return covariance;
 }

@@ -9,11 +9,6 @@
 #include "engine/math/angles.h"
 
 namespace vinerow {
-namespace {
-
-using State = LocalisationState;
-
-}  // namespace
 
 MapLocalisationLaw::MapLocalisationLaw(const MapLocalisationParams& params, const RowMap& map,
                                        const RowMeshIndex& index,
@@ -85,7 +80,7 @@ double MapLocalisationLaw::take_echo(Filter& filter, const Past& past,
                                      const Eigen::Vector3d& way_since_W,
                                      const RangeSensorModel& sensor, double range_m,
                                      double period_s, bool is_best) {
-  State& state = filter.state;
+  LocalisationState& state = filter.state;
   const double log_false = std::log(params_.false_share / params_.max_range_m);
   const Pose X_MB{
       Eigen::AngleAxisd(-state.heading_error_rad(), Eigen::Vector3d::UnitZ()) * past.q_WB,
@@ -110,9 +105,9 @@ double MapLocalisationLaw::take_echo(Filter& filter, const Past& past,
       return log_false / inflation;
     }
     const Eigen::Vector3d along_W = edge_W.normalized();
-    State::Vector on_map = State::Vector::Zero();
-    on_map.segment<3>(State::kPosition) = along_W;
-    on_map.segment<3>(State::kMap) = -along_W;
+    LocalisationState::Vector on_map = LocalisationState::Vector::Zero();
+    on_map.segment<3>(LocalisationState::kPosition) = along_W;
+    on_map.segment<3>(LocalisationState::kMap) = -along_W;
     const double std_m = std::sqrt(std::max(0.0, state.innovation_variance(on_map, 0.0)));
     const bool stands = v_W_.head<2>().norm() < params_.least_speed_mps;
     const SpreadPrediction spread =
@@ -124,16 +119,16 @@ double MapLocalisationLaw::take_echo(Filter& filter, const Past& past,
   }
   double height_m2 = 0.0;  // of the echo, by a height that it must not correct
   if (!params_.walls_tell_height) {
-    State::Vector up = State::Vector::Zero();
-    up[State::kPosition + 2] = gradient.z();
-    up[State::kMap + 2] = -gradient.z();
+    LocalisationState::Vector up = LocalisationState::Vector::Zero();
+    up[LocalisationState::kPosition + 2] = gradient.z();
+    up[LocalisationState::kMap + 2] = -gradient.z();
     height_m2 = std::max(0.0, state.innovation_variance(up, 0.0));
     gradient.z() = 0.0;
   }
-  State::Vector h = State::Vector::Zero();
-  h.segment<3>(State::kPosition) = gradient;
-  h.segment<3>(State::kMap) = -gradient;
-  h[State::kHeading] = -prediction->gradient_yaw(X_MB.p);
+  LocalisationState::Vector h = LocalisationState::Vector::Zero();
+  h.segment<3>(LocalisationState::kPosition) = gradient;
+  h.segment<3>(LocalisationState::kMap) = -gradient;
+  h[LocalisationState::kHeading] = -prediction->gradient_yaw(X_MB.p);
   double r = range_variance(*prediction, X_MB.p, map_.accuracy.surface_std_m, inflation,
                             sensor.bound_m, params_.heading_white_std_rad) +
              inflation * rough_m2 + height_m2;
@@ -162,7 +157,7 @@ double MapLocalisationLaw::take_fix(Filter& filter, const Past& past,
                                     const Eigen::Vector3d& way_since_W, const Eigen::Vector3d& p_W,
                                     const Eigen::Vector3d& std_m, const Eigen::Vector3d& p_BA,
                                     bool is_best) {
-  State& state = filter.state;
+  LocalisationState& state = filter.state;
   const auto innovation_of = [&] {
     return Eigen::Vector3d(p_W - (state.p_W() - way_since_W + past.q_WB * p_BA) -
                            state.fix_error_W());
@@ -171,9 +166,9 @@ double MapLocalisationLaw::take_fix(Filter& filter, const Past& past,
   double nis = 0.0;  // of all axes: each is judged given those before
   bool gated = false;
   for (int axis = 0; axis < 3; ++axis) {
-    State::Vector h = State::Vector::Zero();
-    h[State::kPosition + axis] = 1.0;
-    h[State::kFix + axis] = 1.0;
+    LocalisationState::Vector h = LocalisationState::Vector::Zero();
+    h[LocalisationState::kPosition + axis] = 1.0;
+    h[LocalisationState::kFix + axis] = 1.0;
     const double r = std::max(std_m[axis] * std_m[axis], 1e-6);
     const double s = state.innovation_variance(h, r);
     const double innovation = innovation_of()[axis];
@@ -235,12 +230,12 @@ void MapLocalisationLaw::correct_plane(Time measured, const Eigen::Vector3d& nor
     ++counters_.refused;
     return;
   }
-  State::Vector h = State::Vector::Zero();
-  h.segment<3>(State::kPosition) = normal_W;
+  LocalisationState::Vector h = LocalisationState::Vector::Zero();
+  h.segment<3>(LocalisationState::kPosition) = normal_W;
   const Eigen::Vector3d way_since_W = way_W_ - past.way_W;
   const double r = std_m * std_m;
   for (int i = 0; i < count_; ++i) {
-    State& state = filters_[i].state;
+    LocalisationState& state = filters_[i].state;
     const double innovation = offset_m - normal_W.dot(state.p_W() - way_since_W);
     const double squares = innovation * innovation / state.innovation_variance(h, r);
     const bool gated = squares > params_.fix_gate_sigma * params_.fix_gate_sigma;

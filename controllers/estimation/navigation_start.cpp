@@ -2,22 +2,20 @@
 
 #include <cmath>
 
+#include "engine/core/constants.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
-namespace {
-using I = ErrorIndex;
-}
 
 ErrorCovariance start_covariance(const ErrorStateOptions& options) {
   ErrorVector std;
-  std.segment<3>(I::kPosition) << options.start_std_m, options.start_std_m,
+  std.segment<3>(ErrorIndex::kPosition) << options.start_std_m, options.start_std_m,
       options.start_height_std_m;
-  std.segment<3>(I::kVelocity).setConstant(options.start_velocity_std_mps);
-  std.segment<3>(I::kAttitude) << options.start_tilt_std_rad, options.start_tilt_std_rad,
+  std.segment<3>(ErrorIndex::kVelocity).setConstant(options.start_velocity_std_mps);
+  std.segment<3>(ErrorIndex::kAttitude) << options.start_tilt_std_rad, options.start_tilt_std_rad,
       options.start_yaw_std_rad;
-  std.segment<3>(I::kGyroBias).setConstant(options.gyro_bias_std_radps);
-  std.segment<3>(I::kAccelBias).setConstant(options.accel_bias_std_mps2);
+  std.segment<3>(ErrorIndex::kGyroBias).setConstant(options.gyro_bias_std_radps);
+  std.segment<3>(ErrorIndex::kAccelBias).setConstant(options.accel_bias_std_mps2);
   return std.cwiseAbs2().asDiagonal();
 }
 
@@ -28,7 +26,9 @@ NavState draw_start(const Odometry& truth, const Eigen::Vector3d& p_BI,
   state.v_WI = truth.X_WB.q * (truth.v_WB_B + truth.w_WB_B.cross(p_BI));
   state.q_WB = truth.X_WB.q;
   ErrorVector dx = ErrorVector::Zero();
-  for (int i = 0; i < I::kGyroBias; ++i) dx[i] = std::sqrt(covariance(i, i)) * random.normal();
+  for (int i = 0; i < ErrorIndex::kGyroBias; ++i) {
+    dx[i] = std::sqrt(covariance(i, i)) * random.normal();
+  }
   return state.plus(dx);
 }
 
@@ -45,7 +45,8 @@ double heading_from_field(const Eigen::Vector3d& f_B, const Eigen::Vector3d& fie
 }
 
 double standard_height_m(double pressure_Pa) {
-  return 288.15 / 0.0065 * (1.0 - std::pow(pressure_Pa / 101'325.0, 0.0065 * 287.05287 / 9.80665));
+  constexpr double kExponent = 0.0065 * 287.05287 / kStandardGravity_mps2;
+  return 288.15 / 0.0065 * (1.0 - std::pow(pressure_Pa / 101'325.0, kExponent));
 }
 
 }  // namespace vinerow

@@ -5,16 +5,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "controllers/estimation/ray_shear.h"
 #include "engine/core/check.h"
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMaxSquares = 4e6;
 // By this much a facet counts as wider when it is listed, so that rounding loses none at the edge
 // of a square.

@@ -7,6 +7,7 @@
 
 #include "controllers/parts/discretise.h"
 #include "controllers/parts/flight_equations.h"
+#include "controllers/parts/trim_solver.h"
 
 namespace vinerow {
 namespace {
@@ -15,15 +16,6 @@ namespace {
 /// terms here, speeds of about 10 m/s and angles of about 0.1 rad.
 constexpr double kVelocityStep_mps = 1e-4;
 constexpr double kAngleStep_rad = 1e-5;
-
-AirState state_of(const Trim& trim) {
-  AirState x = AirState::Zero();
-  x.segment<3>(kAirU) << trim.u_mps, trim.v_mps, trim.w_mps;
-  x.segment<3>(kAirP) << trim.p_radps, trim.q_radps, trim.r_radps;
-  x(kAirPhi) = trim.roll_rad;
-  x(kAirTheta) = trim.pitch_rad;
-  return x;
-}
 
 /// Rows and columns of `whole` by index.
 template <std::size_t Rows, std::size_t Columns>
@@ -42,7 +34,7 @@ Eigen::MatrixXd block(const Eigen::MatrixXd& whole, const std::array<int, Rows>&
 
 AircraftLinear linearise(const Aircraft& aircraft, const Trim& trim) {
   FlightEquations equations(aircraft);
-  const AirState x0 = state_of(trim);
+  const AirState x0 = air_state_of(trim);
   Eigen::MatrixXd A(10, 10), B(10, 3), E(10, 3);
   for (int i = 0; i < 10; ++i) {
     const double step = i <= kAirW ? kVelocityStep_mps : kAngleStep_rad;

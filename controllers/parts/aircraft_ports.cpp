@@ -1,19 +1,16 @@
 #include "controllers/parts/aircraft_ports.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "controllers/parts/aircraft_linear.h"
+#include "controllers/parts/part_name.h"
 #include "engine/math/angles.h"
 #include "engine/math/pose.h"
 
 namespace vinerow {
 namespace {
-
-using Phase = AirReference::Phase;
 
 /// Share of the wanted airspeed from which a launched aircraft is flown.
 constexpr double kFlownShare = 0.8;
@@ -21,10 +18,6 @@ constexpr double kFlownShare = 0.8;
 constexpr double kFastestRoll_radps = 2.0;
 /// Rounding, as a share of a limit.
 constexpr double kRounding = 1e-9;
-
-std::string name_of(const ControllerContext& context, const std::string& type) {
-  return fmt::format("{} ({})", context.part, type);
-}
 
 bool is_finite(const AircraftControls& controls) {
   return std::isfinite(controls.throttle) && std::isfinite(controls.elevator_rad) &&
@@ -36,8 +29,9 @@ bool is_finite(const AircraftControls& controls) {
 AircraftPorts::AircraftPorts(const ControllerContext& context, const std::string& type,
                              const AircraftLimits& limits)
     : aircraft_(read_aircraft(*context.vehicle_description, context.gravity_mps2,
-                              name_of(context, type))),
-      trims_(aircraft_, aircraft_.cruise_speed_mps, aircraft_.max_bank_rad, name_of(context, type)),
+                              part_name(context, type))),
+      trims_(aircraft_, aircraft_.cruise_speed_mps, aircraft_.max_bank_rad,
+             part_name(context, type)),
       limits_(limits),
       trim_(trims_.at(0.0, 0.0)),
       period_s_(context.period.s()),
@@ -79,8 +73,9 @@ void AircraftPorts::connect(Ports& ports) {
 
 bool AircraftPorts::is_flying() const {
   if (!has_estimate() || !has_reference()) return false;
-  const Phase phase = reference().phase;
-  return phase != Phase::kWait && (phase != Phase::kDone || reference().power);
+  const AirReference::Phase phase = reference().phase;
+  return phase != AirReference::Phase::kWait &&
+         (phase != AirReference::Phase::kDone || reference().power);
 }
 
 void AircraftPorts::add_roll_rate(double bank_rad) {
@@ -110,7 +105,8 @@ void AircraftPorts::take_over() {
       wrap_angle(rpy.roll_rad - trim_.roll_rad),
       std::isfinite(turned_rad) ? wrap_angle(turned_rad) : turned_rad;
   is_launching_ =
-      wanted.phase == Phase::kLaunch && v_air_B.norm() < kFlownShare * wanted.airspeed_mps;
+      wanted.phase == AirReference::Phase::kLaunch &&
+      v_air_B.norm() < kFlownShare * wanted.airspeed_mps;
   if (!deviation_.lon.allFinite() || !deviation_.lat.allFinite()) deviation_ = {};
 }
 
@@ -178,7 +174,7 @@ void AircraftPorts::write_deviation(Time now, const AircraftDeviation& deviation
 
 void AircraftPorts::write_follower(Time now) {
   FollowerState follower;
-  has_ended_ = has_reference() && reference().phase == Phase::kDone;
+  has_ended_ = has_reference() && reference().phase == AirReference::Phase::kDone;
   if (has_reference()) {
     const AirReference& wanted = reference();
     follower.lateral_error_m = wanted.cross_track_m;

@@ -7,7 +7,7 @@
 namespace vinerow {
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using GainByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 struct AxisWords {
   const char* name;      ///< "longitudinal"
@@ -26,7 +26,7 @@ AxisTube make_axis(const AxisLaw& law, const Eigen::VectorXd& state_limit,
   model.E = sampled.E;
   model.K = law.K;
   if (!gain.empty()) {
-    model.K = Eigen::Map<const RowMajor>(gain.data(), law.K.rows(), law.K.cols());
+    model.K = Eigen::Map<const GainByRows>(gain.data(), law.K.rows(), law.K.cols());
   }
   model.gust = Eigen::VectorXd::Constant(sampled.E.cols(), params.gust_mps);
   model.state_limit = state_limit;

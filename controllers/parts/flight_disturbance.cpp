@@ -11,7 +11,7 @@ namespace {
 constexpr double kMaxShareOfGravity = 0.5;
 constexpr double kMaxAngular_radps2 = 20.0;
 
-Eigen::Vector3d cut(const Eigen::Vector3d& v, double max) {
+Eigen::Vector3d limit_length(const Eigen::Vector3d& v, double max) {
   return v.cwiseMax(-max).cwiseMin(max);
 }
 
@@ -40,13 +40,13 @@ void FlightDisturbance::update(const Odometry& odometry, const Wrench& mean, boo
                                 (craft_.rotor_drag_Ns_per_m / craft_.mass_kg) * mean_v;
     explained.z() -= craft_.gravity_mps2;
     acceleration_W_ += gain_ * ((v_W - v_W_) / period_s_ - explained - acceleration_W_);
-    acceleration_W_ = cut(acceleration_W_, kMaxShareOfGravity * craft_.gravity_mps2);
+    acceleration_W_ = limit_length(acceleration_W_, kMaxShareOfGravity * craft_.gravity_mps2);
     if (learns_torque_) {
       const Eigen::Vector3d& J = craft_.inertia_kgm2;
       const Eigen::Vector3d explained_w =
           (mean.torque_B - mean_w.cross(J.cwiseProduct(mean_w))).cwiseQuotient(J);
       angular_B_ += gain_ * ((w_B - w_B_) / period_s_ - explained_w - angular_B_);
-      angular_B_ = cut(angular_B_, kMaxAngular_radps2);
+      angular_B_ = limit_length(angular_B_, kMaxAngular_radps2);
     }
   }
   v_W_ = v_W;

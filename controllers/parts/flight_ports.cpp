@@ -5,17 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/parts/part_name.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
 namespace {
-
-using Phase = ReferenceTrajectory::Phase;
-
-std::string name_of(const ControllerContext& context, const std::string& type) {
-  return fmt::format("{} ({})", context.part, type);
-}
 
 Rotorcraft read_craft(const ControllerContext& context, const std::string& who) {
   VINEROW_DEMAND(context.vehicle_description != nullptr);
@@ -26,11 +21,12 @@ Rotorcraft read_craft(const ControllerContext& context, const std::string& who) 
 }  // namespace
 
 FlightPorts::FlightPorts(const ControllerContext& context, const std::string& type)
-    : craft_(read_craft(context, name_of(context, type))), mixer_(craft_, name_of(context, type)) {
+    : craft_(read_craft(context, part_name(context, type))),
+      mixer_(craft_, part_name(context, type)) {
   for (std::size_t i = 1; i <= craft_.rotors.size(); ++i) {
     actuator_values_.names.push_back(fmt::format("rotor_{}_speed_radps", i));
     context.vehicle_description->actuator_index(actuator_values_.names.back(),
-                                                name_of(context, type));
+                                                part_name(context, type));
   }
   actuator_values_.values.assign(craft_.rotors.size(), 0.0);
   for (const char* kind : {"wanted", "reachable"}) {
@@ -52,7 +48,7 @@ void FlightPorts::connect(Ports& ports) {
 
 bool FlightPorts::is_flying() const {
   if (!has_estimate() || !has_reference()) return false;
-  return is_done() ? has_flown_ : reference().phase != Phase::kWait;
+  return is_done() ? has_flown_ : reference().phase != ReferenceTrajectory::Phase::kWait;
 }
 
 TrajectoryPoint FlightPorts::reference_at(Time now) const {
@@ -88,7 +84,7 @@ Wrench FlightPorts::write(Time now, const Wrench& wanted) {
   // Climbing this fast it has left the ground; other phases begin in the air.
   constexpr double kClimb_mps = 0.1;
   const Odometry& odometry = estimate();
-  if (reference().phase != Phase::kTakeOff ||
+  if (reference().phase != ReferenceTrajectory::Phase::kTakeOff ||
       (odometry.X_WB.q * odometry.v_WB_B).z() > kClimb_mps) {
     has_lifted_off_ = true;
   }

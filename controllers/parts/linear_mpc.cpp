@@ -3,12 +3,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "controllers/parts/mpc_form.h"
 #include "controllers/parts/mpc_prediction.h"
 #include "engine/core/check.h"
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
@@ -18,7 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // QpSolver takes a soft row for one of this weight, times 1 / (a' H^-1 a), if its own is larger.
 constexpr double kHeaviest = 1e12;
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 
 namespace vinerow::mpc {
@@ -14,7 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A row of the condensed problem shorter than this share of what it is made of is rounding.
 constexpr double kRoundingRow = 1e-13;
 

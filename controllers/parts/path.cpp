@@ -8,7 +8,7 @@
 
 namespace vinerow {
 namespace {
-constexpr double kShortest_m = 1e-6;
+constexpr double kShortestChord_m = 1e-6;
 // A chord of more than this share of the diameter does not fit the arc its point claims.
 constexpr double kLargestChordShare = 0.999;
 }  // namespace
@@ -24,7 +24,7 @@ Path::Path(const PlannedPath& plan) {
     }
     const Eigen::Vector2d chord = to.p_W.head<2>() - from->p_W.head<2>();
     const double chord_m = chord.norm();
-    if (chord_m < kShortest_m) continue;
+    if (chord_m < kShortestChord_m) continue;
     Segment segment;
     segment.start_m = length_m_;
     segment.speed_mps = from->speed_mps;

@@ -8,7 +8,7 @@
 
 namespace vinerow {
 namespace {
-constexpr double kShortest_m = 1e-6;
+constexpr double kShortestPiece_m = 1e-6;
 }
 
 PathPiece make_straight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, PathKind kind,
@@ -21,7 +21,7 @@ void append_dubins(const Pose2& start, const DubinsPath& dubins, PathKind kind, 
                    std::vector<PathPiece>& pieces) {
   Pose2 pose = start;
   for (const DubinsPath::Piece& piece : dubins.pieces) {
-    if (piece.length_m < kShortest_m) continue;
+    if (piece.length_m < kShortestPiece_m) continue;
     pieces.push_back({pose, piece.length_m, piece.curvature_per_m, kind, -1, speed_mps});
     pose = pieces.back().end();
   }
@@ -42,7 +42,7 @@ PlannedPath make_planned_path(const std::vector<PathPiece>& pieces, double pitch
   };
   const PathPiece* last = nullptr;
   for (const PathPiece& piece : pieces) {
-    if (piece.length_m < kShortest_m) continue;
+    if (piece.length_m < kShortestPiece_m) continue;
     const int parts = std::max(1, static_cast<int>(std::lround(piece.length_m / pitch_m)));
     for (int i = 0; i < parts; ++i) add_point(piece, piece.at(piece.length_m * i / parts));
     path.length_m += piece.length_m;

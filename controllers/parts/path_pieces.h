@@ -22,6 +22,7 @@ struct PathPiece {
   }
   Pose2 end() const { return at(length_m); }
 };
+using PathPieces = std::vector<PathPiece>;
 
 /// The straight from `a` to `b`. @pre a != b
 PathPiece make_straight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, PathKind kind,

@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "controllers/parts/linear_programme.h"
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRedundant = 1e-9;  // of a row's size: a smaller cut is none
 
 void demand_dimension(const char* what, Eigen::Index got, int dimension) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "engine/core/constants.h"
 
 namespace vinerow::qp {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Smallest share of a dependent row that a member must carry to be exchanged for it.
 constexpr double kSmallestShare = 1e-10;
 // Softness below this share of the row's square would be lost in its pivot.

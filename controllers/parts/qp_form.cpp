@@ -11,9 +11,7 @@ namespace {
 
 using Eigen::Index;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Rows = Eigen::Map<const RowMajor, 0, Eigen::OuterStride<>>;
-using Vector = Eigen::Map<Eigen::VectorXd>;
-using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+using ConstRows = Eigen::Map<const RowMajor, 0, Eigen::OuterStride<>>;
 
 // Rows of one matrix-vector product: enough to fill Eigen's kernel (8 rows at once).
 constexpr int kBlockRows = 8;
@@ -36,7 +34,7 @@ void transposed_product(const double* T, Index stride, const double* in, int len
     const int count = std::min(kBlockRows, length - first), columns = first + count;
     const ConstVector part(in + first, count);
     if ((part.array() == 0.0).all()) continue;
-    const Rows block(T + first * stride, count, columns, Eigen::OuterStride<>(stride));
+    const ConstRows block(T + first * stride, count, columns, Eigen::OuterStride<>(stride));
     Vector(out, columns).noalias() += block.transpose() * part;
   }
 }
@@ -157,7 +155,8 @@ double Form::value_at(int i, const Eigen::VectorXd& y) const {
 
 void Form::values_at(const Eigen::VectorXd& y, Eigen::VectorXd& values) const {
   for (const Block& block : blocks_) {
-    const Rows rows(row(block.first), block.count, block.columns, Eigen::OuterStride<>(stride_));
+    const ConstRows rows(row(block.first), block.count, block.columns,
+                         Eigen::OuterStride<>(stride_));
     values.segment(block.first, block.count).noalias() = rows * y.head(block.columns);
   }
 }

@@ -16,6 +16,9 @@
 
 namespace vinerow::qp {
 
+using Vector = Eigen::Map<Eigen::VectorXd>;
+using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+
 class Form {
  public:
   /// @param tolerance  largest violation of a constraint, per length of its row

@@ -1,12 +1,12 @@
 #include "controllers/parts/qp_limits.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "engine/core/constants.h"
 
 namespace vinerow::qp {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Share of the worst violation with which a constraint enters the shortlist, and its length.
 // Measured on condensed MPC problems of 45 and 80 variables, where it halves the time of a cold
 // start; shares from 0.05 to 0.8 and lengths from 4 to 16 do about as well.

@@ -7,9 +7,6 @@
 namespace vinerow::qp {
 namespace {
 
-using Vector = Eigen::Map<Eigen::VectorXd>;
-using ConstVector = Eigen::Map<const Eigen::VectorXd>;
-
 // A pivot above this share of its row's square lost no more than four digits to cancellation.
 constexpr double kPlainPivot = 1e-4;
 // Squared sine of the angle below which a row counts as dependent on the others.

@@ -24,15 +24,6 @@ constexpr double kSearchAlpha_rad = rad_from_deg(45.0);
 constexpr double kSearchStep_rad = rad_from_deg(0.25);
 constexpr int kBalanceRounds = 3;
 
-AirState state_of(const Trim& trim) {
-  AirState x = AirState::Zero();
-  x.segment<3>(kAirU) << trim.u_mps, trim.v_mps, trim.w_mps;
-  x.segment<3>(kAirP) << trim.p_radps, trim.q_radps, trim.r_radps;
-  x(kAirPhi) = trim.roll_rad;
-  x(kAirTheta) = trim.pitch_rad;
-  return x;
-}
-
 Eigen::Vector3d velocity_at(double airspeed_mps, double alpha_rad) {
   return {airspeed_mps * std::cos(alpha_rad), 0.0, airspeed_mps * std::sin(alpha_rad)};
 }
@@ -64,6 +55,15 @@ bool bisect(double& value, double low, double high, Function&& function) {
 
 }  // namespace
 
+AirState air_state_of(const Trim& trim) {
+  AirState x = AirState::Zero();
+  x.segment<3>(kAirU) << trim.u_mps, trim.v_mps, trim.w_mps;
+  x.segment<3>(kAirP) << trim.p_radps, trim.q_radps, trim.r_radps;
+  x(kAirPhi) = trim.roll_rad;
+  x(kAirTheta) = trim.pitch_rad;
+  return x;
+}
+
 Trim TrimSolver::expand(const Problem& problem, const Vector7& y) const {
   const bool climb_is_free = problem.throttle.has_value();
   Trim trim;
@@ -88,7 +88,7 @@ Trim TrimSolver::expand(const Problem& problem, const Vector7& y) const {
 
 TrimSolver::Vector7 TrimSolver::residual(const Problem& problem, const Vector7& y) {
   const Trim trim = expand(problem, y);
-  const AirState rate = equations_.derivative(state_of(trim), trim.controls);
+  const AirState rate = equations_.derivative(air_state_of(trim), trim.controls);
   Vector7 left;
   left << rate.head<6>(),
       rate(kAirHeight) - trim.request.airspeed_mps * std::sin(trim.request.climb_angle_rad);

@@ -13,6 +13,9 @@
 
 namespace vinerow {
 
+/// What the equations of flight begin with at a trim.
+AirState air_state_of(const Trim& trim);
+
 class TrimSolver {
  public:
   explicit TrimSolver(const Aircraft& aircraft) : aircraft_(aircraft), equations_(aircraft) {}

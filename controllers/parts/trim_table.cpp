@@ -25,7 +25,7 @@ TrimPoint point_of(const Trim& trim) {
 }
 
 /// a + s (b - a), number by number.
-TrimPoint between(const TrimPoint& a, const TrimPoint& b, double s) {
+TrimPoint trim_between(const TrimPoint& a, const TrimPoint& b, double s) {
   const auto mix = [s](double from, double to) { return (1.0 - s) * from + s * to; };
   return {{mix(a.controls.throttle, b.controls.throttle),
            mix(a.controls.elevator_rad, b.controls.elevator_rad),
@@ -148,9 +148,9 @@ TrimPoint TrimTable::at(double climb_angle_rad, double bank_rad) const {
   const auto along_climb = [&, i = i, s = s](int bank_step) {
     const int column = half_banks_ + (to_left ? -bank_step : bank_step);
     const auto index = static_cast<std::size_t>(column * (climbs_ + 1) + i);
-    return between(points_[index], points_[index + 1], s);
+    return trim_between(points_[index], points_[index + 1], s);
   };
-  return between(along_climb(j), along_climb(j + 1), t);
+  return trim_between(along_climb(j), along_climb(j + 1), t);
 }
 
 }  // namespace vinerow

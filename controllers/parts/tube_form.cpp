@@ -9,9 +9,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 /// Rows gathered one after the other.
-class Rows {
+class RowList {
  public:
-  Rows(TubeForm& form, Index most) : form_(&form) {
+  RowList(TubeForm& form, Index most) : form_(&form) {
     form.rows.setZero(most, form.H.cols());
     form.about.reserve(static_cast<std::size_t>(most));
   }
@@ -45,7 +45,7 @@ TubeForm make_tube_form(const TubeModel& model, const TubeSets& sets, const Tube
   form.H.setZero(size, size);
   form.H.topLeftCorner(n, n) = 2.0 * P;
   const Index tube = with_tube ? sets.tube_rows.rows() : 0;
-  Rows rows(form, tube + N * (n + m) + sets.terminal_rows.rows());
+  RowList rows(form, tube + N * (n + m) + sets.terminal_rows.rows());
   MatrixXd z = MatrixXd::Zero(n, size);  // z_i = z y
   z.leftCols(n).setIdentity();
   for (Index k = 0; k < tube; ++k) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
@@ -12,8 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool is_soft(const TubeRow& row) {
   return row.kind == TubeRow::Kind::kState || row.kind == TubeRow::Kind::kTerminal;

@@ -45,7 +45,7 @@ void check(const TubeModel& model) {
   }
 }
 
-std::string name_of(const std::vector<std::string>& names, Index i, const char* kind) {
+std::string name_at(const std::vector<std::string>& names, Index i, const char* kind) {
   const auto index = static_cast<std::size_t>(i);
   return index < names.size() ? names[index] : fmt::format("{} {}", kind, i);
 }
@@ -74,11 +74,11 @@ TubeRoom room_of(const TubeModel& model, const SeriesSupport& S) {
   const bool calm = (model.E * model.gust.asDiagonal()).isZero(0.0);
   for (Index i = 0; i < n; ++i) {
     room.reach.state[i] = calm ? 0.0 : S(VectorXd::Unit(n, i));
-    look(model.state_limit[i], room.reach.state[i], name_of(model.state_names, i, "state"));
+    look(model.state_limit[i], room.reach.state[i], name_at(model.state_names, i, "state"));
   }
   for (Index j = 0; j < m; ++j) {
     room.reach.input[j] = calm ? 0.0 : S(model.K.row(j));
-    look(model.input_limit[j], room.reach.input[j], name_of(model.input_names, j, "input"));
+    look(model.input_limit[j], room.reach.input[j], name_at(model.input_names, j, "input"));
   }
   return room;
 }

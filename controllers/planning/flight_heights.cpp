@@ -7,12 +7,12 @@
 #include <limits>
 
 #include "controllers/parts/box_filter.h"
+#include "controllers/planning/lift.h"
 
 namespace vinerow {
 namespace {
 
-constexpr double kStep_m = 0.05;
-constexpr double kAboveEverything_m = 1e4;
+constexpr double kFlightStep_m = 0.05;
 
 /// Nearest point of a row's centre line, with its distance in the plane.
 std::pair<Eigen::Vector3d, double> find_nearest(const PlantRow& row, const Eigen::Vector2d& p) {
@@ -81,7 +81,7 @@ double HeightProfile::at(double distance_m) const {
 }
 
 Result<HeightProfile> make_ground_profile(const Path& way, const FlightGround& ground) {
-  const int parts = std::max(1, static_cast<int>(std::ceil(way.length_m() / kStep_m)));
+  const int parts = std::max(1, static_cast<int>(std::ceil(way.length_m() / kFlightStep_m)));
   const double step_m = way.length_m() / parts;
   std::vector<double> heights_m;
   heights_m.reserve(parts + 1);

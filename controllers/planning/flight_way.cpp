@@ -14,9 +14,7 @@
 namespace vinerow {
 namespace {
 
-using Pieces = std::vector<PathPiece>;
-
-constexpr double kOnTheLine_m = 0.05;
+constexpr double kBesideLeg_m = 0.05;
 constexpr double kCheckPitch_m = 0.25;
 
 /// Where a point stands beside the first straight of a leg: distance along it and to its left.
@@ -38,8 +36,8 @@ std::optional<Eigen::Vector2d> find_place_on_leg(const RouteLeg& leg, const RowM
   const auto alley = std::find_if(map.alleys.begin(), map.alleys.end(),
                                   [&](const Alley& one) { return one.id == leg.alley; });
   const double reach_m = alley == map.alleys.end() ? 0.0 : 0.5 * alley->width_m;
-  if (std::abs(place.y()) > std::max(reach_m, kOnTheLine_m) || place.x() < -kOnTheLine_m ||
-      place.x() > first_length_m(leg) - kOnTheLine_m) {
+  if (std::abs(place.y()) > std::max(reach_m, kBesideLeg_m) || place.x() < -kBesideLeg_m ||
+      place.x() > first_length_m(leg) - kBesideLeg_m) {
     return std::nullopt;
   }
   return leg.entry().p + std::max(place.x(), 0.0) * direction(leg.entry().yaw_rad);
@@ -66,7 +64,7 @@ class GridWay final : public FlightWay {
     }
     const double yaw_rad =
         choose_heading(start_W.head<2>(), legs->front(), params_.turning_radius_m,
-                       [this](const Pieces& pieces) { return room_.is_free(pieces); });
+                       [this](const PathPieces& pieces) { return room_.is_free(pieces); });
     return planner_->plan({quaternion_from_rpy({0.0, 0.0, yaw_rad}), start_W});
   }
 
@@ -96,7 +94,7 @@ class ClosedFormWay final : public FlightWay {
     auto legs = make_row_route(map_, params_.route, start_W.head<2>());
     if (!legs) return Failure{legs.reason()};
     std::vector<RouteLeg> route = *legs;
-    Pieces pieces;
+    PathPieces pieces;
     append_approach(start_W.head<2>(), route.front(), pieces);
     for (std::size_t i = 0; i < route.size(); ++i) {
       if (i > 0) {
@@ -122,19 +120,19 @@ class ClosedFormWay final : public FlightWay {
   const PlanReport* report() const override { return &report_; }
 
  private:
-  bool is_free(const Pieces& pieces) const {
+  bool is_free(const PathPieces& pieces) const {
     return !find_path_into_row(make_planned_path(pieces, kCheckPitch_m), map_, reach_m_);
   }
 
   /// A Dubins path; none where the vehicle stands in the alley, whose leg begins beside it then.
-  void append_approach(const Eigen::Vector2d& start, RouteLeg& leg, Pieces& pieces) const {
+  void append_approach(const Eigen::Vector2d& start, RouteLeg& leg, PathPieces& pieces) const {
     if (const auto on_leg = find_place_on_leg(leg, map_, start)) {
       leg.line_W.front() = *on_leg;
       return;
     }
     const double yaw_rad =
         choose_heading(start, leg, params_.turning_radius_m,
-                       [this](const Pieces& candidate) { return is_free(candidate); });
+                       [this](const PathPieces& candidate) { return is_free(candidate); });
     append_dubins({start, yaw_rad},
                   calc_dubins({start, yaw_rad}, leg.entry(), params_.turning_radius_m),
                   PathKind::kTransit, params_.speed_mps, pieces);
@@ -171,7 +169,7 @@ double choose_heading(const Eigen::Vector2d& start, const RouteLeg& first, doubl
   constexpr int kHeadings = 72;
   const Pose2 entry = first.entry();
   const Eigen::Vector2d place = place_along(first, start), way = entry.p - start;
-  if (std::abs(place.y()) < kOnTheLine_m && place.x() < first_length_m(first)) {
+  if (std::abs(place.y()) < kBesideLeg_m && place.x() < first_length_m(first)) {
     return entry.yaw_rad;
   }
   std::vector<std::pair<double, double>> candidates;  // length, heading
@@ -183,7 +181,7 @@ double choose_heading(const Eigen::Vector2d& start, const RouteLeg& first, doubl
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });
   for (const auto& [length_m, yaw_rad] : candidates) {
-    Pieces pieces;
+    PathPieces pieces;
     append_dubins({start, yaw_rad}, calc_dubins({start, yaw_rad}, entry, radius_m),
                   PathKind::kTransit, 0.0, pieces);
     if (is_free(pieces)) return yaw_rad;

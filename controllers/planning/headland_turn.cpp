@@ -10,7 +10,7 @@
 namespace vinerow {
 namespace {
 
-constexpr double kShortest_m = 1e-9;
+constexpr double kShortestTurn_m = 1e-9;
 
 Result<std::vector<PathPiece>> make_three_point_arc(const Pose2& exit, const Pose2& entry,
                                                     const TurnParams& params) {
@@ -38,7 +38,7 @@ Result<std::vector<PathPiece>> make_three_point_arc(const Pose2& exit, const Pos
   }
   std::vector<PathPiece> pieces;
   const auto add_straight = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-    if ((to - from).norm() > kShortest_m) {
+    if ((to - from).norm() > kShortestTurn_m) {
       pieces.push_back(make_straight(from, to, PathKind::kTurn, -1, params.speed_mps));
     }
   };
@@ -54,12 +54,12 @@ std::vector<PathPiece> make_dubins_turn(const Pose2& exit, const Pose2& entry,
   std::vector<PathPiece> pieces;
   const Pose2 from = advance(exit, params.headland_m, 0.0);
   const Pose2 to = advance(entry, -params.headland_m, 0.0);
-  if (params.headland_m > kShortest_m) {
+  if (params.headland_m > kShortestTurn_m) {
     pieces.push_back(make_straight(exit.p, from.p, PathKind::kTurn, -1, params.speed_mps));
   }
   append_dubins(from, calc_dubins(from, to, params.radius_m), PathKind::kTurn, params.speed_mps,
                 pieces);
-  if (params.headland_m > kShortest_m) {
+  if (params.headland_m > kShortestTurn_m) {
     pieces.push_back(make_straight(to.p, entry.p, PathKind::kTurn, -1, params.speed_mps));
   }
   return pieces;

@@ -6,7 +6,6 @@ namespace vinerow {
 
 std::optional<std::string> lift_to_ground(const SceneQuery* scene, double height_m,
                                           PlannedPath& path) {
-  constexpr double kAboveEverything_m = 1e4;  // higher than any ground within a scenario
   const PathPoint* bare = nullptr;
   bool has_ground = false;
   for (PathPoint& point : path.points) {

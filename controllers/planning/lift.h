@@ -9,6 +9,9 @@
 
 namespace vinerow {
 
+/// Higher than any ground within a scenario.
+inline constexpr double kAboveEverything_m = 1e4;
+
 /// Sets each point's height to the ground below it. Without a scene, or where the scene has no
 /// ground under any point, all points get `height_m`.
 /// @returns nothing, or "path leaves the ground: ..." if only part of the path has ground below

@@ -8,7 +8,7 @@ namespace vinerow {
 namespace {
 
 constexpr double kReach_m = 10.0;  // around both ends: what is farther away joins nothing
-constexpr double kStep_m = 0.1;
+constexpr double kClearanceStep_m = 0.1;
 
 OccupancyGrid make_window(const Pose2& from, const Pose2& to, const DistanceField& field) {
   OccupancyGrid window;
@@ -53,7 +53,7 @@ std::vector<Eigen::Vector2d> sample_outline(const std::vector<Eigen::Vector2d>& 
   std::vector<Eigen::Vector2d> samples;
   for (std::size_t i = 0; i < outline_B.size(); ++i) {
     const Eigen::Vector2d &a = outline_B[i], &b = outline_B[(i + 1) % outline_B.size()];
-    const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kStep_m)));
+    const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kClearanceStep_m)));
     for (int k = 0; k < parts; ++k) samples.push_back(a + (b - a) * k / parts);
   }
   return samples;
@@ -80,7 +80,7 @@ std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& t
     double missing_m = 0.0;
     for (const PathPiece& piece : make_pieces(from, to, candidate)) {
       if (missing_m >= least_m) break;
-      const int parts = static_cast<int>(std::ceil(piece.length_m / kStep_m));
+      const int parts = static_cast<int>(std::ceil(piece.length_m / kClearanceStep_m));
       for (int k = 0; k <= parts && missing_m < least_m; ++k) {
         const Pose2 pose = piece.at(piece.length_m * k / parts);
         const Eigen::Vector2d ahead = direction(pose.yaw_rad), left = left_of(ahead);

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kSame_m = 1e-3;
+constexpr double kSamePlace_m = 1e-3;
 
 class MissionRoute final : public Planner {
  public:
@@ -83,7 +83,7 @@ class MissionRoute final : public Planner {
   }
 
   void add(const Vector3d& p_W, PathKind kind, const MissionPlace& place) {
-    if (!path_.points.empty() && (path_.points.back().p_W - p_W).norm() < kSame_m) {
+    if (!path_.points.empty() && (path_.points.back().p_W - p_W).norm() < kSamePlace_m) {
       path_.points.back().speed_mps = place.speed_mps;
       camera_.back() = place.camera;
       return;
@@ -164,7 +164,7 @@ class MissionRoute final : public Planner {
   /// Points between two places above the terrain, so that ramps follow it.
   void follow_ground(const MissionPlace& from, const MissionPlace& to) {
     const auto profile = GroundProfile::make({from.p_W, to.p_W}, ground_);
-    if (!profile || profile->length_m() < kSame_m) return;
+    if (!profile || profile->length_m() < kSamePlace_m) return;
     std::vector<double> wanted_m;
     for (const auto& sample : profile->samples()) {
       const double share = sample.distance_m / profile->length_m();

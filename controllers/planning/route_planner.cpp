@@ -15,8 +15,6 @@
 namespace vinerow {
 namespace {
 
-using Pieces = std::vector<PathPiece>;
-
 constexpr double kOnTheLine_m = 0.05;
 constexpr double kAlongTheLine_rad = 0.1;
 
@@ -60,7 +58,7 @@ class RoutePlanner final : public Planner {
       if (const auto fault = room_.find_blocked(leg)) return Failure{*fault};
     }
 
-    Pieces pieces;
+    PathPieces pieces;
     if (const auto fault = append_approach(pose, route.front(), pieces)) return Failure{*fault};
     append_leg(route.front(), params_.speed_mps, pieces);
     for (std::size_t i = 1; i < route.size(); ++i) {
@@ -78,7 +76,7 @@ class RoutePlanner final : public Planner {
   /// From where the vehicle stands to the first leg: straight on; or a short merge into the leg
   /// where it stands a little aside; else the search. A vehicle that stands on the leg begins
   /// there.
-  std::optional<std::string> append_approach(const Pose2& pose, RouteLeg& leg, Pieces& pieces) {
+  std::optional<std::string> append_approach(const Pose2& pose, RouteLeg& leg, PathPieces& pieces) {
     const Pose2 entry = leg.entry();
     const Eigen::Vector2d along = direction(entry.yaw_rad);
     const Eigen::Vector2d way = entry.p - pose.p;
@@ -114,14 +112,14 @@ class RoutePlanner final : public Planner {
   }
 
   /// A Dubins path onto the leg that is hardly longer than the straight line.
-  bool append_merge(const Pose2& pose, RouteLeg& leg, double first_m, Pieces& pieces) const {
+  bool append_merge(const Pose2& pose, RouteLeg& leg, double first_m, PathPieces& pieces) const {
     constexpr double kLongestMerge_m = 12.0, kStep_m = 0.5, kShareLonger = 0.05;
     const double longest_m = std::min(kLongestMerge_m, first_m - kStep_m);
     for (double s = 0.0; s <= longest_m; s += kStep_m) {
       const Pose2 joint = advance(leg.entry(), s, 0.0);
       const DubinsPath dubins = calc_dubins(pose, joint, params_.turning_radius_m);
       if (dubins.length_m() > (1.0 + kShareLonger) * (joint.p - pose.p).norm()) continue;
-      Pieces merge;
+      PathPieces merge;
       append_dubins(pose, dubins, PathKind::kTransit, params_.turn_speed_mps, merge);
       if (!room_.is_free(merge)) continue;
       pieces.insert(pieces.end(), merge.begin(), merge.end());
@@ -132,7 +130,7 @@ class RoutePlanner final : public Planner {
   }
 
   std::optional<std::string> append_turn(const RouteLeg& from, const RouteLeg& to, int problem,
-                                         Pieces& pieces) {
+                                         PathPieces& pieces) {
     SearchReport done;
     const auto found = search_->find(from.exit(), to.entry(), footprint_, problem, done);
     add_work(done);
@@ -164,7 +162,7 @@ class RoutePlanner final : public Planner {
         params_.margin_m, found.reason());
   }
 
-  void append_labelled(const Pieces& found, PathKind kind, Pieces& pieces) const {
+  void append_labelled(const PathPieces& found, PathKind kind, PathPieces& pieces) const {
     for (PathPiece piece : found) {
       piece.kind = kind;
       piece.speed_mps = params_.turn_speed_mps;
@@ -180,7 +178,7 @@ class RoutePlanner final : public Planner {
     }
   }
 
-  void measure(const Pieces& pieces) {
+  void measure(const PathPieces& pieces) {
     double least_m = std::numeric_limits<double>::infinity(), least_in_turns_m = least_m;
     for (const PathPiece& piece : pieces) {
       const double room_m = room_.clearance_m(piece);
@@ -200,7 +198,6 @@ class RoutePlanner final : public Planner {
   }
 
   void lift_tree(double height_m) {
-    constexpr double kAboveEverything_m = 1e4;
     for (Eigen::Vector3d& p : report_.tree.points_W) {
       p.z() = height_m;
       if (scene_ == nullptr) continue;

@@ -14,7 +14,7 @@
 namespace vinerow {
 namespace {
 
-constexpr double kShortest_m = 1e-6;
+constexpr double kShortestFlight_m = 1e-6;
 
 /// Distance of every point of a plan along the curve that Path makes of it.
 std::vector<double> calc_distances(const PlannedPath& plan, const Path& way) {
@@ -22,7 +22,8 @@ std::vector<double> calc_distances(const PlannedPath& plan, const Path& way) {
   int segment = -1;
   const PathPoint* kept = nullptr;
   for (const PathPoint& point : plan.points) {
-    const bool is_new = kept == nullptr || (point.p_W - kept->p_W).head<2>().norm() >= kShortest_m;
+    const bool is_new =
+        kept == nullptr || (point.p_W - kept->p_W).head<2>().norm() >= kShortestFlight_m;
     if (kept != nullptr && is_new) ++segment;
     if (is_new) kept = &point;
     distances_m.push_back(segment < 0 ? 0.0 : way.end_of(segment));

@@ -15,8 +15,6 @@
 namespace vinerow {
 namespace {
 
-using Pieces = std::vector<PathPiece>;
-
 std::optional<std::string> find_taken(const Pose2& pose, const char* name,
                                       const Footprint& footprint) {
   if (footprint.is_free(pose)) return std::nullopt;
@@ -49,8 +47,9 @@ RrtStarSearch::RrtStarSearch(const RrtStarParams& params,
                              std::function<RandomStream(int)> random_of)
     : params_(params), random_of_(std::move(random_of)) {}
 
-Result<Pieces> RrtStarSearch::find(const Pose2& from, const Pose2& to, const Footprint& footprint,
-                                   int problem, SearchReport& report) try {
+Result<PathPieces> RrtStarSearch::find(const Pose2& from, const Pose2& to,
+                                       const Footprint& footprint, int problem,
+                                       SearchReport& report) try {
   report = {};
   if (const auto fault = find_taken(from, "start", footprint)) return Failure{*fault};
   if (const auto fault = find_taken(to, "goal", footprint)) return Failure{*fault};
@@ -70,7 +69,7 @@ Result<Pieces> RrtStarSearch::find(const Pose2& from, const Pose2& to, const Foo
   sampling.footprint = &footprint;
   sampling.best_cost = [] { return std::numeric_limits<double>::infinity(); };
 
-  Pieces best;
+  PathPieces best;
   if (const auto first = find_first_way(from, to, params_.radius_m, params_.curvature_reserve,
                                         footprint, cost, params_.check_step_m)) {
     best = first->pieces;
@@ -88,10 +87,10 @@ Result<Pieces> RrtStarSearch::find(const Pose2& from, const Pose2& to, const Foo
     }
   }
   report.first_length_m = calc_length_m(best);
-  const auto improve = [&](const Pieces& way) {
+  const auto improve = [&](const PathPieces& way) {
     // A hundredth is not worth the bends that it takes.
     constexpr double kWorthwhile = 0.99;
-    const Pieces shorter =
+    const PathPieces shorter =
         shorten_by_cost(way, car.radius_m, footprint, cost, params_.check_step_m);
     if (cost.of(shorter) < kWorthwhile * cost.of(best) &&
         is_free(shorter, footprint, params_.check_step_m)) {

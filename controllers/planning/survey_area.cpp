@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSame_m = 1e-6;
+constexpr double kSameCorner_m = 1e-6;
 constexpr double kLeastArea_m2 = 1.0;
 
 /// Whether closed segments a-b and c-d share a point; straight ones on top of each other too.
@@ -90,9 +90,11 @@ Polygon2 read_csv_area(const std::string& file) {
 Polygon2 clean_polygon(const Polygon2& polygon) {
   Polygon2 clean;
   for (const Vector2d& p : polygon) {
-    if (clean.empty() || (p - clean.back()).norm() > kSame_m) clean.push_back(p);
+    if (clean.empty() || (p - clean.back()).norm() > kSameCorner_m) clean.push_back(p);
   }
-  while (clean.size() > 1 && (clean.front() - clean.back()).norm() <= kSame_m) clean.pop_back();
+  while (clean.size() > 1 && (clean.front() - clean.back()).norm() <= kSameCorner_m) {
+    clean.pop_back();
+  }
   return clean;
 }
 

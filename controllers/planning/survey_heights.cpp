@@ -7,7 +7,7 @@
 namespace vinerow {
 namespace {
 
-constexpr double kStep_m = 1.0;         // between samples
+constexpr double kSurveyStep_m = 1.0;         // between samples
 constexpr double kMostSamples = 800.0;  // of a piece
 // The ground between two samples is not looked at: keep a little of the allowed error for it.
 constexpr double kErrorShare = 0.98;
@@ -64,7 +64,7 @@ Result<GroundProfile> GroundProfile::make(const std::vector<Eigen::Vector2d>& li
   profile.at_point_.push_back(0);
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Eigen::Vector2d way = line[i + 1] - line[i];
-    const double length_m = way.norm(), step_m = std::max(kStep_m, length_m / kMostSamples);
+    const double length_m = way.norm(), step_m = std::max(kSurveyStep_m, length_m / kMostSamples);
     const int count = std::max(1, static_cast<int>(std::ceil(length_m / step_m - 1e-9)));
     for (int k = 1; k <= count; ++k) {
       const double share = static_cast<double>(k) / count;

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "controllers/parts/pose2.h"
+#include "engine/core/constants.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Counter-clockwise (Andrew's monotone chain).
 Polygon2 make_hull(Polygon2 points) {
@@ -78,7 +76,7 @@ std::vector<LanePiece> project_strip(const Polygon2& polygon, double low_t, doub
 }
 
 /// Longer by `margin_m` at both ends; pieces that are then nearer than `gap_m` become one.
-std::vector<LanePiece> join(std::vector<LanePiece> pieces, double margin_m, double gap_m) {
+std::vector<LanePiece> join_pieces(std::vector<LanePiece> pieces, double margin_m, double gap_m) {
   std::sort(pieces.begin(), pieces.end(),
             [](const LanePiece& a, const LanePiece& b) { return a.from_m < b.from_m; });
   std::vector<LanePiece> joined;
@@ -152,8 +150,9 @@ std::vector<SurveyLane> cut_lanes(const Polygon2& polygon, const LaneFrame& fram
   for (int i = 0; i < count; ++i) {
     SurveyLane lane;
     lane.across_m = first_t + i * spacing_m;
-    lane.pieces = join(project_strip(turned, lane.across_m - reach_m, lane.across_m + reach_m),
-                       needs.end_margin * needs.footprint_length_m, needs.footprint_length_m);
+    lane.pieces =
+        join_pieces(project_strip(turned, lane.across_m - reach_m, lane.across_m + reach_m),
+                    needs.end_margin * needs.footprint_length_m, needs.footprint_length_m);
     if (!lane.pieces.empty()) lanes.push_back(lane);
   }
   return lanes;

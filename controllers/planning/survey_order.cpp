@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 
 #include "engine/core/check.h"
+#include "engine/core/constants.h"
 
 namespace vinerow {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLess_m = 1e-6;  // a way must be this much shorter to count as shorter
 
 /// From the start to where a lane is entered.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "controllers/parts/pose2.h"
+#include "controllers/planning/lift.h"
 #include "controllers/planning/survey_lanes.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -198,7 +199,6 @@ SurveyRequest read_survey_request(const ParameterSet& parameters, const PlannerC
 }
 
 GroundHeight make_ground(const SceneQuery* scene, double flat_m) {
-  constexpr double kAboveEverything_m = 1e4;  // higher than any ground within a scenario
   return [scene, flat_m](const Eigen::Vector2d& p) -> std::optional<double> {
     if (scene == nullptr) return flat_m;
     return scene->ground_height_m(p.x(), p.y(), kAboveEverything_m);

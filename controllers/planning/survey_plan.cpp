@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMmPerM = 1e3, kM2PerHa = 1e4;
+constexpr double kM2PerHa = 1e4;
 
 class SurveyPlanner {
  public:

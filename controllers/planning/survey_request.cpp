@@ -11,8 +11,6 @@
 namespace vinerow {
 namespace {
 
-constexpr double kMmPerM = 1e3;
-
 /// Airspeed at which the speed over ground along a lane is just `ground_mps`, both ways.
 std::optional<double> find_airspeed_mps(const SurveyRequest& request, double yaw_rad,
                                         double ground_mps) {

@@ -10,6 +10,8 @@
 
 namespace vinerow {
 
+inline constexpr double kMmPerM = 1e3;
+
 struct SurveyRequest {
   Polygon2 polygon_W;  ///< cleaned
   SurveyCamera camera;

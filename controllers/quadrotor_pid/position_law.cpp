@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/quadrotor_pid/axis_gains.h"
+
 namespace vinerow {
-namespace {
-
-/// (horizontal, vertical) for the axes x, y, z.
-Eigen::Vector3d spread(const Eigen::Vector2d& gains) {
-  return {gains.x(), gains.x(), gains.y()};
-}
-
-}  // namespace
 
 PositionLaw::PositionLaw(const Rotorcraft& craft, const PositionParams& params)
     : craft_(craft), params_(params) {}

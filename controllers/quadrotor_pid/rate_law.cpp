@@ -2,15 +2,9 @@
 
 #include <cmath>
 
+#include "controllers/quadrotor_pid/axis_gains.h"
+
 namespace vinerow {
-namespace {
-
-/// (about x and y, about z) for the axes x, y, z.
-Eigen::Vector3d spread(const Eigen::Vector2d& gains) {
-  return {gains.x(), gains.x(), gains.y()};
-}
-
-}  // namespace
 
 RateLaw::RateLaw(const Rotorcraft& craft, const RateParams& params)
     : craft_(craft), params_(params) {}

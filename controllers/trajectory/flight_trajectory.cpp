@@ -7,24 +7,22 @@
 namespace vinerow {
 namespace {
 
-using Phase = ReferenceTrajectory::Phase;
-
 // The vehicle begins to turn when it is this far above the ground.
 constexpr double kTurnAbove_m = 0.3;
 
-Phase phase_of_kind(PathKind kind) {
+ReferenceTrajectory::Phase phase_of_kind(PathKind kind) {
   switch (kind) {
     case PathKind::kLeg:
-      return Phase::kRow;
+      return ReferenceTrajectory::Phase::kRow;
     case PathKind::kTurn:
-      return Phase::kTurn;
+      return ReferenceTrajectory::Phase::kTurn;
     case PathKind::kReturn:
-      return Phase::kReturn;
+      return ReferenceTrajectory::Phase::kReturn;
     case PathKind::kTransit:
     case PathKind::kVertical:
       break;
   }
-  return Phase::kTransit;
+  return ReferenceTrajectory::Phase::kTransit;
 }
 
 /// A landing goes on below the plan's end, until the ground is felt.

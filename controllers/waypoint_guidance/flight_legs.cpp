@@ -10,9 +10,6 @@
 namespace vinerow {
 namespace {
 
-/// From here on a corner is a way back, for which no tangent leads from leg to leg.
-constexpr double kReversal_rad = 150.0 * kPi / 180.0;
-
 struct Waypoint {
   Eigen::Vector3d p_W;
   double speed_mps;

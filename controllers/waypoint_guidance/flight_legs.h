@@ -8,8 +8,12 @@
 #include "controllers/waypoint_guidance/heading_generator.h"
 #include "engine/api/messages.h"
 #include "engine/core/result.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
+
+/// A sharper corner is a way back: no tangent leads from leg to leg, the waypoint is flown over.
+inline constexpr double kReversal_rad = 150.0 * kPi / 180.0;
 
 struct FlightLeg {
   LegFrame frame;

@@ -8,9 +8,6 @@
 namespace vinerow {
 namespace {
 
-/// A sharper corner has no tangent that leads from leg to leg: the waypoint is flown over.
-constexpr double kReversal_rad = 150.0 * kPi / 180.0;
-
 double calc_corner_rad(const std::vector<FlightLeg>& legs, std::size_t leg) {
   return wrap_angle(legs[leg + 1].frame.course_rad() - legs[leg].frame.course_rad());
 }

@@ -23,7 +23,7 @@ struct Piece {
   }
 };
 
-CanopyPoint between(const CanopyPoint& a, const CanopyPoint& b, double share) {
+CanopyPoint point_between(const CanopyPoint& a, const CanopyPoint& b, double share) {
   CanopyPoint point;
   point.row = a.row;
   point.p_W = a.p_W + share * (b.p_W - a.p_W);
@@ -34,7 +34,8 @@ CanopyPoint between(const CanopyPoint& a, const CanopyPoint& b, double share) {
 }
 
 /// Both halves of a polygon, cut where `value` of its corners is `at`.
-void cut(const Piece& whole, double CanopyPoint::*value, double at, Piece& below, Piece& above) {
+void cut_piece(const Piece& whole, double CanopyPoint::*value, double at, Piece& below,
+               Piece& above) {
   below.count = above.count = 0;
   for (std::size_t i = 0; i < whole.count; ++i) {
     const CanopyPoint& a = whole.corners[i];
@@ -43,7 +44,7 @@ void cut(const Piece& whole, double CanopyPoint::*value, double at, Piece& below
     if (from <= 0.0) below.add(a);
     if (from >= 0.0) above.add(a);
     if ((from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0)) {
-      CanopyPoint border = between(a, b, from / (from - to));
+      CanopyPoint border = point_between(a, b, from / (from - to));
       border.*value = at;
       below.add(border);
       above.add(border);
@@ -62,7 +63,7 @@ void cut_into_strips(Piece rest, double CanopyPoint::*value, double width, F&& t
   int strip = static_cast<int>(std::floor(least / width));
   Piece below, above;
   for (; (strip + 1) * width < most; ++strip) {
-    cut(rest, value, (strip + 1) * width, below, above);
+    cut_piece(rest, value, (strip + 1) * width, below, above);
     if (below.count >= 3) take(below, strip);
     rest = above;
     if (rest.count < 3) return;
@@ -101,7 +102,7 @@ struct Cutter {
              std::abs(point.height_m - height_m) < tolerance_m;
     };
     const auto fits_between = [&](const CanopyPoint& p, const CanopyPoint& q) {
-      const CanopyPoint middle = between(p, q, 0.5);
+      const CanopyPoint middle = point_between(p, q, 0.5);
       return fits(middle.p_W, middle.along_m, middle.lateral_m, middle.height_m);
     };
     if (!fits((a.p_W + b.p_W + c.p_W) / 3.0, (a.along_m + b.along_m + c.along_m) / 3.0,
@@ -145,7 +146,7 @@ struct Cutter {
   void cut_linear(const CanopyPoint& a, const CanopyPoint& b, const CanopyPoint& c) const {
     Piece whole, right, left;
     whole.add(a), whole.add(b), whole.add(c);
-    cut(whole, &CanopyPoint::lateral_m, 0.0, right, left);
+    cut_piece(whole, &CanopyPoint::lateral_m, 0.0, right, left);
     // What lies in the plane of the row's line is in both halves.
     if (a.lateral_m == 0.0 && b.lateral_m == 0.0 && c.lateral_m == 0.0) right.count = 0;
     for (const int side : {1, -1}) {

@@ -4,13 +4,12 @@
 
 #include <cmath>
 
+#include "engine/core/constants.h"
 #include "engine/core/error.h"
 #include "vehicles/parts/validation.h"
 
 namespace vinerow::vehicles {
 namespace {
-
-constexpr double kStandardGravity_mps2 = 9.80665;
 
 void validate_shape(const QuadrotorParams& p) {
   demand_positive(p.name, "arm_m", p.arm_m);

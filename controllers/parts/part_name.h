@@ -1,0 +1,15 @@
+#pragma once
+/// How errors name a controller.
+
+#include <string>
+
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+/// "drone.controller (quadrotor_mpc)"
+inline std::string part_name(const ControllerContext& context, const std::string& type) {
+  return context.part + " (" + type + ")";
+}
+
+}  // namespace vinerow

@@ -1,0 +1,13 @@
+#pragma once
+/// Gains of the three axes from those that are given by pairs.
+
+#include <Eigen/Core>
+
+namespace vinerow {
+
+/// (horizontal, vertical) or (about x and y, about z) for the axes x, y, z.
+inline Eigen::Vector3d spread(const Eigen::Vector2d& gains) {
+  return {gains.x(), gains.x(), gains.y()};
+}
+
+}  // namespace vinerow

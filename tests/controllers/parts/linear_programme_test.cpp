@@ -24,9 +24,9 @@ Eigen::MatrixXd box_rows(int n) {
 TEST(LinearProgramme, BoxHasItsOptimumInTheCornerOfTheCost) {
   RandomStream random(1, "", "lp");
   for (int n = 1; n <= 16; ++n) {
-    const Eigen::VectorXd upper = random_matrix(random, n, 1).cwiseAbs();
-    const Eigen::VectorXd lower = -random_matrix(random, n, 1).cwiseAbs();
-    const Eigen::VectorXd c = random_matrix(random, n, 1);
+    const Eigen::VectorXd upper = normal_matrix(random, n, 1).cwiseAbs();
+    const Eigen::VectorXd lower = -normal_matrix(random, n, 1).cwiseAbs();
+    const Eigen::VectorXd c = normal_matrix(random, n, 1);
     Eigen::VectorXd g(2 * n);
     g << upper, -lower;
     LinearProgramme programme(n, 2 * n);
@@ -158,12 +158,12 @@ TEST(LinearProgramme, InvalidInputIsToldAndGivesNoNumbers) {
 
 TEST(LinearProgramme, StopsAtItsIterationLimit) {
   RandomStream random(2, "", "lp");
-  const Eigen::MatrixXd F = random_matrix(random, 100, 8);
+  const Eigen::MatrixXd F = normal_matrix(random, 100, 8);
   LpSettings settings;
   settings.max_iterations = 5;
   LinearProgramme programme(8, 100, settings);
   programme.set_rows(F, Eigen::VectorXd::Ones(100));
-  EXPECT_EQ(programme.maximise(random_matrix(random, 8, 1)), LpStatus::kIterationLimit);
+  EXPECT_EQ(programme.maximise(normal_matrix(random, 8, 1)), LpStatus::kIterationLimit);
   EXPECT_TRUE(std::isnan(programme.value()));
   EXPECT_EQ(programme.x(), Eigen::VectorXd::Zero(8));
 }
@@ -178,11 +178,11 @@ TEST(LinearProgramme, StatusesHaveNames) {
 
 TEST(LinearProgramme, SolvesWithoutHeapAndWithTheSameBitsWhateverCameBefore) {
   RandomStream random(3, "", "lp");
-  const Eigen::MatrixXd F = random_matrix(random, 300, 12);
-  const Eigen::VectorXd g = Eigen::VectorXd::Ones(300), c = random_matrix(random, 12, 1);
-  const Eigen::MatrixXd other_F = random_matrix(random, 40, 12);
+  const Eigen::MatrixXd F = normal_matrix(random, 300, 12);
+  const Eigen::VectorXd g = Eigen::VectorXd::Ones(300), c = normal_matrix(random, 12, 1);
+  const Eigen::MatrixXd other_F = normal_matrix(random, 40, 12);
   const Eigen::VectorXd other_g = -Eigen::VectorXd::Ones(40),
-                        other_c = random_matrix(random, 12, 1);
+                        other_c = normal_matrix(random, 12, 1);
   LinearProgramme fresh(12, 300), used(12, 300);
   fresh.set_rows(F, g);
   ASSERT_EQ(fresh.maximise(c), LpStatus::kSolved);

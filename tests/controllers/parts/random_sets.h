@@ -11,7 +11,7 @@
 namespace vinerow::test {
 
 /// Normal entries, column by column.
-inline Eigen::MatrixXd random_matrix(RandomStream& random, Eigen::Index rows,
+inline Eigen::MatrixXd normal_matrix(RandomStream& random, Eigen::Index rows,
                                      Eigen::Index columns) {
   Eigen::MatrixXd matrix(rows, columns);
   for (double& entry : matrix.reshaped()) entry = random.normal();
@@ -20,7 +20,7 @@ inline Eigen::MatrixXd random_matrix(RandomStream& random, Eigen::Index rows,
 
 /// A random system with the spectral radius `radius`.
 inline Eigen::MatrixXd random_system(RandomStream& random, int n, double radius) {
-  const Eigen::MatrixXd A = random_matrix(random, n, n);
+  const Eigen::MatrixXd A = normal_matrix(random, n, n);
   return A * (radius / A.eigenvalues().cwiseAbs().maxCoeff());
 }
 
@@ -28,7 +28,7 @@ inline Eigen::MatrixXd random_system(RandomStream& random, int n, double radius)
 inline Polytope random_constraints(RandomStream& random, const Eigen::VectorXd& box, int rows) {
   Eigen::VectorXd g(rows);
   for (double& limit : g) limit = random.uniform(0.5, 1.5);
-  return Polytope(random_matrix(random, rows, box.size()), g).intersection(Polytope::box(box));
+  return Polytope(normal_matrix(random, rows, box.size()), g).intersection(Polytope::box(box));
 }
 
 /// The same within the box |x_i| <= 2.

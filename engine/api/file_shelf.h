@@ -1,0 +1,47 @@
+#pragma once
+/// What parts have read from files, kept for the parts that are built after them.
+///
+/// A session that begins again builds its parts anew; what they read is on the shelf. Files are
+/// taken to stay as they are while a shelf lives.
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <typeinfo>
+#include <utility>
+
+namespace vinerow {
+
+class FileShelf {
+ public:
+  /// What was put here under this key, or what `make()` returns now. Safe to call from several
+  /// threads, which may then both make it: the first one's is kept.
+  /// @param key  everything that the value depends on: kind, file, options
+  template <class T, class Make>
+  std::shared_ptr<const T> get(const std::string& key, Make&& make) {
+    const std::string full_key = std::string(typeid(T).name()) + " " + key;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = kept_.find(full_key);
+      if (found != kept_.end()) return std::static_pointer_cast<const T>(found->second);
+    }
+    // Not under the lock: reading takes long, and may ask for other files.
+    std::shared_ptr<const void> made = std::make_shared<const T>(make());
+    const std::lock_guard lock(mutex_);
+    return std::static_pointer_cast<const T>(kept_.emplace(full_key, std::move(made)).first->second);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const void>> kept_;
+};
+
+/// From the shelf, or made anew where there is none.
+template <class T, class Make>
+std::shared_ptr<const T> keep(FileShelf* shelf, const std::string& key, Make&& make) {
+  if (!shelf) return std::make_shared<const T>(make());
+  return shelf->get<T>(key, std::forward<Make>(make));
+}
+
+}  // namespace vinerow

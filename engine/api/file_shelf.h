@@ -1,9 +1,10 @@
 #pragma once
 /// What parts have read from files, kept for the parts that are built after them.
 ///
-/// A session that begins again builds its parts anew; what they read is on the shelf. Files are
-/// taken to stay as they are while a shelf lives.
+/// A session that begins again builds its parts anew; what they read is on the shelf as long as the
+/// files stay as they were.
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -17,7 +18,7 @@ class FileShelf {
  public:
   /// What was put here under this key, or what `make()` returns now. Safe to call from several
   /// threads, which may then both make it: the first one's is kept.
-  /// @param key  everything that the value depends on: kind, file, options
+  /// @param key  everything that the value depends on: file_mark() of its files, options
   template <class T, class Make>
   std::shared_ptr<const T> get(const std::string& key, Make&& make) {
     const std::string full_key = std::string(typeid(T).name()) + " " + key;
@@ -36,6 +37,10 @@ class FileShelf {
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<const void>> kept_;
 };
+
+/// The file's name, size and time of writing; of a folder, those of all that is in it. A file that
+/// is not there has a mark of its own, so that reading it fails as it always does.
+std::string file_mark(const std::filesystem::path& path);
 
 /// From the shelf, or made anew where there is none.
 template <class T, class Make>

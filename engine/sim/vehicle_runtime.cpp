@@ -371,9 +371,11 @@ void VehicleRuntime::try_to_plan(Time now) {
 
 void VehicleRuntime::add_controller() {
   if (!config_.controller) {
+    Ports ports(run_.bus, config_.name, config_.name);
+    actuators_ = ports.read_optional<NamedValues>("actuators");
     // What comes from outside acts at its instant.
-    const SignalBase* actuators = run_.bus.find(config_.name + "/actuators");
-    if (actuators && actuators->writer() == kOutside) add_actuators(run_.scenario.physics_step);
+    const bool driven = run_.bus.find(config_.name + "/actuators")->writer() == kOutside;
+    if (driven) add_actuators(run_.scenario.physics_step);
     return;
   }
   const auto controller_context_of = [&](const std::string& part, double rate_Hz) {
@@ -397,12 +399,12 @@ void VehicleRuntime::add_controller() {
                                     controller_context_of(part, control_rate_Hz()));
   add_stepped(Stage::kControl, part, config_.controller->type, control_rate_Hz(), *controller_);
   refuse_a_missing_plan();
+  Ports ports(run_.bus, config_.name, config_.name);
+  actuators_ = ports.read<NamedValues>("actuators");
   add_actuators(period_of_rate(control_rate_Hz()));
 }
 
 void VehicleRuntime::add_actuators(Duration period) {
-  Ports ports(run_.bus, config_.name, config_.name);
-  actuators_ = ports.read<NamedValues>("actuators");
   actuator_values_.assign(vehicle_->description().actuators.size(), 0.0);
   schedule(Stage::kActuate, config_.name + ".actuators", period, {},
            [this](Time now) { actuate(now); });

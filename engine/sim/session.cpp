@@ -10,27 +10,23 @@
 #include "engine/sim/vehicle_runtime.h"
 
 namespace vinerow {
-namespace {
-
-class EventCollector final : public RunObserver {
- public:
-  void on_event(Time now, const Event& event) override { events.push_back({now, event}); }
-  std::vector<SessionEvent> events;
-};
-
-/// A run and what listens to it.
-struct Run {
-  Run(const io::Scenario& scenario, const Registry& registry, SimulationSetup setup)
-      : simulation(scenario, registry, std::move(setup)) {
-    simulation.add_observer(&events);
-  }
-  EventCollector events;
-  Simulation simulation;
-};
-
-}  // namespace
 
 struct Session::Impl {
+  class EventCollector final : public RunObserver {
+   public:
+    void on_event(Time now, const Event& event) override { events.push_back({now, event}); }
+    std::vector<SessionEvent> events;
+  };
+  /// A run and what listens to it.
+  struct Run {
+    Run(const io::Scenario& scenario, const Registry& registry, SimulationSetup setup)
+        : simulation(scenario, registry, std::move(setup)) {
+      simulation.add_observer(&events);
+    }
+    EventCollector events;
+    Simulation simulation;
+  };
+
   std::shared_ptr<const Registry> registry;
   SessionOptions options;
   std::shared_ptr<FileShelf> shelf;  ///< outlives the run

@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"world.wind.random_gusts={interval_s: 1, amplitude_mps: 2, duration_s: 1}"}},
         Shipped{"trmpc_stress", 1.0}, Shipped{"localisation_closed_loop", 1.5},
         Shipped{"cooperative_small", 12.0}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& shipped) { return std::string(shipped.param.name); });
 
 TEST(Session, SlicesChangeNothing) {
   Session whole = open_session(scenario_file("riseholme_rover"));

@@ -10,6 +10,7 @@
 #include "controllers/planning/survey_heights.h"
 #include "controllers/planning/survey_params.h"
 #include "controllers/planning/survey_route.h"
+#include "engine/api/file_shelf.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
@@ -25,7 +26,9 @@ class MissionRoute final : public Planner {
  public:
   MissionRoute(const ParameterSet& parameters, const PlannerContext& context,
                const std::string& who)
-      : mission_(io::read_mission(parameters.text("file"))),
+      : mission_(*keep<io::MissionFile>(
+            context.shelf, file_mark(parameters.text("file")),
+            [&] { return io::read_mission(parameters.text("file")); })),
         origin_(context.origin),
         scene_(context.scene),
         vehicle_(*context.vehicle_description),

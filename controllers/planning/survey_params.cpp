@@ -8,6 +8,7 @@
 #include "controllers/parts/pose2.h"
 #include "controllers/planning/lift.h"
 #include "controllers/planning/survey_lanes.h"
+#include "engine/api/file_shelf.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
@@ -34,7 +35,11 @@ Polygon2 read_polygon(const ParameterSet& parameters, const PlannerContext& cont
   }
   Polygon2 polygon;
   if (has_file) {
-    polygon = read_survey_area(parameters.text("polygon_file"), context.origin);
+    const std::string& file = parameters.text("polygon_file");
+    const GeoOrigin& origin = context.origin;
+    const std::string key = fmt::format("{} {} {} {}", file_mark(file), origin.latitude_rad,
+                                        origin.longitude_rad, origin.altitude_m);
+    polygon = *keep<Polygon2>(context.shelf, key, [&] { return read_survey_area(file, origin); });
   } else if (!x.empty()) {
     for (std::size_t i = 0; i < x.size(); ++i) polygon.emplace_back(x[i], y[i]);
   } else if (context.map != nullptr && !context.map->boundary_W.empty()) {

@@ -9,6 +9,7 @@
 #include "controllers/parts/path_pieces.h"
 #include "controllers/planning/lift.h"
 #include "controllers/planning/row_check.h"
+#include "engine/api/file_shelf.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
@@ -49,7 +50,9 @@ class Waypoints final : public Planner {
         scene_(context.scene) {
     const std::string who = context.part + " (waypoints)";
     if (parameters.has("file")) {
-      points_ = read_csv(parameters.text("file"));
+      const std::string& file = parameters.text("file");
+      points_ = *keep<std::vector<Eigen::Vector2d>>(context.shelf, file_mark(file),
+                                                    [&] { return read_csv(file); });
     } else {
       const auto& x = parameters.numbers("x_m");
       const auto& y = parameters.numbers("y_m");

@@ -30,6 +30,7 @@ struct PartSpec {
 struct WorldModel;
 class SceneQuery;
 struct VehicleDescription;
+class FileShelf;
 
 /// What a part may know when it is built. References live as long as the run.
 struct PartContext {
@@ -39,6 +40,8 @@ struct PartContext {
   Duration period;         ///< of the part; 0 where it is not stepped
   Duration physics_step;
   double gravity_mps2 = 9.80665;
+  /// Where parts keep what they read from files (file_shelf.h); null: nothing is kept.
+  FileShelf* shelf = nullptr;
   /// A fresh random stream of this part; `component` distinguishes several streams of one part.
   RandomStream random(const std::string& component = "") const {
     return RandomStream(seed, vehicle, component.empty() ? part : part + "." + component);

@@ -130,6 +130,7 @@ void SignalBus::set_writer(SignalBase& signal, const std::string& writer) {
 }
 
 void SignalBus::set_reader(SignalBase& signal, const std::string& reader) {
+  signal.is_read_ = true;
   if (signal.first_reader_.empty()) signal.first_reader_ = reader;
 }
 

@@ -35,6 +35,8 @@ class SignalBase {
   std::uint64_t forgotten() const { return forgotten_; }
   const std::string& writer() const { return writer_; }
   const std::string& first_reader() const { return first_reader_; }
+  /// Somebody reads it, or would if it were written.
+  bool is_read() const { return is_read_; }
 
   /// Adds name, time and value to the digest of the run.
   virtual void hash_into(Hasher& hasher) = 0;
@@ -50,6 +52,7 @@ class SignalBase {
   std::uint64_t forgotten_ = 0;
   std::string writer_;
   std::string first_reader_;
+  bool is_read_ = false;
 };
 
 template <class T>
@@ -176,6 +179,7 @@ SignalReader<T> SignalBus::subscribe_optional(const std::string& name, const std
   SignalBase& signal = slot(name, T::kType, reader, [](const std::string& n) {
     return std::unique_ptr<SignalBase>(std::make_unique<Signal<T>>(n));
   });
+  signal.is_read_ = true;
   return SignalReader<T>(static_cast<const Signal<T>*>(&signal));
 }
 

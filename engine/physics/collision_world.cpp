@@ -4,6 +4,7 @@
 
 #include "engine/physics/bullet_convert.h"
 #include "engine/physics/mesh_gate.h"
+#include "engine/physics/static_geometry.h"
 #include "engine/physics/terrain_gate.h"
 
 namespace vinerow::physics {
@@ -115,12 +116,11 @@ class CollisionWorld::Dispatcher : public btCollisionDispatcher {
   const HeightField* terrain_;
 };
 
-CollisionWorld::CollisionWorld(const PhysicsSettings& settings, const WorldModel& world)
-    : normals_(world),
-      dispatcher_(std::make_unique<Dispatcher>(&configuration_,
-                                               settings.contact_breaking_threshold_m, normals_,
-                                               world.terrain ? &*world.terrain : nullptr)),
-      statics_(world),
+CollisionWorld::CollisionWorld(const PhysicsSettings& settings, const StaticScene& scene)
+    : dispatcher_(std::make_unique<Dispatcher>(
+          &configuration_, settings.contact_breaking_threshold_m, scene.normals(),
+          scene.world().terrain ? &*scene.world().terrain : nullptr)),
+      statics_(scene.geometry().make_objects()),
       world_(std::make_unique<btCollisionWorld>(dispatcher_.get(), &broadphase_, &configuration_)) {
   solver_info_.m_numIterations = settings.solver_iterations;
   solver_info_.m_linearSlop = settings.linear_slop_m;
@@ -130,7 +130,7 @@ CollisionWorld::CollisionWorld(const PhysicsSettings& settings, const WorldModel
   solver_info_.m_restitutionVelocityThreshold = settings.restitution_threshold_mps;
   // Two directions make sticking hold in every direction, not only along the last slip.
   solver_info_.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
-  for (const auto& object : statics_.objects()) {
+  for (const auto& object : statics_) {
     world_->addCollisionObject(object.get(), btBroadphaseProxy::StaticFilter,
                                btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter);
   }
@@ -140,7 +140,7 @@ CollisionWorld::CollisionWorld(const PhysicsSettings& settings, const WorldModel
 
 CollisionWorld::~CollisionWorld() {
   for (btRigidBody* body : bodies_) world_->removeCollisionObject(body);
-  for (const auto& object : statics_.objects()) world_->removeCollisionObject(object.get());
+  for (const auto& object : statics_) world_->removeCollisionObject(object.get());
 }
 
 void CollisionWorld::add_body(btRigidBody& body) {

@@ -14,15 +14,15 @@
 #include <memory>
 #include <vector>
 
-#include "engine/physics/contact_normals.h"
 #include "engine/physics/settings.h"
-#include "engine/physics/static_geometry.h"
+#include "engine/physics/static_scene.h"
 
 namespace vinerow::physics {
 
 class CollisionWorld {
  public:
-  CollisionWorld(const PhysicsSettings& settings, const WorldModel& world);
+  /// @param scene  outlives this object
+  CollisionWorld(const PhysicsSettings& settings, const StaticScene& scene);
   ~CollisionWorld();
   CollisionWorld(const CollisionWorld&) = delete;
   CollisionWorld& operator=(const CollisionWorld&) = delete;
@@ -46,13 +46,12 @@ class CollisionWorld {
  private:
   class Dispatcher;
 
-  ContactNormals normals_;
   btDefaultCollisionConfiguration configuration_;
   std::unique_ptr<Dispatcher> dispatcher_;
   btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   btContactSolverInfo solver_info_;
-  StaticGeometry statics_;
+  std::vector<std::unique_ptr<btCollisionObject>> statics_;
   std::unique_ptr<btCollisionWorld> world_;
   std::vector<btRigidBody*> bodies_;
   std::vector<btCollisionObject*> movable_;       ///< scratch of solve_contacts

@@ -6,14 +6,13 @@
 #include "engine/core/error.h"
 #include "engine/physics/body.h"
 #include "engine/physics/bullet_convert.h"
-#include "engine/physics/check_world.h"
 #include "engine/physics/collision_world.h"
-#include "engine/physics/world_scene.h"
+#include "engine/physics/static_scene.h"
 
 namespace vinerow::physics {
 namespace {
 
-const WorldModel& checked(const PhysicsSettings& settings, const WorldModel& world) {
+const PhysicsSettings& checked(const PhysicsSettings& settings) {
   if (settings.step.ns <= 0) {
     throw ConfigError(fmt::format("physics: step = {} ns, must be > 0", settings.step.ns));
   }
@@ -21,16 +20,21 @@ const WorldModel& checked(const PhysicsSettings& settings, const WorldModel& wor
     throw ConfigError(fmt::format("physics: solver_iterations = {}, must be 1 or more",
                                   settings.solver_iterations));
   }
-  check_world(world);
-  return world;
+  return settings;
+}
+
+/// Of a world that its owner keeps alive.
+std::shared_ptr<const StaticScene> scene_of(const WorldModel& world) {
+  return std::make_shared<const StaticScene>(
+      std::shared_ptr<const WorldModel>(std::shared_ptr<const void>(), &world));
 }
 
 }  // namespace
 
 struct PhysicsWorld::Impl {
   PhysicsSettings settings;
+  std::shared_ptr<const StaticScene> scene;
   const WorldModel& world;
-  WorldScene scene;
   Eigen::Vector3d gravity_W;
   std::vector<std::unique_ptr<Body>> bodies;
   CollisionWorld collisions;  // before the bodies it knows of go
@@ -38,12 +42,13 @@ struct PhysicsWorld::Impl {
   std::vector<Contact> contacts;
   std::string terrain_name = "terrain";
 
-  Impl(const PhysicsSettings& the_settings, const WorldModel& the_world)
+  Impl(const PhysicsSettings& the_settings, std::shared_ptr<const StaticScene> the_scene,
+       const WorldModel& the_world)
       : settings(the_settings),
-        world(checked(the_settings, the_world)),
-        scene(world),
+        scene(std::move(the_scene)),
+        world(the_world),
         gravity_W(0.0, 0.0, -the_settings.gravity_mps2),
-        collisions(the_settings, the_world) {
+        collisions(the_settings, *scene) {
     contacts.reserve(256);
   }
 
@@ -87,7 +92,11 @@ struct PhysicsWorld::Impl {
 };
 
 PhysicsWorld::PhysicsWorld(const PhysicsSettings& settings, const WorldModel& world)
-    : impl_(std::make_unique<Impl>(settings, world)) {}
+    : PhysicsWorld(checked(settings), scene_of(world), world) {}
+
+PhysicsWorld::PhysicsWorld(const PhysicsSettings& settings,
+                           std::shared_ptr<const StaticScene> scene, const WorldModel& world)
+    : impl_(std::make_unique<Impl>(checked(settings), std::move(scene), world)) {}
 
 PhysicsWorld::~PhysicsWorld() = default;
 
@@ -160,7 +169,7 @@ Eigen::Vector3d PhysicsWorld::acceleration_W(BodyId body) const {
 std::optional<GroundHit> PhysicsWorld::probe_ground(const Eigen::Vector3d& p_W,
                                                     const Eigen::Vector3d& dir_W,
                                                     double max_distance_m) const {
-  const std::optional<RayHit> hit = impl_->scene.probe_rigid(p_W, dir_W, max_distance_m);
+  const std::optional<RayHit> hit = impl_->scene->queries().probe_rigid(p_W, dir_W, max_distance_m);
   if (!hit) return std::nullopt;
   return GroundHit{hit->distance_m, hit->normal_W, hit->surface};
 }
@@ -184,7 +193,7 @@ const std::string& PhysicsWorld::body_name(BodyId body) const {
 }
 
 const SceneQuery& PhysicsWorld::scene() const {
-  return impl_->scene;
+  return impl_->scene->queries();
 }
 
 const PhysicsSettings& PhysicsWorld::settings() const {

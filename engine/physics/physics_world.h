@@ -99,11 +99,18 @@ struct GroundHit {
   SurfaceClass surface = SurfaceClass::kTerrain;
 };
 
+class StaticScene;
+
 class PhysicsWorld {
  public:
   /// @param world  outlives this object, which reads its heights and meshes in place
   /// @throws ConfigError on bad geometry, e.g. "mesh 'x' has no triangles"
   PhysicsWorld(const PhysicsSettings& settings, const WorldModel& world);
+  /// On a scene that is built already, and that others may use at the same time.
+  /// @param scene  not null
+  /// @param world  outlives this object: the scene's, or one that differs from it in wind alone
+  PhysicsWorld(const PhysicsSettings& settings, std::shared_ptr<const StaticScene> scene,
+               const WorldModel& world);
   ~PhysicsWorld();
 
   /// @throws ConfigError on a mass, inertia, shape or state out of range, naming the body

@@ -25,7 +25,8 @@ StaticGeometry::StaticGeometry(const WorldModel& world) {
     if (found == meshes_.end()) {
       found = meshes_.emplace(instance.mesh.get(), make_mesh_shape(*instance.mesh)).first;
     }
-    add_object(*found->second.shape, to_bullet(instance.X_WM), static_cast<int>(i));
+    places_.push_back(
+        {found->second.shape.get(), to_bullet(instance.X_WM), static_cast<int>(i)});
   }
 }
 
@@ -42,19 +43,25 @@ void StaticGeometry::add_terrain(const HeightField& field) {
   const btVector3 origin(field.corner_W.x() + 0.5 * field.width_m(),
                          field.corner_W.y() + 0.5 * field.depth_m(),
                          0.5 * (static_cast<double>(*low) + static_cast<double>(*high)));
-  add_object(*terrain_, btTransform(btQuaternion::getIdentity(), origin), kTerrainIndex);
+  places_.push_back(
+      {terrain_.get(), btTransform(btQuaternion::getIdentity(), origin), kTerrainIndex});
 }
 
-void StaticGeometry::add_object(btCollisionShape& shape, const btTransform& X_WM, int user_index) {
-  auto object = std::make_unique<btCollisionObject>();
-  object->setCollisionShape(&shape);
-  object->setWorldTransform(X_WM);
-  object->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
-  object->setUserIndex(user_index);
-  // A contact's coefficient is the product of both sides': 1 leaves the body's own.
-  object->setFriction(1.0);
-  object->setRestitution(1.0);
-  objects_.push_back(std::move(object));
+std::vector<std::unique_ptr<btCollisionObject>> StaticGeometry::make_objects() const {
+  std::vector<std::unique_ptr<btCollisionObject>> objects;
+  objects.reserve(places_.size());
+  for (const Place& place : places_) {
+    auto object = std::make_unique<btCollisionObject>();
+    object->setCollisionShape(place.shape);
+    object->setWorldTransform(place.X_WM);
+    object->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+    object->setUserIndex(place.user_index);
+    // A contact's coefficient is the product of both sides': 1 leaves the body's own.
+    object->setFriction(1.0);
+    object->setRestitution(1.0);
+    objects.push_back(std::move(object));
+  }
+  return objects;
 }
 
 StaticGeometry::MeshShape StaticGeometry::make_mesh_shape(const TriangleMesh& mesh) {

@@ -14,6 +14,7 @@
 #include "engine/sim/judge.h"
 #include "engine/sim/junit.h"
 #include "engine/sim/pictures.h"
+#include "engine/sim/session.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/summary.h"
 #include "engine/sim/vehicle_runtime.h"
@@ -22,6 +23,11 @@ namespace vinerow {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+std::int64_t wall_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
+      .count();
+}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -109,19 +115,19 @@ class EventFile final : public RunObserver {
 
 /// Steps to the end in slices of simulated time, so that progress can be told. Slices change no
 /// result.
-void step_to_end(Simulation& simulation, const RunOptions& options, Clock::time_point start) {
-  const double duration_s = simulation.scenario().duration_s;
+void step_to_end(Session& session, const RunOptions& options, Clock::time_point start) {
+  const double duration_s = session.scenario().duration_s;
   constexpr Duration kSlice{250'000'000};
   double told_s = -1.0;
-  while (!simulation.over()) {
-    simulation.run_until(simulation.now() + kSlice);
+  while (!session.over()) {
+    session.advance(session.now() + kSlice);
     if (options.interrupted && options.interrupted()) {
-      throw SimulationError("run", simulation.now(), "interrupted by the user");
+      throw SimulationError("run", session.now(), "interrupted by the user");
     }
     const double wall_s = seconds_since(start);
-    if (options.progress && (wall_s - told_s > 0.2 || simulation.over())) {
+    if (options.progress && (wall_s - told_s > 0.2 || session.over())) {
       told_s = wall_s;
-      options.progress({simulation.now().s(), duration_s, wall_s});
+      options.progress({session.now().s(), duration_s, wall_s});
     }
   }
 }
@@ -196,8 +202,13 @@ std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
 
 RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
                        const RunOptions& options) {
-  Simulation simulation(scenario, registry, options.out / "products");
-  simulation.scheduler().measure(options.measure_cost);
+  SessionOptions session_options;
+  session_options.products = options.out / "products";
+  // The caller keeps the registry.
+  Session session(scenario, std::shared_ptr<const Registry>(std::shared_ptr<void>(), &registry),
+                  std::move(session_options));
+  Simulation& simulation = session.simulation();
+  simulation.scheduler().set_clock(wall_ns, options.measure_cost);
   // Unknown metric names are bad input and must not wait for the end of a long run.
   static_cast<void>(judge(of_vehicles(scenario), simulation.metrics()));
 
@@ -222,7 +233,7 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   const Clock::time_point start = Clock::now();
   try {
     simulation.emit(Event::Level::kInfo, "run", fmt::format("started '{}'", scenario.name));
-    step_to_end(simulation, options, start);
+    step_to_end(session, options, start);
     simulation.emit(Event::Level::kInfo, "run",
                     simulation.finished()           ? "mission finished"
                     : !scenario.phases.empty()      ? "mission ended"
@@ -237,10 +248,10 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   if (log) log->finish();
 
   result.wall_s = seconds_since(start);
-  result.simulated_s = simulation.now().s();
-  result.digest = simulation.digest();
-  result.finished = simulation.finished();
-  result.metrics = simulation.metrics();
+  result.simulated_s = session.now().s();
+  result.digest = session.digest();
+  result.finished = session.finished();
+  result.metrics = session.metrics();
   result.phases = simulation.phases();
   result.criteria =
       judge(scenario.criteria, with_missing_numbers(scenario, result.metrics, result.phases));

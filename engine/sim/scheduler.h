@@ -40,11 +40,18 @@ class Scheduler {
     Stage stage;
     Duration period;
     std::uint64_t ticks = 0;
-    double wall_s = 0.0;  ///< computing time of all ticks; only filled where measure() was asked
+    double wall_s = 0.0;  ///< computing time of all ticks; 0 where it was not measured
   };
   std::vector<TaskReport> reports() const;
-  /// Measures the computing time of each task. It never reaches a result.
-  void measure(bool on) { measure_ = on; }
+  /// Tells how much wall time has passed since some moment, ns. A run never asks the time itself:
+  /// whoever steps it may give it a clock, which never reaches a result.
+  using Clock = std::int64_t (*)();
+  /// @param measure  the computing time of each task too, and not only of jobs
+  void set_clock(Clock wall_ns, bool measure) {
+    clock_ = wall_ns;
+    measure_ = measure && wall_ns;
+  }
+  Clock clock() const { return clock_; }  ///< null: none
 
  private:
   struct Task {
@@ -64,6 +71,7 @@ class Scheduler {
   std::vector<TaskReport> removed_;
   int last_id_ = 0;
   Time earliest_{0};
+  Clock clock_ = nullptr;
   bool measure_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <limits>
 
+#include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/sim/mission.h"
@@ -27,33 +28,28 @@ std::filesystem::path make_own_folder() {
 
 }  // namespace
 
-std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry) {
-  WorldContext context;
-  context.part = "world";
-  context.seed = scenario.seed;
-  context.physics_step = scenario.physics_step;
-  context.gravity_mps2 = scenario.gravity_mps2;
-  return registry.make_world(scenario.world.type, scenario.world.parameters, context);
-}
-
 Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
-                       std::filesystem::path products)
+                       SimulationSetup setup)
     : scenario_(scenario),
-      world_(build_world(scenario, registry)),
+      world_(setup.world ? *std::move(setup.world)
+                         : build_static_world(scenario, registry, setup.shelf)),
+      outside_(bus_, setup.outside),
       scheduler_(scenario.physics_step) {
+  VINEROW_DEMAND(world_.seed == scenario.seed);
   physics::PhysicsSettings settings;
   settings.step = scenario_.physics_step;
   settings.gravity_mps2 = scenario_.gravity_mps2;
-  physics_ = std::make_unique<physics::PhysicsWorld>(settings, *world_);
+  physics_ = std::make_unique<physics::PhysicsWorld>(settings, world_.scene, *world_.model);
 
   events_ = bus_.advertise<Event>("run/events", "run");
-  if (!world_->rows.occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
+  if (!world().rows.occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
   const RunContext run{scenario_,
                        registry,
-                       *world_,
+                       world(),
                        *physics_,
                        bus_,
                        scheduler_,
+                       setup.shelf,
                        [this](Event::Level level, const std::string& source,
                               const std::string& text) { emit(level, source, text); }};
   for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
@@ -66,11 +62,12 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
     }
   }
   if (!scenario_.phases.empty()) {
-    if (products.empty()) products = own_products_ = make_own_folder();
-    mission_ = std::make_unique<Mission>(run, vehicles_, std::move(products));
+    if (setup.products.empty()) setup.products = own_products_ = make_own_folder();
+    mission_ = std::make_unique<Mission>(run, vehicles_, std::move(setup.products));
   }
   add_traffic(run);
   bus_.check_connected();
+  outside_.check_read();
   classify_signals();
 }
 
@@ -138,6 +135,11 @@ void Simulation::emit(Event::Level level, const std::string& source, const std::
   for (RunObserver* observer : observers_) observer->on_event(now_, event);
 }
 
+void Simulation::command(OutsideCommand command) {
+  for (const auto& vehicle : vehicles_) vehicle->check_command(*command.value);
+  outside_.add(std::move(command), now_);
+}
+
 std::vector<PhaseReport> Simulation::phases() const {
   return mission_ ? mission_->reports() : std::vector<PhaseReport>{};
 }
@@ -175,8 +177,9 @@ bool Simulation::is_done() const {
 }
 
 void Simulation::work_instant() {
-  if (now_.ns == 0 && map_.connected()) map_.write(now_, world_->rows.occupancy);
+  if (now_.ns == 0 && map_.connected()) map_.write(now_, world().rows.occupancy);
   for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
+  outside_.deliver(now_);
   if (mission_) {
     for (const auto& [vehicle, reason] : lost_vehicles_) {
       mission_->fail_phase_of(vehicle, now_, reason);

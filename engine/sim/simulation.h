@@ -15,7 +15,9 @@
 #include "engine/core/hash.h"
 #include "engine/io/scenario.h"
 #include "engine/physics/physics_world.h"
+#include "engine/sim/built_world.h"
 #include "engine/sim/crash.h"
+#include "engine/sim/outside_commands.h"
 #include "engine/sim/phase_report.h"
 #include "engine/sim/scheduler.h"
 
@@ -37,24 +39,37 @@ class RunObserver {
   virtual void on_event(Time /*now*/, const Event& /*event*/) {}
 };
 
+/// What a run may be given beside its scenario.
+struct SimulationSetup {
+  /// Folder for what the jobs of a mission make; empty: one that goes with the simulation.
+  std::filesystem::path products;
+  std::optional<BuiltWorld> world;  ///< of this scenario and seed; absent: built here
+  std::vector<OutsideSignal> outside;
+  FileShelf* shelf = nullptr;  ///< outlives the simulation
+};
+
 class Simulation {
  public:
   /// Builds everything. @param registry must outlive the simulation
-  /// @param products  folder for what the jobs of a mission make; empty: one that goes with the
-  ///   simulation
   /// @throws ConfigError
-  Simulation(const io::Scenario& scenario, const Registry& registry,
-             std::filesystem::path products = {});
+  Simulation(const io::Scenario& scenario, const Registry& registry, SimulationSetup setup);
+  Simulation(const io::Scenario& scenario, const Registry& registry)
+      : Simulation(scenario, registry, SimulationSetup{}) {}
   ~Simulation();
 
   const io::Scenario& scenario() const { return scenario_; }
-  const WorldModel& world() const { return *world_; }
+  const WorldModel& world() const { return *world_.model; }
+  const BuiltWorld& built_world() const { return world_; }
   const SignalBus& bus() const { return bus_; }
   physics::PhysicsWorld& physics() { return *physics_; }
   Scheduler& scheduler() { return scheduler_; }
 
   /// Called at every instant from now on; not owned.
   void add_observer(RunObserver* observer) { observers_.push_back(observer); }
+
+  /// Takes a value in for a signal that is written from outside (SimulationSetup::outside).
+  /// @throws ConfigError as OutsideCommands::add, and on actuators that the vehicle does not have
+  void command(OutsideCommand command);
 
   /// Runs until the mission is over, or `end` is reached; can be called again to go on.
   /// @throws SimulationError
@@ -105,9 +120,10 @@ class Simulation {
   void step_physics();
 
   io::Scenario scenario_;
-  std::unique_ptr<WorldModel> world_;
+  BuiltWorld world_;
   std::unique_ptr<physics::PhysicsWorld> physics_;
   SignalBus bus_;
+  OutsideCommands outside_;
   Scheduler scheduler_;
   std::vector<std::unique_ptr<VehicleRuntime>> vehicles_;
   std::filesystem::path own_products_;       // removed with the simulation; empty: not its own
@@ -128,7 +144,8 @@ class Simulation {
   bool over_ = false;
 };
 
-/// The world of a scenario. @throws ConfigError
-std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry);
+/// The world of a scenario. @param shelf  of files; null: none. @throws ConfigError
+std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry,
+                                        FileShelf* shelf = nullptr);
 
 }  // namespace vinerow

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/api/observer.h"
+#include "engine/api/outside.h"
 #include "engine/core/error.h"
 #include "engine/sim/map_edges.h"
 #include "engine/sim/truth_estimator.h"
@@ -45,6 +46,7 @@ Context VehicleRuntime::context(const std::string& part, double rate_Hz) const {
   result.period = rate_Hz > 0.0 ? period_of_rate(rate_Hz) : Duration{};
   result.physics_step = run_.scenario.physics_step;
   result.gravity_mps2 = run_.scenario.gravity_mps2;
+  result.shelf = run_.shelf;
   return result;
 }
 
@@ -368,7 +370,14 @@ void VehicleRuntime::try_to_plan(Time now) {
 }
 
 void VehicleRuntime::add_controller() {
-  if (!config_.controller) return;
+  if (!config_.controller) {
+    Ports ports(run_.bus, config_.name, config_.name);
+    actuators_ = ports.read_optional<NamedValues>("actuators");
+    // What comes from outside acts at its instant.
+    const bool driven = run_.bus.find(config_.name + "/actuators")->writer() == kOutside;
+    if (driven) add_actuators(run_.scenario.physics_step);
+    return;
+  }
   const auto controller_context_of = [&](const std::string& part, double rate_Hz) {
     auto result = context<ControllerContext>(part, rate_Hz);
     result.vehicle_description = &vehicle_->description();
@@ -392,8 +401,12 @@ void VehicleRuntime::add_controller() {
   refuse_a_missing_plan();
   Ports ports(run_.bus, config_.name, config_.name);
   actuators_ = ports.read<NamedValues>("actuators");
+  add_actuators(period_of_rate(control_rate_Hz()));
+}
+
+void VehicleRuntime::add_actuators(Duration period) {
   actuator_values_.assign(vehicle_->description().actuators.size(), 0.0);
-  schedule(Stage::kActuate, config_.name + ".actuators", period_of_rate(control_rate_Hz()), {},
+  schedule(Stage::kActuate, config_.name + ".actuators", period, {},
            [this](Time now) { actuate(now); });
 }
 
@@ -417,7 +430,7 @@ void VehicleRuntime::add_payloads() {
 
 void VehicleRuntime::refuse_a_missing_plan() const {
   const SignalBase* plan = run_.bus.find(config_.name + "/plan");
-  if (planner_ || handover_.plan || plan == nullptr) return;
+  if (planner_ || handover_.plan || plan == nullptr || plan->writer() == kOutside) return;
   const auto refuse = [&](const io::PartConfig& part, const std::string& name) {
     if (plan->first_reader() != name) return;
     throw ConfigError(fmt::format("{}: {}: '{}' follows a plan, but the vehicle has no planner",
@@ -427,15 +440,31 @@ void VehicleRuntime::refuse_a_missing_plan() const {
   refuse(*config_.controller, config_.name + ".controller");
 }
 
+void VehicleRuntime::check_command(const SignalBase& value) const {
+  if (value.name() != config_.name + "/actuators") return;
+  if (std::string_view(value.type()) != NamedValues::kType) return;
+  const NamedValues& wanted = static_cast<const Signal<NamedValues>&>(value).value();
+  if (wanted.names.size() != wanted.values.size()) {
+    throw ConfigError(fmt::format("a command for '{}' has {} values for {} names", value.name(),
+                                  wanted.values.size(), wanted.names.size()));
+  }
+  for (const std::string& name : wanted.names) {
+    static_cast<void>(
+        vehicle_->description().actuator_index(name, fmt::format("a command for '{}'",
+                                                                 value.name())));
+  }
+}
+
 void VehicleRuntime::actuate(Time now) {
-  if (!said_finished_ && finished()) {
+  if (!said_finished_ && controller_ && finished()) {
     said_finished_ = true;
     run_.emit(Event::Level::kInfo, config_.name + ".controller", "finished its path");
   }
   if (!actuators_.has_value() || !actuators_.is_newer_than(actuators_seen_)) return;
   const NamedValues& wanted = actuators_.value();
   const VehicleDescription& description = vehicle_->description();
-  if (actuator_index_.size() != wanted.names.size()) {
+  if (actuator_names_ != wanted.names) {
+    actuator_names_ = wanted.names;
     actuator_index_.clear();
     for (const std::string& actuator : wanted.names) {
       actuator_index_.push_back(description.actuator_index(actuator, config_.name + ".controller"));

@@ -26,6 +26,7 @@ struct RunContext {
   physics::PhysicsWorld& physics;
   SignalBus& bus;
   Scheduler& scheduler;
+  FileShelf* shelf;  ///< null: none
   std::function<void(Event::Level, const std::string& source, const std::string& text)> emit;
 };
 
@@ -75,6 +76,10 @@ class VehicleRuntime {
   const std::optional<Crash>& crash() const { return crash_; }
   io::OnCrash on_crash() const { return config_.on_crash; }
 
+  /// Looks at a value that comes from outside, if it is for its actuators. @throws ConfigError
+  /// naming the actuators there are
+  void check_command(const SignalBase& value) const;
+
   /// Reads the bodies and writes "truth". Called at every instant.
   void publish_truth(Time now);
   void before_physics(Time now, Duration step) {
@@ -122,6 +127,7 @@ class VehicleRuntime {
   EstimatorContext estimator_context(const std::string& part, double rate_Hz) const;
   void add_planner();
   void add_controller();
+  void add_actuators(Duration period);
   void add_payloads();
   /// @throws ConfigError naming who reads a plan that no planner writes
   void refuse_a_missing_plan() const;
@@ -162,7 +168,8 @@ class VehicleRuntime {
   SignalReader<Odometry> estimate_;
   SignalReader<NamedValues> actuators_;
   std::uint64_t actuators_seen_ = 0;
-  std::vector<int> actuator_index_;  // of each name the controller writes
+  std::vector<std::string> actuator_names_;  // as last written
+  std::vector<int> actuator_index_;          // of each of them
   std::vector<double> actuator_values_;
   Odometry truth_;
   LinkPoses links_;

@@ -9,71 +9,42 @@
 #include "tools/parts/register_all.h"
 
 namespace vinerow::testing {
-namespace {
-
-std::shared_ptr<Registry> built_in_registry() {
-  auto registry = std::make_shared<Registry>();
-  register_all(*registry);
-  return registry;
-}
-
-}  // namespace
-
-TestRun::TestRun(std::shared_ptr<Registry> registry, std::unique_ptr<Simulation> simulation)
-    : registry_(std::move(registry)), simulation_(std::move(simulation)) {}
-TestRun::~TestRun() = default;
-TestRun::TestRun(TestRun&&) noexcept = default;
-TestRun& TestRun::operator=(TestRun&&) noexcept = default;
 
 TestRun TestRun::from_file(const std::filesystem::path& file,
                            const std::vector<std::string>& sets) {
-  auto registry = built_in_registry();
-  io::Overrides overrides;
-  overrides.sets = sets;
-  for (const auto& plugin : io::load_plugin_list(file, overrides)) load_plugin(plugin, *registry);
-  auto simulation =
-      std::make_unique<Simulation>(io::load_scenario(file, *registry, overrides), *registry);
-  return TestRun(std::move(registry), std::move(simulation));
+  return TestRun(open_session(file, {sets, std::nullopt}));
 }
 
 TestRun TestRun::from_yaml(const std::string& yaml, const std::filesystem::path& folder) {
-  auto registry = built_in_registry();
-  auto simulation =
-      std::make_unique<Simulation>(io::parse_scenario(yaml, folder, *registry), *registry);
-  return TestRun(std::move(registry), std::move(simulation));
+  return TestRun(open_session_text(yaml, folder));
 }
 
 TestRun& TestRun::run_for_s(double duration_s) {
-  // now() is the next instant to be worked on, so the last one inside the span is one step earlier.
-  simulation_->run_until(simulation_->now() + duration_from_s(duration_s) -
-                         simulation_->scenario().physics_step);
+  if (!session_.over()) session_.advance_for(duration_from_s(duration_s));
   return *this;
 }
 
 TestRun& TestRun::run_to_end() {
-  simulation_->run();
+  if (!session_.over()) session_.advance(Time{} + duration_from_s(session_.scenario().duration_s));
   return *this;
 }
 
 double TestRun::time_s() const {
-  return simulation_->now().s();
+  return session_.now().s();
 }
 bool TestRun::finished() const {
-  return simulation_->finished();
+  return session_.finished();
 }
 const Odometry& TestRun::truth(const std::string& vehicle) const {
-  return simulation_->truth(vehicle);
+  return session_.simulation().truth(vehicle);
 }
 std::string TestRun::digest() const {
-  return simulation_->digest();
-}
-Simulation& TestRun::simulation() {
-  return *simulation_;
+  return session_.digest();
 }
 
 std::map<std::string, double> TestRun::metrics(const std::string& vehicle) const {
   static_cast<void>(truth(vehicle));  // says which vehicles there are
-  return simulation_->metrics().at(vehicle);
+  return session_.metrics().at(vehicle);
 }
 
 double TestRun::metric(const std::string& vehicle, const std::string& name) const {
@@ -88,13 +59,7 @@ double TestRun::metric(const std::string& vehicle, const std::string& name) cons
 
 template <class T>
 const T& TestRun::signal(const std::string& name) const {
-  std::vector<std::string> known;
-  for (const auto& signal : simulation_->bus().signals()) known.push_back(signal->name());
-  const SignalBase* signal = simulation_->bus().find(name);
-  if (!signal) {
-    throw ConfigError(
-        fmt::format("no signal '{}'{} (known: {})", name, did_you_mean(name, known), join(known)));
-  }
+  const SignalBase* signal = &session_.any_signal(name);
   const auto* typed = dynamic_cast<const Signal<T>*>(signal);
   if (!typed)
     throw ConfigError(fmt::format("signal '{}' is {}, not {}", name, signal->type(), T::kType));
@@ -249,12 +214,13 @@ std::string SmallWorld::yaml() const {
 }
 
 TestRun SmallWorld::build() const {
-  auto registry = built_in_registry();
+  auto registry = std::make_shared<Registry>();
+  register_all(*registry);
   for (const auto& plugin : impl_->plugins) load_plugin(plugin, *registry);
   for (const auto& [spec, make] : impl_->controllers) registry->add_controller(spec, make);
-  auto simulation = std::make_unique<Simulation>(
-      io::parse_scenario(yaml(), std::filesystem::current_path(), *registry), *registry);
-  return TestRun(std::move(registry), std::move(simulation));
+  const io::Scenario scenario =
+      io::parse_scenario(yaml(), std::filesystem::current_path(), *registry);
+  return TestRun(Session(scenario, std::move(registry)));
 }
 
 }  // namespace vinerow::testing

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/api/file_shelf.h"
 #include "engine/core/error.h"
 #include "vehicles/parts/validation.h"
 #include "vehicles/parts/wheel_parameters.h"
@@ -21,6 +22,27 @@ MotorParams default_motor() {
   motor.speed_integral_gain_Nm = 80.0;
   motor.brake_torque_Nm = 40.0;
   return motor;
+}
+
+/// The robot of a URDF file, meshes included.
+UrdfRoverModel read_model(const UrdfRoverParams& params, FileShelf* shelf) {
+  std::string key = file_mark(params.urdf);
+  for (const auto& [name, folder] : params.packages) {
+    key += fmt::format("{}={}\n", name, folder.string());
+  }
+  const auto urdf = keep<io::UrdfModel>(
+      shelf, key, [&] { return io::load_urdf(params.urdf, params.packages); });
+  for (const io::UrdfLink& link : urdf->links) {
+    for (const auto* shapes : {&link.visuals, &link.collisions}) {
+      for (const io::UrdfShape& shape : *shapes) {
+        if (shape.kind == io::UrdfShapeKind::kMesh) key += file_mark(shape.mesh_file);
+      }
+    }
+  }
+  key += fmt::format("{} {} {}", fmt::join(params.options.left_joints, ","),
+                     fmt::join(params.options.right_joints, ","), params.options.wheel_radius_m);
+  return *keep<UrdfRoverModel>(shelf, key,
+                               [&] { return read_urdf_rover(*urdf, params.options); });
 }
 
 BatteryParams default_battery() {
@@ -150,8 +172,8 @@ UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std
   return p;
 }
 
-UrdfRover::UrdfRover(const UrdfRoverParams& params, double gravity_mps2)
-    : model_(read_urdf_rover(io::load_urdf(params.urdf, params.packages), params.options)) {
+UrdfRover::UrdfRover(const UrdfRoverParams& params, double gravity_mps2, FileShelf* shelf)
+    : model_(read_model(params, shelf)) {
   describe(params);
   links_ = model_.links;
   build_platform(platform_params(params, model_, gravity_mps2));
@@ -182,7 +204,7 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
 std::unique_ptr<Vehicle> make_urdf_rover(const ParameterSet& parameters,
                                          const VehicleContext& context) {
   auto rover = std::make_unique<UrdfRover>(read_urdf_rover_params(parameters, context.vehicle),
-                                           context.gravity_mps2);
+                                           context.gravity_mps2, context.shelf);
   rover->feel_wind(context.random("wind"));
   return rover;
 }

@@ -38,8 +38,9 @@ UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std
 
 class UrdfRover final : public PlatformVehicle {
  public:
-  /// @throws ConfigError
-  explicit UrdfRover(const UrdfRoverParams& params, double gravity_mps2 = 9.80665);
+  /// @param shelf  where the file and its meshes are kept; null: nowhere. @throws ConfigError
+  explicit UrdfRover(const UrdfRoverParams& params, double gravity_mps2 = 9.80665,
+                     FileShelf* shelf = nullptr);
 
   const UrdfRoverModel& model() const { return model_; }
 

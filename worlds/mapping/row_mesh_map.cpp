@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/file_shelf.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
@@ -236,7 +237,9 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
   Surveyor surveyor(parameters, context);
   if (parameters.has("folder")) {
     check_folder_parameters(parameters);
-    map->meshes = load_meshes(parameters.text("folder"));
+    const std::string& folder = parameters.text("folder");
+    map->meshes = *keep<std::vector<RowMesh>>(context.shelf, file_mark(folder),
+                                              [&] { return load_meshes(folder); });
   } else {
     map->meshes = surveyor.survey(made);
   }

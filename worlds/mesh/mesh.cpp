@@ -228,6 +228,7 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
   world->name = "mesh";
   world->origin = read_origin(parameters);
   read_surroundings(parameters, context.seed, *world);
+  world->depends_on_seed = false;  // plants have a seed of their own
   const VinePlanting planting = read_planting(parameters);
 
   MeshLibrary library(*world);

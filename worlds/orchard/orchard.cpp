@@ -112,6 +112,7 @@ std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
   world->name = "orchard";
   world->origin = read_origin(parameters);
   read_surroundings(parameters, context.seed, *world);
+  world->depends_on_seed = false;  // plants and terrain have a seed of their own
 
   TerrainShape shape;
   shape.centre_W = 0.5 * Eigen::Vector2d(layout.field_width_m, layout.field_length_m);

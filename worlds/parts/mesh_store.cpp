@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 
@@ -32,6 +33,13 @@ void drop_degenerate(TriangleMesh& mesh) {
     return !(ab.cast<double>().cross(ac.cast<double>()).squaredNorm() > 0.0);
   };
   std::erase_if(mesh.triangles, flat);
+}
+
+/// A name that no other writer of this machine has: neither another process nor another thread that
+/// makes the same mesh at the same time.
+std::string partial_name_of(const std::string& name) {
+  static std::atomic<int> count = 0;
+  return fmt::format("{}.{}.{}.partial.ply", name, ::getpid(), ++count);
 }
 
 std::string file_name_of(std::string name) {
@@ -66,8 +74,7 @@ std::shared_ptr<const TriangleMesh> FileMeshStore::get(const std::string& name,
   if (io::is_intact_ply(file)) return known = read_back(file);
   TriangleMesh fresh = make();
   drop_degenerate(fresh);
-  const std::filesystem::path partial =
-      folder_ / fmt::format("{}.{}.{}.partial.ply", file_name_of(name), ::getpid(), files_written_);
+  const std::filesystem::path partial = folder_ / partial_name_of(file_name_of(name));
   io::write_ply(fresh, partial);
   std::error_code error;
   std::filesystem::rename(partial, file, error);

@@ -175,6 +175,7 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   world->name = "surveyed";
   world->origin = read_origin(parameters, mean_of_rows(survey.rows));
   read_surroundings(parameters, context.seed, *world);
+  world->depends_on_seed = false;  // plants and terrain have a seed of their own
   const io::LocalFrame frame(world->origin);
   const std::vector<RowCurve> rows = read_rows(survey.rows, frame, file);
 

@@ -240,6 +240,7 @@ std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& given, const World
   world->name = "vineyard";
   world->origin = read_origin(parameters);
   read_surroundings(parameters, context.seed, *world);
+  world->depends_on_seed = false;  // plants and terrain have a seed of their own
 
   const std::vector<RowCurve> rows = lay_rows(parameters);
   const std::vector<Eigen::Vector2d> boundary =

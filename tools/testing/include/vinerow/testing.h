@@ -22,11 +22,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/registry.h"
-
-namespace vinerow {
-class Simulation;
-}
+#include "vinerow/session.h"
 
 namespace vinerow::testing {
 
@@ -39,9 +35,6 @@ class TestRun {
                            const std::vector<std::string>& sets = {});
   /// A scenario text. @param folder  where its relative paths start
   static TestRun from_yaml(const std::string& yaml, const std::filesystem::path& folder = ".");
-  ~TestRun();
-  TestRun(TestRun&&) noexcept;
-  TestRun& operator=(TestRun&&) noexcept;
 
   /// Steps on by this much simulated time, or to the end of the mission. @throws SimulationError
   TestRun& run_for_s(double duration_s);
@@ -60,14 +53,15 @@ class TestRun {
   template <class T>
   const T& signal(const std::string& name) const;
   std::string digest() const;
-  Simulation& simulation();
+  /// The same run with all that it can do.
+  Session& session() { return session_; }
+  Simulation& simulation() { return session_.simulation(); }
 
  private:
   friend class SmallWorld;
-  TestRun(std::shared_ptr<Registry> registry, std::unique_ptr<Simulation> simulation);
+  explicit TestRun(Session session) : session_(std::move(session)) {}
 
-  std::shared_ptr<Registry> registry_;  // outlives the simulation's parts
-  std::unique_ptr<Simulation> simulation_;
+  Session session_;
 };
 
 /// Builds a TestRun: by default a flat block of two 20 m rows, 2.5 m apart, with one alley between

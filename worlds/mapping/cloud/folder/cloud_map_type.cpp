@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/api/file_shelf.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
@@ -133,8 +134,9 @@ RowMap map_in_world(CloudMap map, bool like_world, const MapContext& context,
 std::unique_ptr<RowMap> make_map_of_folder(const ParameterSet& parameters,
                                            const MapContext& context) {
   const std::string& folder = parameters.text("folder");
-  RowMap map =
-      map_in_world(load_map(folder), parameters.text("numbering") == "world", context, folder);
+  const auto read =
+      keep<CloudMap>(context.shelf, file_mark(folder), [&] { return load_map(folder); });
+  RowMap map = map_in_world(*read, parameters.text("numbering") == "world", context, folder);
   const bool anew = parameters.has("occupancy_cell_m") || parameters.has("virtual_walls") ||
                     parameters.has("first_wall");
   if (anew) draw_grid_anew(parameters, map);

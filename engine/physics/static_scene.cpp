@@ -1,0 +1,24 @@
+#include "engine/physics/static_scene.h"
+
+#include "engine/physics/check_world.h"
+#include "engine/physics/static_geometry.h"
+
+namespace vinerow::physics {
+namespace {
+
+std::shared_ptr<const WorldModel> checked(std::shared_ptr<const WorldModel> world) {
+  check_world(*world);
+  return world;
+}
+
+}  // namespace
+
+StaticScene::StaticScene(std::shared_ptr<const WorldModel> world)
+    : world_(checked(std::move(world))),
+      queries_(*world_),
+      normals_(*world_),
+      geometry_(std::make_unique<const StaticGeometry>(*world_)) {}
+
+StaticScene::~StaticScene() = default;
+
+}  // namespace vinerow::physics

@@ -1,0 +1,38 @@
+#pragma once
+/// All that physics prepares of a world and never changes: ray scene, trees, collision shapes, and
+/// which normals its surfaces can have.
+///
+/// Building it is most of the work of making a PhysicsWorld. Any number of them can stand on one
+/// scene, one after the other or side by side on several threads.
+
+#include <memory>
+
+#include "engine/api/world_model.h"
+#include "engine/physics/contact_normals.h"
+#include "engine/physics/world_scene.h"
+
+namespace vinerow::physics {
+
+class StaticGeometry;
+
+class StaticScene {
+ public:
+  /// @param world  not null; heights and meshes are read in place
+  /// @throws ConfigError on bad geometry, e.g. "mesh 'x' has no triangles"
+  explicit StaticScene(std::shared_ptr<const WorldModel> world);
+  ~StaticScene();
+
+  const WorldModel& world() const { return *world_; }
+  /// Rays and distances.
+  const WorldScene& queries() const { return queries_; }
+  const ContactNormals& normals() const { return normals_; }
+  const StaticGeometry& geometry() const { return *geometry_; }
+
+ private:
+  std::shared_ptr<const WorldModel> world_;
+  WorldScene queries_;
+  ContactNormals normals_;
+  std::unique_ptr<const StaticGeometry> geometry_;
+};
+
+}  // namespace vinerow::physics

@@ -1,0 +1,42 @@
+#include "engine/sim/built_world.h"
+
+#include "engine/sim/simulation.h"
+
+namespace vinerow {
+
+std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry,
+                                        FileShelf* shelf) {
+  WorldContext context;
+  context.part = "world";
+  context.seed = scenario.seed;
+  context.physics_step = scenario.physics_step;
+  context.gravity_mps2 = scenario.gravity_mps2;
+  context.shelf = shelf;
+  return registry.make_world(scenario.world.type, scenario.world.parameters, context);
+}
+
+BuiltWorld build_static_world(const io::Scenario& scenario, const Registry& registry,
+                              FileShelf* shelf) {
+  BuiltWorld world;
+  world.model = build_world(scenario, registry, shelf);
+  world.scene = std::make_shared<const physics::StaticScene>(world.model);
+  world.seed = scenario.seed;
+  return world;
+}
+
+BuiltWorld reseed_world(const BuiltWorld& world, const io::Scenario& scenario,
+                        const Registry& registry, FileShelf* shelf) {
+  if (world.seed == scenario.seed) return world;
+  if (world.model->depends_on_seed) return build_static_world(scenario, registry, shelf);
+  BuiltWorld result = world;
+  result.seed = scenario.seed;
+  if (world.model->wind.random_gust_interval_s > 0.0) {
+    // Meshes are shared between both; terrain and rows are copied.
+    auto model = std::make_shared<WorldModel>(*world.model);
+    model->wind.random_gust_seed = scenario.seed;
+    result.model = std::move(model);
+  }
+  return result;
+}
+
+}  // namespace vinerow

@@ -1,0 +1,221 @@
+#include "engine/sim/session.h"
+
+#include <fmt/format.h>
+
+#include "engine/api/file_shelf.h"
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+#include "engine/io/scenario_seed.h"
+#include "engine/sim/simulation.h"
+#include "engine/sim/vehicle_runtime.h"
+
+namespace vinerow {
+
+struct Session::Impl {
+  class EventCollector final : public RunObserver {
+   public:
+    void on_event(Time now, const Event& event) override { events.push_back({now, event}); }
+    std::vector<SessionEvent> events;
+  };
+  /// A run and what listens to it.
+  struct Run {
+    Run(const io::Scenario& scenario, const Registry& registry, SimulationSetup setup)
+        : simulation(scenario, registry, std::move(setup)) {
+      simulation.add_observer(&events);
+    }
+    EventCollector events;
+    Simulation simulation;
+  };
+
+  std::shared_ptr<const Registry> registry;
+  SessionOptions options;
+  std::shared_ptr<FileShelf> shelf;  ///< outlives the run
+  std::unique_ptr<Run> run;
+  std::map<std::string, std::shared_ptr<SignalSlot>> slots;
+  std::string broken;  ///< why the run goes no further; empty: it does
+
+  ~Impl() {
+    for (const auto& [name, slot] : slots) slot->signal = nullptr;
+  }
+
+  void begin(const io::Scenario& scenario, std::optional<BuiltWorld> world) {
+    SimulationSetup setup;
+    setup.products = options.products;
+    setup.world = std::move(world);
+    setup.outside = options.outside;
+    setup.shelf = shelf.get();
+    // The old run stays until the new one is there: what throws here changes nothing.
+    run = std::make_unique<Run>(scenario, *registry, std::move(setup));
+    broken.clear();
+    for (const auto& [name, slot] : slots) slot->signal = run->simulation.bus().find(name);
+  }
+
+  const SignalBase& find(const std::string& name) const {
+    const SignalBus& bus = run->simulation.bus();
+    if (const SignalBase* signal = bus.find(name)) return *signal;
+    std::vector<std::string> known;
+    for (const auto& signal : bus.signals()) known.push_back(signal->name());
+    throw ConfigError(fmt::format("no signal '{}'{} (known: {})", name, did_you_mean(name, known),
+                                  join(known)));
+  }
+
+  void demand_going(const char* what) const {
+    const Simulation& simulation = run->simulation;
+    if (!broken.empty()) {
+      throw ConfigError(fmt::format("{}: session '{}' broke off: {}; reset() begins again", what,
+                                    simulation.scenario().name, broken));
+    }
+    if (simulation.over()) {
+      throw ConfigError(fmt::format("{}: session '{}' is over at {:.9g} s; reset() begins again",
+                                    what, simulation.scenario().name, simulation.now().s()));
+    }
+  }
+};
+
+Session::Session(const io::Scenario& scenario, std::shared_ptr<const Registry> registry,
+                 SessionOptions options)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->registry = std::move(registry);
+  impl_->options = std::move(options);
+  impl_->shelf = std::make_shared<FileShelf>();
+  impl_->begin(scenario, std::nullopt);
+}
+
+Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+Session Session::twin() const {
+  auto twin = std::make_unique<Impl>();
+  twin->registry = impl_->registry;
+  twin->options = impl_->options;
+  twin->options.products.clear();
+  twin->shelf = impl_->shelf;
+  twin->begin(scenario(), simulation().built_world());
+  return Session(std::move(twin));
+}
+
+void Session::reset(std::uint64_t seed) {
+  const io::Scenario next = io::with_seed(scenario(), seed);
+  impl_->begin(next, reseed_world(simulation().built_world(), next, *impl_->registry,
+                                  impl_->shelf.get()));
+}
+
+void Session::reset() {
+  reset(seed());
+}
+
+void Session::advance(Time until) {
+  impl_->demand_going("advance");
+  try {
+    impl_->run->simulation.run_until(until);
+  } catch (const std::exception& error) {
+    impl_->broken = error.what();
+    throw;
+  }
+}
+
+void Session::advance_for(Duration duration) {
+  advance(now() + duration - step());
+}
+
+Time Session::now() const {
+  return simulation().now();
+}
+
+Duration Session::step() const {
+  return scenario().physics_step;
+}
+
+std::uint64_t Session::steps() const {
+  return simulation().steps();
+}
+
+bool Session::over() const {
+  return simulation().over();
+}
+
+bool Session::finished() const {
+  return simulation().finished();
+}
+
+void Session::command(OutsideCommand command) {
+  impl_->demand_going("command");
+  impl_->run->simulation.command(std::move(command));
+}
+
+std::shared_ptr<const SignalSlot> Session::slot(const std::string& name, const char* type) {
+  const SignalBase& signal = impl_->find(name);
+  if (std::string_view(signal.type()) != type) {
+    throw ConfigError(fmt::format("signal '{}' is {}, not {}", name, signal.type(), type));
+  }
+  std::shared_ptr<SignalSlot>& slot = impl_->slots[name];
+  if (!slot) slot = std::make_shared<SignalSlot>(SignalSlot{name, &signal});
+  return slot;
+}
+
+const SignalBase& Session::any_signal(const std::string& name) const {
+  return impl_->find(name);
+}
+
+std::vector<SignalInfo> Session::signals() const {
+  std::vector<SignalInfo> all;
+  for (const auto& signal : simulation().bus().signals()) {
+    all.push_back({signal->name(), signal->type(), signal->writer()});
+  }
+  return all;
+}
+
+std::vector<std::string> Session::vehicles() const {
+  std::vector<std::string> names;
+  for (const auto& vehicle : simulation().vehicles()) names.push_back(vehicle->name());
+  return names;
+}
+
+std::map<std::string, std::map<std::string, double>> Session::metrics() const {
+  return simulation().metrics();
+}
+
+std::vector<SessionCrash> Session::crashes() const {
+  std::vector<SessionCrash> all;
+  for (const Crash& crash : simulation().crashes()) {
+    all.push_back({crash.vehicle, crash.time, crash.text});
+  }
+  return all;
+}
+
+std::vector<SessionPhase> Session::phases() const {
+  std::vector<SessionPhase> all;
+  for (const PhaseReport& phase : simulation().phases()) {
+    all.push_back({phase.name, to_string(phase.state), phase.begin, phase.end, phase.reason,
+                   phase.numbers});
+  }
+  return all;
+}
+
+std::vector<SessionEvent> Session::take_events() {
+  return std::exchange(impl_->run->events.events, {});
+}
+
+std::string Session::digest() const {
+  return simulation().digest();
+}
+
+std::uint64_t Session::seed() const {
+  return scenario().seed;
+}
+
+const io::Scenario& Session::scenario() const {
+  return simulation().scenario();
+}
+
+Simulation& Session::simulation() {
+  return impl_->run->simulation;
+}
+
+const Simulation& Session::simulation() const {
+  return impl_->run->simulation;
+}
+
+}  // namespace vinerow

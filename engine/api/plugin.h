@@ -9,7 +9,7 @@
 #include "engine/api/registry.h"
 
 /// Raised whenever a class or struct in engine/api changes its layout or virtual functions.
-#define VINEROW_ABI_VERSION 8
+#define VINEROW_ABI_VERSION 9
 
 /// ABI tag: our version, and the compiler's C++ ABI, so that a plug-in built otherwise is refused
 /// by name.

@@ -9,8 +9,8 @@
 namespace vinerow {
 
 PartSpec dwa_spec();
-/// @throws ConfigError for a vehicle that does not tell front_axle_m, rear_axle_m,
-/// max_axle_steer_rad, steer_rate_radps and max_speed_mps, or circles that do not hold its outline
+/// @throws ConfigError for a vehicle without steered axles (SteeredVehicle) or max_speed_mps, or
+/// circles that do not hold its outline
 std::unique_ptr<Guidance> make_dwa(const ParameterSet& parameters,
                                    const ControllerContext& context);
 

@@ -38,7 +38,7 @@ double calc_score(const DwaTerms& terms, const DwaCost& cost) {
 }
 
 void calc_sweep(const AxleAngles& steering, const AxleAngles& target,
-                const FourWheelGeometry& geometry, double step_s, SteeringSweep* out) {
+                const SteeredVehicle& geometry, double step_s, SteeringSweep* out) {
   const double most_rad = geometry.steer_rate_radps * step_s;
   AxleAngles now = steering;
   out->count = 0;
@@ -83,7 +83,7 @@ void roll_out(const Pose2& start, double v_mps, const SteeringSweep& sweep, doub
 }
 
 void roll_out(const Pose2& start, double v_mps, const AxleAngles& steering,
-              const AxleAngles& target, const FourWheelGeometry& geometry, double horizon_s,
+              const AxleAngles& target, const SteeredVehicle& geometry, double horizon_s,
               double step_s, Rollout* out) {
   SteeringSweep sweep;
   calc_sweep(steering, target, geometry, step_s, &sweep);
@@ -117,7 +117,7 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
   const double reach_mps = params_.acceleration_mps2 * params_.window_s;
   const double v_low = std::clamp(state.v_mps - reach_mps, task.v_low_mps, task.v_high_mps);
   const double v_high = std::clamp(state.v_mps + reach_mps, task.v_low_mps, task.v_high_mps);
-  const double limit = params_.geometry.max_steer_rad;
+  const double limit = params_.geometry.max_axle_steer_rad;
   const double turn_rad = params_.geometry.steer_rate_radps * params_.window_s;
   const auto window = [&](double angle_rad) {
     return std::pair{std::clamp(angle_rad - turn_rad, -limit, limit),

@@ -42,7 +42,7 @@ struct DwaTerms {
 double calc_score(const DwaTerms& terms, const DwaCost& cost);
 
 struct DwaParams {
-  FourWheelGeometry geometry;
+  SteeredVehicle geometry;
   double acceleration_mps2 = 0.5;
   double window_s = 0.2;   ///< the dynamic window: what can be reached in this time
   double horizon_s = 1.4;  ///< of the rollouts
@@ -74,14 +74,14 @@ struct SteeringSweep {
   std::array<Step, Rollout::kMost> steps;
 };
 void calc_sweep(const AxleAngles& steering, const AxleAngles& target,
-                const FourWheelGeometry& geometry, double step_s, SteeringSweep* out);
+                const SteeredVehicle& geometry, double step_s, SteeringSweep* out);
 
 /// Drives `v_mps` through a sweep.
 void roll_out(const Pose2& start, double v_mps, const SteeringSweep& sweep, double horizon_s,
               double step_s, Rollout* out);
 /// Drives `v_mps` (negative: backwards) while the axles turn to `target` at their rate.
 void roll_out(const Pose2& start, double v_mps, const AxleAngles& steering,
-              const AxleAngles& target, const FourWheelGeometry& geometry, double horizon_s,
+              const AxleAngles& target, const SteeredVehicle& geometry, double horizon_s,
               double step_s, Rollout* out);
 
 /// A command and what it is worth.

@@ -14,16 +14,6 @@ std::string who(const ControllerContext& context) {
   return context.part + " (dwa)";
 }
 
-double read_positive(const ControllerContext& context, const char* name) {
-  const VehicleDescription& vehicle = *context.vehicle_description;
-  const double value = vehicle.number(name, who(context));
-  if (!(value > 0.0)) {
-    throw ConfigError(fmt::format("{}: '{}' of vehicle type '{}' is {}, must be > 0", who(context),
-                                  name, vehicle.type, value));
-  }
-  return value;
-}
-
 }  // namespace
 
 std::vector<ParameterSpec> dwa_parameters() {
@@ -90,16 +80,22 @@ std::vector<ParameterSpec> dwa_parameters() {
 DwaGuideParams read_dwa_params(const ParameterSet& parameters, const ControllerContext& context) {
   DwaGuideParams params;
   params.mode = parameters.text("mode") == "pure" ? DwaMode::kPure : DwaMode::kAssist;
-  FourWheelGeometry& geometry = params.law.geometry;
-  geometry.front_axle_m = read_positive(context, "front_axle_m");
-  geometry.rear_axle_m = read_positive(context, "rear_axle_m");
-  geometry.max_steer_rad = read_positive(context, "max_axle_steer_rad");
-  geometry.steer_rate_radps = read_positive(context, "steer_rate_radps");
-  params.speed_limit_mps = read_positive(context, "max_speed_mps");
-  if (geometry.max_steer_rad >= 0.5 * kPi) {
+  const VehicleDescription& vehicle = *context.vehicle_description;
+  SteeredVehicle& geometry = params.law.geometry;
+  geometry = vehicle.need_steered(who(context));
+  const auto demand = [&](double value, const char* name) {
+    return vehicle.need_positive(value, name, who(context));
+  };
+  demand(geometry.front_axle_m, "front_axle_m");
+  demand(geometry.rear_axle_m, "rear_axle_m");
+  demand(geometry.max_axle_steer_rad, "max_axle_steer_rad");
+  demand(geometry.steer_rate_radps, "steer_rate_radps");
+  params.speed_limit_mps = demand(
+      vehicle.need(vehicle.max_speed_mps, "max_speed_mps", who(context)), "max_speed_mps");
+  if (geometry.max_axle_steer_rad >= 0.5 * kPi) {
     throw ConfigError(
         fmt::format("{}: 'max_axle_steer_rad' of vehicle type '{}' is {}, must be < pi/2",
-                    who(context), context.vehicle_description->type, geometry.max_steer_rad));
+                    who(context), vehicle.type, geometry.max_axle_steer_rad));
   }
   params.speed_mps = parameters.number("speed_mps");
   params.law.acceleration_mps2 = parameters.number("acceleration_mps2");
@@ -130,7 +126,7 @@ DwaGuideParams read_dwa_params(const ParameterSet& parameters, const ControllerC
   params.plan.obstacle_margin_m = parameters.number("obstacle_margin_m");
   params.plan.lane_most_m = parameters.number("pass_m");
   params.plan.fade_m = parameters.number("fade_m");
-  params.plan.crab_slope = std::tan(geometry.max_steer_rad);
+  params.plan.crab_slope = std::tan(geometry.max_axle_steer_rad);
   params.reverse_speed_mps =
       std::min(parameters.number("reverse_speed_mps"), params.speed_limit_mps);
   params.recovery.reverse_s = parameters.number("reverse_s");

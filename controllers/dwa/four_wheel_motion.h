@@ -10,23 +10,16 @@
 
 #include "controllers/parts/axle_angles.h"
 #include "controllers/parts/pose2.h"
+#include "engine/api/vehicle_kinds.h"
 
 namespace vinerow {
-
-/// Where the axles are and how they steer.
-struct FourWheelGeometry {
-  double front_axle_m = 0.75;  ///< a, > 0
-  double rear_axle_m = 0.75;   ///< b, > 0: distance, not coordinate
-  double max_steer_rad = 0.4;
-  double steer_rate_radps = 2.0;
-};
 
 struct RollingMotion {
   double course_rad = 0.0;       ///< direction of travel of the centre from the nose
   double curvature_per_m = 0.0;  ///< heading change per metre that the centre travels
 };
 
-inline RollingMotion calc_motion(const AxleAngles& steering, const FourWheelGeometry& geometry) {
+inline RollingMotion calc_motion(const AxleAngles& steering, const SteeredVehicle& geometry) {
   const AxleRoll roll = calc_axle_roll(geometry.front_axle_m, geometry.rear_axle_m, steering);
   return {std::atan(roll.drift), roll.curvature_per_m / std::sqrt(1.0 + roll.drift * roll.drift)};
 }

@@ -29,8 +29,10 @@ class OdometryFilter final : public Estimator {
     const auto& antenna = parameters.numbers("antenna_m");
     p_BA_ = {antenna[0], antenna[1], antenna[2]};
     if (source_ == Source::kWheels) {
-      wheel_radius_m_ = context.vehicle_description->number("wheel_radius_m",
-                                                            context.part + " (odometry_filter)");
+      const std::string who = context.part + " (odometry_filter)";
+      const VehicleDescription& vehicle = *context.vehicle_description;
+      wheel_radius_m_ =
+          vehicle.need_positive(vehicle.need_wheeled(who).wheel_radius_m, "wheel_radius_m", who);
       for (const ActuatorSpec& actuator : context.vehicle_description->actuators) {
         const double side = side_of_wheel(actuator.name);
         if (side != 0.0) wheels_.push_back({actuator.name, side, -1});

@@ -10,7 +10,8 @@
 namespace vinerow {
 
 WheelSpeed::WheelSpeed(const VehicleDescription& description, const std::string& who)
-    : radius_m_(description.number("wheel_radius_m", who)) {
+    : radius_m_(description.need_positive(description.need_wheeled(who).wheel_radius_m,
+                                         "wheel_radius_m", who)) {
   int lefts = 0, rights = 0;
   for (const ActuatorSpec& actuator : description.actuators) {
     const double side = side_of_wheel(actuator.name);

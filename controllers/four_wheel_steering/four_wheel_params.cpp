@@ -53,14 +53,14 @@ std::vector<ParameterSpec> four_wheel_parameters() {
 }
 
 FourWheelParams read_four_wheel_params(const ParameterSet& parameters,
-                                       const SteeredVehicle& vehicle, double cycle_s) {
+                                       const SteeredDrive& vehicle, double cycle_s) {
   FourWheelParams params;
   const bool is_printed = parameters.text("form") == "printed";
   params.steering.form = is_printed ? SteeringForm::kPrinted : SteeringForm::kCorrected;
   params.steering.lateral_gain_radpm = parameters.number("lateral_gain_rad_per_m");
   params.steering.heading_gain_per_m = parameters.number("heading_gain_per_m");
   params.steering.course_share = parameters.number("course_share");
-  params.steering.max_axle_rad = vehicle.max_axle_rad;
+  params.steering.max_axle_rad = vehicle.max_axle_steer_rad;
   params.feed_forward = parameters.boolean("feed_forward") && !is_printed;
   params.reference.swing_s = kSwingReserve * vehicle.swing_s();
   // A command is reached at the end of its cycle.

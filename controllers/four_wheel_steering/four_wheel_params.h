@@ -26,6 +26,6 @@ struct FourWheelParams {
 std::vector<ParameterSpec> four_wheel_parameters();
 
 FourWheelParams read_four_wheel_params(const ParameterSet& parameters,
-                                       const SteeredVehicle& vehicle, double cycle_s);
+                                       const SteeredDrive& vehicle, double cycle_s);
 
 }  // namespace vinerow

@@ -132,7 +132,7 @@ class FourWheelSteering final : public Controller {
   }
 
   double cut(double angle_rad) const {
-    return std::clamp(angle_rad, -vehicle_.max_axle_rad, vehicle_.max_axle_rad);
+    return std::clamp(angle_rad, -vehicle_.max_axle_steer_rad, vehicle_.max_axle_steer_rad);
   }
 
   void learn() {
@@ -217,7 +217,7 @@ class FourWheelSteering final : public Controller {
   }
 
   std::string part_;
-  SteeredVehicle vehicle_;
+  SteeredDrive vehicle_;
   FourWheelParams params_;
   PathTracker tracker_;
   DriveProfile profile_;

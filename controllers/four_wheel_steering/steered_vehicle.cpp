@@ -29,13 +29,6 @@ void demand_actuators(const VehicleDescription& description, const std::string& 
   }
 }
 
-double positive(const VehicleDescription& description, const char* name, const std::string& who) {
-  const double value = description.number(name, who);
-  if (value > 0.0) return value;
-  throw ConfigError(fmt::format("{}: vehicle type '{}' tells {} = {}, must be > 0", who,
-                                description.type, name, value));
-}
-
 /// The limit that the actuator has on both sides.
 double actuator_limit(const VehicleDescription& description, const char* name,
                       const std::string& who) {
@@ -50,34 +43,38 @@ int find(const NamedValues& values, const char* name) {
 
 }  // namespace
 
-SteeredVehicle read_steered_vehicle(const VehicleDescription& description, const std::string& who) {
+SteeredDrive read_steered_vehicle(const VehicleDescription& description, const std::string& who) {
   demand_actuators(description, who);
-  SteeredVehicle vehicle;
-  vehicle.geometry.front_m = positive(description, "front_axle_m", who);
-  vehicle.geometry.rear_m = positive(description, "rear_axle_m", who);
-  vehicle.geometry.track_m = positive(description, "track_m", who);
-  vehicle.geometry.wheel_radius_m = positive(description, "wheel_radius_m", who);
-  vehicle.steer_rate_radps = positive(description, "steer_rate_radps", who);
-  const auto lag = description.numbers.find("steer_lag_s");
-  if (lag != description.numbers.end()) vehicle.steer_lag_s = std::max(lag->second, 0.0);
-  vehicle.max_axle_rad = positive(description, "max_axle_steer_rad", who);
+  const WheeledVehicle& wheeled = description.need_wheeled(who);
+  SteeredDrive vehicle{description.need_steered(who)};
+  const auto positive = [&](double value, const char* name) {
+    return description.need_positive(value, name, who);
+  };
+  vehicle.geometry = {positive(vehicle.front_axle_m, "front_axle_m"),
+                      positive(vehicle.rear_axle_m, "rear_axle_m"),
+                      positive(wheeled.track_m, "track_m"),
+                      positive(wheeled.wheel_radius_m, "wheel_radius_m")};
+  positive(vehicle.steer_rate_radps, "steer_rate_radps");
+  vehicle.steer_lag_s = std::max(vehicle.steer_lag_s, 0.0);
+  positive(vehicle.max_axle_steer_rad, "max_axle_steer_rad");
   for (const char* axle : {kActuators[0], kActuators[1]}) {
-    vehicle.max_axle_rad = std::min(vehicle.max_axle_rad, actuator_limit(description, axle, who));
+    vehicle.max_axle_steer_rad =
+        std::min(vehicle.max_axle_steer_rad, actuator_limit(description, axle, who));
   }
-  double wheel_radps = positive(description, "wheel_speed_limit_radps", who);
+  double wheel_radps = positive(wheeled.wheel_speed_limit_radps, "wheel_speed_limit_radps");
   for (int i = 2; i < 6; ++i) {
     wheel_radps = std::min(wheel_radps, actuator_limit(description, kActuators[i], who));
   }
-  vehicle.rim_max_mps = wheel_radps * vehicle.geometry.wheel_radius_m;
+  vehicle.rim_max_mps = wheel_radps * wheeled.wheel_radius_m;
   // Past 60 deg the inner wheel of any usual track stands across.
   constexpr double kLargest_rad = 1.05;
-  if (vehicle.max_axle_rad <= 0.0 || vehicle.max_axle_rad > kLargest_rad ||
+  if (vehicle.max_axle_steer_rad <= 0.0 || vehicle.max_axle_steer_rad > kLargest_rad ||
       vehicle.rim_max_mps <= 0.0) {
     throw ConfigError(
         fmt::format("{}: vehicle type '{}' has axles that turn by {} rad and wheels that turn at "
                     "{} rad/s, must "
                     "be > 0 and the first <= {} rad",
-                    who, description.type, vehicle.max_axle_rad, wheel_radps, kLargest_rad));
+                    who, description.type, vehicle.max_axle_steer_rad, wheel_radps, kLargest_rad));
   }
   return vehicle;
 }

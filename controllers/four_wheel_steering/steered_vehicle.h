@@ -9,22 +9,19 @@
 
 namespace vinerow {
 
-struct SteeredVehicle {
-  AxleGeometry geometry;
-  double max_axle_rad = 0.0;
-  double steer_rate_radps = 0.0;
-  double steer_lag_s = 0.0;  ///< first-order lag of the steering servos
+/// The vehicle's record with what driving it takes besides; max_axle_steer_rad is cut to the range
+/// of both axles' actuators.
+struct SteeredDrive : SteeredVehicle {
+  AxleGeometry geometry{};   ///< of the wheels' and the axles' records, for the formulas
   double rim_max_mps = 0.0;  ///< wheel speed limit times wheel radius
 
   /// Time to swing the axles from one limit to the other.
-  double swing_s() const { return 2.0 * max_axle_rad / steer_rate_radps; }
+  double swing_s() const { return 2.0 * max_axle_steer_rad / steer_rate_radps; }
 };
 
 /// @param who  part that asks, e.g. "rover.controller (four_wheel_steering)"
-/// Reads track_m, front_axle_m, rear_axle_m, wheel_radius_m, max_axle_steer_rad, steer_rate_radps,
-/// wheel_speed_limit_radps and, where told, steer_lag_s.
-/// @throws ConfigError if an actuator or a number is missing or not positive
-SteeredVehicle read_steered_vehicle(const VehicleDescription& description, const std::string& who);
+/// @throws ConfigError if an actuator or a record is missing or a number of it is not positive
+SteeredDrive read_steered_vehicle(const VehicleDescription& description, const std::string& who);
 
 /// The six actuators by name, all zero: front axle, rear axle, wheels fl, fr, rl, rr.
 NamedValues make_steered_actuators();
@@ -33,7 +30,7 @@ NamedValues make_steered_actuators();
 /// with the vehicle's lag and rate limit.
 class AxleState {
  public:
-  explicit AxleState(const SteeredVehicle& vehicle)
+  explicit AxleState(const SteeredDrive& vehicle)
       : rate_radps_(vehicle.steer_rate_radps), lag_s_(vehicle.steer_lag_s) {}
 
   /// The cycle that ends now was spent turning towards the last command.

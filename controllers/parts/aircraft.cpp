@@ -28,25 +28,19 @@ AircraftControls Aircraft::limit(const AircraftControls& controls) const {
 
 Aircraft read_aircraft(const VehicleDescription& description, double gravity_mps2,
                        const std::string& who) {
-  if (!description.flight_model) {
-    throw ConfigError(fmt::format("{}: vehicle type '{}' has no wings", who, description.type));
+  Aircraft aircraft{description.need_fixed_wing(who), description.type, gravity_mps2};
+  if (!aircraft.flight_model) {
+    throw ConfigError(fmt::format("{} needs 'flight_model', which vehicle type '{}' does not tell",
+                                  who, description.type));
   }
-  Aircraft aircraft;
-  aircraft.type = description.type;
-  aircraft.model = description.flight_model;
-  aircraft.gravity_mps2 = gravity_mps2;
-  aircraft.span_m = description.number("wing_span_m", who);
-  aircraft.cruise_speed_mps = description.number("cruise_speed_mps", who);
-  aircraft.stall_speed_mps = description.number("stall_speed_mps", who);
-  aircraft.max_bank_rad = description.number("max_bank_rad", who);
-  aircraft.throttle_lag_s = description.number("throttle_lag_s", who);
-  aircraft.elevon_lag_s = description.number("elevon_lag_s", who);
-  const auto told = [&](const char* name, double otherwise) {
-    const auto found = description.numbers.find(name);
-    return found == description.numbers.end() ? otherwise : found->second;
+  const auto demand = [&](double value, const char* name) {
+    description.need_positive(value, name, who);
   };
-  aircraft.air_density_kgm3 = told("air_density_kgm3", aircraft.air_density_kgm3);
-  aircraft.wing_area_m2 = told("wing_area_m2", 0.0);
+  demand(aircraft.span_m, "span_m");
+  demand(aircraft.air_density_kgm3, "air_density_kgm3");
+  demand(aircraft.cruise_speed_mps, "cruise_speed_mps");
+  demand(aircraft.stall_speed_mps, "stall_speed_mps");
+  demand(aircraft.max_bank_rad, "max_bank_rad");
   aircraft.throttle = description.actuator_index("throttle", who);
   aircraft.elevon_left = description.actuator_index("elevon_left_rad", who);
   aircraft.elevon_right = description.actuator_index("elevon_right_rad", who);

@@ -7,11 +7,9 @@
 /// down; u, v, w of the velocity, p, q, r of the rates, phi, theta, psi with psi clockwise. So from
 /// B (x forward, y left, z up): v = -v_y, w = -v_z, q = -w_y, r = -w_z, and psi = -yaw.
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "engine/api/flight_model.h"
 #include "engine/api/vehicle.h"
 
 namespace vinerow {
@@ -22,20 +20,12 @@ struct AircraftControls {
   double aileron_rad = 0.0;
 };
 
-struct Aircraft {
+/// The vehicle's record with what flying it takes besides.
+struct Aircraft : FixedWingAircraft {
   std::string type;
-  std::shared_ptr<const FlightModel> model;
   double gravity_mps2 = 9.80665;
-  double air_density_kgm3 = 1.225;                      ///< "air_density_kgm3", where told
-  double wing_area_m2 = 0.0;                            ///< "wing_area_m2"; 0: not told
-  double span_m = 0.0;                                  ///< "wing_span_m"
-  double cruise_speed_mps = 0.0;                        ///< "cruise_speed_mps"
-  double stall_speed_mps = 0.0;                         ///< "stall_speed_mps", level flight
-  double max_bank_rad = 0.0;                            ///< "max_bank_rad"
-  double throttle_lag_s = 0.0;                          ///< "throttle_lag_s"
-  double elevon_lag_s = 0.0;                            ///< "elevon_lag_s"
   int throttle = 0, elevon_left = 1, elevon_right = 2;  ///< in the actuator vector
-  std::vector<ActuatorSpec> actuators;
+  std::vector<ActuatorSpec> actuators{};
 
   double throttle_min() const { return actuators[static_cast<std::size_t>(throttle)].min; }
   double throttle_max() const { return actuators[static_cast<std::size_t>(throttle)].max; }
@@ -50,9 +40,9 @@ struct Aircraft {
   AircraftControls limit(const AircraftControls& controls) const;
 };
 
-/// Actuators "throttle", "elevon_left_rad", "elevon_right_rad" and the numbers above.
-/// @throws ConfigError "plane.controller (trmpc): vehicle type 'quadrotor' has no wings" and, by
-/// VehicleDescription::number, what it does not tell
+/// The record and the actuators "throttle", "elevon_left_rad", "elevon_right_rad".
+/// @throws ConfigError "plane.controller (trmpc) needs a vehicle with wings; vehicle type
+/// 'quadrotor' has rotors"; a number of the record or an actuator is missing
 Aircraft read_aircraft(const VehicleDescription& description, double gravity_mps2,
                        const std::string& who);
 

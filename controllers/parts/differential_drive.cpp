@@ -43,8 +43,9 @@ DifferentialDrive::DifferentialDrive(const VehicleDescription& description,
                     "wheel_right_speed_radps, ...), but vehicle type '{}' has the actuators {}",
                     who, description.type, names.empty() ? "none" : join(names)));
   }
-  track_m_ = description.number("track_m", who);
-  wheel_radius_m_ = description.number("wheel_radius_m", who);
+  const WheeledVehicle& wheeled = description.need_wheeled(who);
+  track_m_ = description.need_positive(wheeled.track_m, "track_m", who);
+  wheel_radius_m_ = description.need_positive(wheeled.wheel_radius_m, "wheel_radius_m", who);
 }
 
 NamedValues DifferentialDrive::make_actuators() const {

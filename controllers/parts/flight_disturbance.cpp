@@ -17,8 +17,8 @@ Eigen::Vector3d limit_length(const Eigen::Vector3d& v, double max) {
 
 }  // namespace
 
-FlightDisturbance::FlightDisturbance(const Rotorcraft& craft, double time_s, bool learns_torque,
-                                     double period_s)
+FlightDisturbance::FlightDisturbance(const RotorcraftModel& craft, double time_s,
+                                     bool learns_torque, double period_s)
     : craft_(craft),
       gain_(time_s > 0.0 ? 1.0 - std::exp(-period_s / time_s) : 0.0),
       learns_torque_(learns_torque),

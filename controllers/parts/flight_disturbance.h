@@ -18,7 +18,8 @@ namespace vinerow {
 class FlightDisturbance {
  public:
   /// @param time_s  0: learns nothing
-  FlightDisturbance(const Rotorcraft& craft, double time_s, bool learns_torque, double period_s);
+  FlightDisturbance(const RotorcraftModel& craft, double time_s, bool learns_torque,
+                    double period_s);
 
   /// Forgets everything.
   void reset();
@@ -32,7 +33,7 @@ class FlightDisturbance {
   const Eigen::Vector3d& angular_B() const { return angular_B_; }
 
  private:
-  Rotorcraft craft_;
+  RotorcraftModel craft_;
   double gain_;
   bool learns_torque_;
   double period_s_;

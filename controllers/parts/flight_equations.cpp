@@ -16,7 +16,7 @@ Eigen::Vector3d turn_over(const Eigen::Vector3d& vector) {
 FlightEquations::FlightEquations(const Aircraft& aircraft)
     : aircraft_(aircraft), actuators_(aircraft.actuators.size(), 0.0) {
   const Eigen::DiagonalMatrix<double, 3> turn(1.0, -1.0, -1.0);
-  inertia_ = turn * aircraft.model->inertia_B() * turn;
+  inertia_ = turn * aircraft.flight_model->inertia_B() * turn;
   inertia_inverse_ = inertia_.inverse();
 }
 
@@ -24,7 +24,7 @@ AirLoad FlightEquations::load(const Eigen::Vector3d& air_velocity_mps,
                               const Eigen::Vector3d& rates_radps,
                               const AircraftControls& controls) {
   aircraft_.mix(controls, actuators_);
-  AirLoad load = aircraft_.model->load(
+  AirLoad load = aircraft_.flight_model->load(
       {turn_over(air_velocity_mps), turn_over(rates_radps), aircraft_.air_density_kgm3},
       actuators_);
   load.force_B = turn_over(load.force_B);
@@ -41,7 +41,7 @@ AirState FlightEquations::derivative(const AirState& x, const AircraftControls& 
   // The vertical, downwards, in body axes.
   const Eigen::Vector3d down(-sin_theta, sin_phi * cos_theta, cos_phi * cos_theta);
   AirState rate;
-  rate.segment<3>(kAirU) = air.force_B / aircraft_.model->mass_kg() +
+  rate.segment<3>(kAirU) = air.force_B / aircraft_.flight_model->mass_kg() +
                            aircraft_.gravity_mps2 * down - rates.cross(velocity);
   rate.segment<3>(kAirP) = inertia_inverse_ * (air.torque_B - rates.cross(inertia_ * rates));
   const double turning = sin_phi * rates.y() + cos_phi * rates.z();

@@ -24,7 +24,7 @@ std::vector<ParameterSpec> flight_limit_parameters() {
   };
 }
 
-FlightLimits read_flight_limits(const ParameterSet& parameters, const Rotorcraft& craft,
+FlightLimits read_flight_limits(const ParameterSet& parameters, const RotorcraftModel& craft,
                                 const RotorMixer& mixer) {
   const double weight_N = craft.mass_kg * craft.gravity_mps2;
   FlightLimits limits;

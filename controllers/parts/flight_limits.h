@@ -24,7 +24,7 @@ struct FlightLimits {
 std::vector<ParameterSpec> flight_limit_parameters();
 
 /// max_thrust is cut to what the rotors have. The parameters' ranges leave room about the weight.
-FlightLimits read_flight_limits(const ParameterSet& parameters, const Rotorcraft& craft,
+FlightLimits read_flight_limits(const ParameterSet& parameters, const RotorcraftModel& craft,
                                 const RotorMixer& mixer);
 
 }  // namespace vinerow

@@ -12,7 +12,7 @@
 namespace vinerow {
 namespace {
 
-Rotorcraft read_craft(const ControllerContext& context, const std::string& who) {
+RotorcraftModel read_craft(const ControllerContext& context, const std::string& who) {
   VINEROW_DEMAND(context.vehicle_description != nullptr);
   if (context.period.ns <= 0) throw ConfigError(fmt::format("{}: rate_Hz must be > 0", who));
   return read_rotorcraft(*context.vehicle_description, context.gravity_mps2, who);

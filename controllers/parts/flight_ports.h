@@ -13,12 +13,12 @@ namespace vinerow {
 
 class FlightPorts {
  public:
-  /// @throws ConfigError if the vehicle has no rotors: "vehicle type 'x' does not tell ..."
+  /// @throws ConfigError if the vehicle has no rotors
   FlightPorts(const ControllerContext& context, const std::string& type);
 
   void connect(Ports& ports);
 
-  const Rotorcraft& craft() const { return craft_; }
+  const RotorcraftModel& craft() const { return craft_; }
   RotorMixer& mixer() { return mixer_; }
   bool has_estimate() const { return estimate_.has_value(); }
   const Odometry& estimate() const { return estimate_.value(); }
@@ -65,7 +65,7 @@ class FlightPorts {
   void write_values(Time now, const Wrench& wanted, const Wrench& reached);
   void write_follower(Time now);
 
-  Rotorcraft craft_;
+  RotorcraftModel craft_;
   RotorMixer mixer_;
   bool has_ended_ = false;
   bool has_lifted_off_ = false;

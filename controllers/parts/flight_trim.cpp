@@ -54,7 +54,7 @@ std::string say_elevons(const Aircraft& aircraft, const AircraftControls& contro
 
 /// What the wings do not carry; empty where they carry it.
 std::string say_lift(const Aircraft& aircraft, TrimSolver& solver, const TrimRequest& request) {
-  const double needed_N = aircraft.model->mass_kg() * aircraft.gravity_mps2 *
+  const double needed_N = aircraft.flight_model->mass_kg() * aircraft.gravity_mps2 *
                           std::cos(request.climb_angle_rad) / std::cos(request.bank_rad);
   const TrimSolver::Lift most = solver.largest_lift(request.airspeed_mps, request.climb_angle_rad);
   if (most.lift_N >= needed_N) return "";

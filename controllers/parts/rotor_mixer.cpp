@@ -13,10 +13,10 @@
 
 namespace vinerow {
 
-RotorMixer::RotorMixer(const Rotorcraft& craft, const std::string& who) : craft_(craft) {
+RotorMixer::RotorMixer(const RotorcraftModel& craft, const std::string& who) : craft_(craft) {
   const int rotors = static_cast<int>(craft.rotors.size());
   wrench_of_thrusts_.resize(4, rotors);
-  const double drag_arm_m = craft.torque_coefficient / craft.thrust_coefficient;
+  const double drag_arm_m = craft.torque_coefficient_Nms2 / craft.thrust_coefficient_Ns2;
   for (int i = 0; i < rotors; ++i) {
     const RotorPlace& rotor = craft.rotors[i];
     wrench_of_thrusts_.col(i) << 1.0, rotor.p_B.y(), -rotor.p_B.x(), rotor.torque_sign * drag_arm_m;
@@ -42,8 +42,8 @@ RotorMixer::RotorMixer(const Rotorcraft& craft, const std::string& who) : craft_
                       who, i + 1));
     }
   }
-  least_N_ = craft.thrust_coefficient * craft.min_rotor_radps * craft.min_rotor_radps;
-  most_N_ = craft.thrust_coefficient * craft.max_rotor_radps * craft.max_rotor_radps;
+  least_N_ = craft.thrust_coefficient_Ns2 * craft.min_rotor_radps * craft.min_rotor_radps;
+  most_N_ = craft.thrust_coefficient_Ns2 * craft.max_rotor_radps * craft.max_rotor_radps;
   thrusts_N_ = Eigen::VectorXd::Zero(rotors);
   roll_pitch_N_ = Eigen::VectorXd::Zero(rotors);
 }
@@ -96,7 +96,7 @@ Wrench RotorMixer::mix(const Wrench& wanted, std::vector<double>& speeds_radps) 
   thrusts_N_ = thrusts_N_.cwiseMax(least_N_).cwiseMin(most_N_);
   for (std::size_t i = 0; i < speeds_radps.size(); ++i) {
     // The square root of the limit's square may round past the limit.
-    const double speed = std::sqrt(thrusts_N_(static_cast<int>(i)) / craft_.thrust_coefficient);
+    const double speed = std::sqrt(thrusts_N_(static_cast<int>(i)) / craft_.thrust_coefficient_Ns2);
     speeds_radps[i] = std::clamp(speed, craft_.min_rotor_radps, craft_.max_rotor_radps);
   }
   return wrench_of(speeds_radps);
@@ -106,7 +106,7 @@ Wrench RotorMixer::wrench_of(const std::vector<double>& speeds_radps) const {
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
   for (std::size_t i = 0; i < speeds_radps.size(); ++i) {
     sum += wrench_of_thrusts_.col(static_cast<int>(i)) *
-           (craft_.thrust_coefficient * speeds_radps[i] * speeds_radps[i]);
+           (craft_.thrust_coefficient_Ns2 * speeds_radps[i] * speeds_radps[i]);
   }
   return {sum(0), sum.tail<3>()};
 }

@@ -28,7 +28,7 @@ class RotorMixer {
  public:
   /// @throws ConfigError if the rotors cannot make all four of thrust and torques, or one of them
   /// would have to pull down for level thrust (they all sit on one side)
-  RotorMixer(const Rotorcraft& craft, const std::string& who);
+  RotorMixer(const RotorcraftModel& craft, const std::string& who);
 
   /// Writes rotor speeds, rad/s. @returns the wrench that these speeds make. No heap.
   /// @param speeds_radps  as many as rotors
@@ -43,7 +43,7 @@ class RotorMixer {
   double nearest_thrust_N(double wanted_N) const;
   double largest_yaw_share(double torque_Nm) const;
 
-  Rotorcraft craft_;
+  RotorcraftModel craft_;
   double least_N_ = 0.0, most_N_ = 0.0;  ///< of one rotor
   Eigen::MatrixXd wrench_of_thrusts_;    ///< 4 x rotors: thrust, torques
   Eigen::MatrixXd thrusts_of_wrench_;    ///< its pseudo-inverse

@@ -5,7 +5,7 @@
 
 namespace vinerow {
 
-RotorPrediction::RotorPrediction(const Rotorcraft& craft, const RotorMixer& mixer)
+RotorPrediction::RotorPrediction(const RotorcraftModel& craft, const RotorMixer& mixer)
     : mixer_(mixer),
       lag_s_(craft.rotor_lag_s),
       speeds_radps_(craft.rotors.size(), 0.0),

@@ -10,7 +10,7 @@ namespace vinerow {
 
 class RotorPrediction {
  public:
-  RotorPrediction(const Rotorcraft& craft, const RotorMixer& mixer);
+  RotorPrediction(const RotorcraftModel& craft, const RotorMixer& mixer);
 
   /// Rotors at rest.
   void reset();

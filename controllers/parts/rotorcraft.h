@@ -4,48 +4,27 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <vector>
 
 #include "engine/api/vehicle.h"
 
 namespace vinerow {
 
-/// One rotor; its thrust is along +z of B.
-struct RotorPlace {
-  Eigen::Vector2d p_B = {0, 0};  ///< hub, m
-  double torque_sign = 1.0;      ///< +1: its drag torque turns the body to the left (+z)
-};
-
-struct Rotorcraft {
+/// The vehicle's record with what hovering takes besides.
+struct RotorcraftModel : Rotorcraft {
   double mass_kg = 1.0;
-  Eigen::Vector3d inertia_kgm2 = {1, 1, 1};  ///< about B's axes
-  std::vector<RotorPlace> rotors;
-  double thrust_coefficient = 0.0;  ///< k_F, thrust = k_F w^2, N s2
-  double torque_coefficient = 0.0;  ///< k_M, drag torque = k_M w^2, N m s2
-  double min_rotor_radps = 0.0;
-  double max_rotor_radps = 0.0;
-  double rotor_lag_s = 0.05;         ///< first-order lag of the rotor's speed
-  /// Of one rotor about its axis. A rotor that is spun up pushes the body the way its drag does.
-  double rotor_inertia_kgm2 = 0.0;
-  double rotor_drag_Ns_per_m = 0.0;  ///< all rotors together: force = - this * air velocity
   double gravity_mps2 = 9.80665;
 
   double max_thrust_N() const {
-    return static_cast<double>(rotors.size()) * thrust_coefficient * max_rotor_radps *
+    return static_cast<double>(rotors.size()) * thrust_coefficient_Ns2 * max_rotor_radps *
            max_rotor_radps;
   }
   double hover_rotor_radps() const;
 };
 
-/// Reads the numbers `rotor_count`, `rotor_<i>_x_m`, `rotor_<i>_y_m`, `rotor_<i>_torque_sign`
-/// (i from 1), `rotor_thrust_coefficient`, `rotor_torque_coefficient`, `rotor_min_radps`,
-/// `rotor_max_radps`, `rotor_lag_s`, `rotor_drag_Ns_per_m`, `inertia_xx_kgm2`, `inertia_yy_kgm2`,
-/// `inertia_zz_kgm2`; `rotor_inertia_kgm2` where it is told.
-/// @throws ConfigError "drone.controller needs 'rotor_count', which vehicle type 'x' does not
-/// tell"; numbers that no rotorcraft has; "the rotors lift 15.2 N at most, less than the weight
-/// of 19.6 N"
-Rotorcraft read_rotorcraft(const VehicleDescription& description, double gravity_mps2,
-                           const std::string& who);
+/// @throws ConfigError "drone.controller needs a vehicle with rotors; vehicle type 'x' has wheels";
+/// numbers that no rotorcraft has; "the rotors lift 15.2 N at most, less than the weight of 19.6 N"
+RotorcraftModel read_rotorcraft(const VehicleDescription& description, double gravity_mps2,
+                                const std::string& who);
 
 /// x' = A x + B u about hover, in the frame that is turned about z with the wanted yaw.
 /// State: position (3, m), velocity (3, m/s), roll, pitch, yaw error (rad), body rates p, q, r
@@ -65,6 +44,6 @@ struct HoverModel {
   Eigen::MatrixXd B;
 };
 /// @throws ConfigError if with_lag and the craft's rotors have none
-HoverModel make_hover_model(const Rotorcraft& craft, bool with_lag);
+HoverModel make_hover_model(const RotorcraftModel& craft, bool with_lag);
 
 }  // namespace vinerow

@@ -104,7 +104,7 @@ TrimSolver::Vector7 TrimSolver::search_start(const Problem& problem) {
   y(kFree) = problem.throttle ? request.climb_angle_rad : throttle;
   y(kRoll) = request.bank_rad;
   // The first angle of attack that carries the weight, or the one that comes next to it.
-  const double wanted_N = aircraft_.model->mass_kg() * aircraft_.gravity_mps2 *
+  const double wanted_N = aircraft_.flight_model->mass_kg() * aircraft_.gravity_mps2 *
                           std::cos(request.climb_angle_rad) / std::cos(request.bank_rad);
   double most_N = -1.0;
   for (double alpha = -0.25 * kSearchAlpha_rad; alpha < kSearchAlpha_rad;
@@ -171,7 +171,7 @@ std::optional<Trim> TrimSolver::solve_problem(const Problem& problem, const Trim
   const AirLoad load = equations_.load({trim.u_mps, trim.v_mps, trim.w_mps},
                                        {trim.p_radps, trim.q_radps, trim.r_radps}, trim.controls);
   trim.load_factor =
-      lift_of(load, trim.alpha_rad) / (aircraft_.model->mass_kg() * aircraft_.gravity_mps2);
+      lift_of(load, trim.alpha_rad) / (aircraft_.flight_model->mass_kg() * aircraft_.gravity_mps2);
   return trim;
 }
 
@@ -186,7 +186,7 @@ std::optional<Trim> TrimSolver::solve_at_throttle(const TrimRequest& request, do
 
 TrimSolver::Lift TrimSolver::largest_lift(double airspeed_mps, double climb_angle_rad) {
   const double weight_N =
-      aircraft_.model->mass_kg() * aircraft_.gravity_mps2 * std::sin(climb_angle_rad);
+      aircraft_.flight_model->mass_kg() * aircraft_.gravity_mps2 * std::sin(climb_angle_rad);
   Lift largest;
   for (double alpha = 0.0; alpha <= kSearchAlpha_rad; alpha += kSearchStep_rad) {
     AircraftControls controls;

@@ -40,11 +40,10 @@ PathFollowerParams read_params(const ParameterSet& parameters, Duration period,
 
 SlipEstimateParams read_slip(const ParameterSet& parameters, const VehicleDescription& vehicle) {
   SlipEstimateParams params;
-  const auto track = vehicle.numbers.find("effective_track_m");
   if (parameters.has("turn_effectiveness")) {
     params.effectiveness = parameters.number("turn_effectiveness");
-  } else if (track != vehicle.numbers.end() && track->second > 0.0) {
-    params.effectiveness = vehicle.number("track_m", "path_follower") / track->second;
+  } else if (vehicle.wheeled && vehicle.wheeled->effective_track_m > 0.0) {
+    params.effectiveness = vehicle.wheeled->track_m / vehicle.wheeled->effective_track_m;
   }
   params.arm_m = parameters.number("slide_arm_m");
   params.learn_time_s = parameters.number("slip_learn_s");

@@ -35,10 +35,9 @@ class MissionRoute final : public Planner {
         climb_slope_(parameters.number("climb_slope")),
         ramp_error_m_(parameters.number("ramp_error_m")),
         keeps_fences_(parameters.text("fences") == "keep") {
-    winged_ = !vehicle_.numbers.contains("rotor_count");
-    const auto radius = vehicle_.numbers.find("min_turning_radius_m");
+    winged_ = !vehicle_.rotorcraft;
     constexpr double kUsualRadius_m = 25.0;
-    radius_m_ = radius == vehicle_.numbers.end() ? kUsualRadius_m : radius->second;
+    radius_m_ = vehicle_.min_turning_radius_m.value_or(kUsualRadius_m);
     mission_places_ = place_mission(mission_, origin_, winged_, who);
   }
 

@@ -244,19 +244,19 @@ namespace {
 
 double read_turning_radius_m(const ParameterSet& parameters, const VehicleDescription& vehicle,
                              const std::string& who) {
-  const auto own = vehicle.numbers.find("min_turning_radius_m");
+  const std::optional<double>& own_m = vehicle.min_turning_radius_m;
   if (!parameters.has("turning_radius_m")) {
-    const double radius_m = vehicle.number("min_turning_radius_m", who);
+    const double radius_m = vehicle.need(own_m, "min_turning_radius_m", who);
     if (radius_m > 0.0) return radius_m;
     throw ConfigError(fmt::format("{}: vehicle type '{}' turns on the spot: give turning_radius_m",
                                   who, vehicle.type));
   }
   const double radius_m = parameters.number("turning_radius_m");
-  if (own != vehicle.numbers.end() && radius_m < own->second) {
+  if (own_m && radius_m < *own_m) {
     throw ConfigError(
         fmt::format("{}: turning_radius_m = {:.3f} m is less than the {:.3f} m that vehicle type "
                     "'{}' can turn",
-                    who, radius_m, own->second, vehicle.type));
+                    who, radius_m, *own_m, vehicle.type));
   }
   return radius_m;
 }

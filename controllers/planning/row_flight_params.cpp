@@ -13,10 +13,12 @@ namespace {
 constexpr double kCoarsestPitch_m = 0.5;  // heights between waypoints are straight
 
 double calc_radius_m(const VehicleDescription& vehicle) {
+  if (vehicle.rotorcraft && vehicle.rotorcraft->tip_radius_m > 0.0) {
+    return vehicle.rotorcraft->tip_radius_m;
+  }
   double radius_m = 0.0;
   for (const Eigen::Vector2d& p : vehicle.outline_B()) radius_m = std::max(radius_m, p.norm());
-  const auto tip = vehicle.numbers.find("tip_radius_m");
-  return tip != vehicle.numbers.end() ? tip->second : radius_m;
+  return radius_m;
 }
 
 }  // namespace

@@ -43,7 +43,9 @@ double read_curvature_per_m(const ParameterSet& parameters, const PlannerContext
 
   const double angle_rad =
       has_angle ? rad_from_deg(parameters.number("steering_angle_deg")) : kPaperSteer_rad;
-  const double wheel_base_m = context.vehicle_description->number("wheel_base_m", who);
+  const VehicleDescription& vehicle = *context.vehicle_description;
+  const double wheel_base_m =
+      vehicle.need_positive(vehicle.need_wheeled(who).wheel_base_m, "wheel_base_m", who);
   const double curvature_per_m = (is_four_wheel ? 2.0 : 1.0) * std::tan(angle_rad) / wheel_base_m;
   constexpr double kRounding = 1e-3;  // vehicles tell their radius with few digits
   if (curvature_per_m * radius_m > 1.0 + kRounding) {

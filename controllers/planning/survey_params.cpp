@@ -69,15 +69,12 @@ Polygon2 read_polygon(const ParameterSet& parameters, const PlannerContext& cont
   return wide;
 }
 
-double find_number(const VehicleDescription* vehicle, const char* name, double otherwise) {
-  if (vehicle == nullptr) return otherwise;
-  const auto found = vehicle->numbers.find(name);
-  return found == vehicle->numbers.end() ? otherwise : found->second;
-}
-
 double read_bank_rad(const ParameterSet& parameters, const VehicleDescription* vehicle,
                      const std::string& who) {
-  const double most_rad = find_number(vehicle, "max_bank_rad", 0.5 * kPi);
+  double most_rad = 0.5 * kPi;
+  if (vehicle != nullptr && vehicle->fixed_wing) {
+    most_rad = vehicle->need_positive(vehicle->fixed_wing->max_bank_rad, "max_bank_rad", who);
+  }
   if (!parameters.has("bank_deg")) return std::min(rad_from_deg(kUsualBank_deg), most_rad);
   const double bank_rad = rad_from_deg(parameters.number("bank_deg"));
   if (bank_rad > most_rad + 1e-9) {
@@ -177,10 +174,12 @@ SurveyRequest read_survey_request(const ParameterSet& parameters, const PlannerC
   request.order = parameters.text("order") == "snake" ? SurveyRequest::Order::kSnake
                                                       : SurveyRequest::Order::kBest;
   request.bank_rad = read_bank_rad(parameters, vehicle, who);
-  request.least_radius_m = find_number(vehicle, "min_turning_radius_m", 0.0);
-  request.stall_speed_mps = parameters.has("stall_speed_mps")
-                                ? parameters.number("stall_speed_mps")
-                                : find_number(vehicle, "stall_speed_mps", 0.0);
+  if (vehicle != nullptr) request.least_radius_m = vehicle->min_turning_radius_m.value_or(0.0);
+  if (parameters.has("stall_speed_mps")) {
+    request.stall_speed_mps = parameters.number("stall_speed_mps");
+  } else if (vehicle != nullptr && vehicle->fixed_wing) {
+    request.stall_speed_mps = vehicle->fixed_wing->stall_speed_mps;
+  }
   request.ramp_error_m = parameters.number("ramp_error_m");
   request.max_slope = parameters.number("max_slope");
   if (parameters.has("run_out_m")) request.run_out_m = parameters.number("run_out_m");

@@ -16,7 +16,7 @@ namespace {
 /// Weights of the wrench states, per acceleration: only so that no state is free.
 constexpr double kWrenchWeight = 1e-6;
 
-Eigen::MatrixXd make_gain(const Rotorcraft& craft, const LqrParams& params,
+Eigen::MatrixXd make_gain(const RotorcraftModel& craft, const LqrParams& params,
                           const std::string& who) {
   const HoverModel model = make_hover_model(craft, craft.rotor_lag_s > 0.0);
   const SampledModel sampled = discretise(model.A, model.B, params.period_s);
@@ -43,7 +43,7 @@ Eigen::MatrixXd make_gain(const Rotorcraft& craft, const LqrParams& params,
 
 }  // namespace
 
-QuadrotorLqrLaw::QuadrotorLqrLaw(const Rotorcraft& craft, const RotorMixer& mixer,
+QuadrotorLqrLaw::QuadrotorLqrLaw(const RotorcraftModel& craft, const RotorMixer& mixer,
                                  const FlightLimits& limits, const LqrParams& params,
                                  const std::string& who)
     : craft_(craft),

@@ -45,7 +45,7 @@ struct LqrParams {
 class QuadrotorLqrLaw {
  public:
   /// @throws ConfigError "<who>: no LQR gain: ..." where weights or model have none
-  QuadrotorLqrLaw(const Rotorcraft& craft, const RotorMixer& mixer, const FlightLimits& limits,
+  QuadrotorLqrLaw(const RotorcraftModel& craft, const RotorMixer& mixer, const FlightLimits& limits,
                   const LqrParams& params, const std::string& who);
 
   /// Forgets disturbances; the rotors rest or make the vehicle hover.
@@ -64,7 +64,7 @@ class QuadrotorLqrLaw {
   void set_up_limits(const FlightLimits& limits);
   Eigen::Vector2d limit_tilt(const Eigen::Vector2d& tilt_rad) const;
 
-  Rotorcraft craft_;
+  RotorcraftModel craft_;
   FlightLimits limits_;
   double period_s_;
   RotorPrediction rotors_;

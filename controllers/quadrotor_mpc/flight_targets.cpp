@@ -12,7 +12,7 @@ constexpr double kLeastLift = 0.3;
 
 }  // namespace
 
-FlightTargets::FlightTargets(const Rotorcraft& craft, int horizon, double period_s)
+FlightTargets::FlightTargets(const RotorcraftModel& craft, int horizon, double period_s)
     : craft_(craft),
       period_s_(period_s),
       states_(Eigen::MatrixXd::Zero(HoverModel::kStatesWithLag, horizon + 1)),

@@ -16,7 +16,7 @@ namespace vinerow {
 
 class FlightTargets {
  public:
-  FlightTargets(const Rotorcraft& craft, int horizon, double period_s);
+  FlightTargets(const RotorcraftModel& craft, int horizon, double period_s);
 
   /// @param preview  horizon + 1 points, one per tick, the first one now
   /// @param acceleration_H  of unknown forces, m/s2  @param torque_H  unknown torques, N m
@@ -33,7 +33,7 @@ class FlightTargets {
   const Eigen::MatrixXd& inputs() const { return inputs_; }  ///< 4 x horizon
 
  private:
-  Rotorcraft craft_;
+  RotorcraftModel craft_;
   double period_s_;
   Eigen::MatrixXd states_, inputs_;
   Eigen::Vector2d missed_mps2_ = Eigen::Vector2d::Zero();

@@ -134,7 +134,7 @@ class QuadrotorMpc final : public Controller {
 
   void write(Time now) {
     const HoverState& state = law_.state();
-    const Rotorcraft& craft = ports_.craft();
+    const RotorcraftModel& craft = ports_.craft();
     const Eigen::Vector3d force = craft.mass_kg * law_.disturbance().acceleration_W();
     const Eigen::Vector3d torque = craft.inertia_kgm2.cwiseProduct(law_.disturbance().angular_B());
     mpc_values_.values.assign({state.x[kHoverAngle], state.x[kHoverAngle + 1], state.tilt_rad(),

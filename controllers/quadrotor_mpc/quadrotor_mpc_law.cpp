@@ -11,7 +11,7 @@ namespace {
 constexpr double kPull_m = 2.0;
 constexpr double kAlong_m = 0.25;
 
-Eigen::MatrixXd make_disturbance_input(const Rotorcraft& craft, double period_s) {
+Eigen::MatrixXd make_disturbance_input(const RotorcraftModel& craft, double period_s) {
   const HoverModel model = make_hover_model(craft, true);
   Eigen::MatrixXd accelerations = Eigen::MatrixXd::Zero(model.A.rows(), 6);
   accelerations.block<3, 3>(kHoverVelocity, 0).setIdentity();
@@ -26,7 +26,7 @@ bool is_finite(const Odometry& odometry) {
 
 }  // namespace
 
-QuadrotorMpcLaw::QuadrotorMpcLaw(const Rotorcraft& craft, const QuadrotorMpcParams& params,
+QuadrotorMpcLaw::QuadrotorMpcLaw(const RotorcraftModel& craft, const QuadrotorMpcParams& params,
                                  const std::string& who)
     : craft_(craft),
       params_(params),

@@ -25,13 +25,13 @@
 namespace vinerow {
 
 /// The problem that the law solves, for the constructor and for tests.
-LinearMpcProblem make_quadrotor_problem(const Rotorcraft& craft, const RotorMixer& mixer,
+LinearMpcProblem make_quadrotor_problem(const RotorcraftModel& craft, const RotorMixer& mixer,
                                         const QuadrotorMpcParams& params, const std::string& who);
 
 class QuadrotorMpcLaw {
  public:
   /// @throws ConfigError if there is no model, no Riccati solution or no room between the limits
-  QuadrotorMpcLaw(const Rotorcraft& craft, const QuadrotorMpcParams& params,
+  QuadrotorMpcLaw(const RotorcraftModel& craft, const QuadrotorMpcParams& params,
                   const std::string& who);
 
   /// Rotors at rest, nothing learnt.
@@ -55,7 +55,7 @@ class QuadrotorMpcLaw {
  private:
   void pull_reference();
 
-  Rotorcraft craft_;
+  RotorcraftModel craft_;
   QuadrotorMpcParams params_;
   double weight_N_, max_thrust_N_;
   RotorMixer mixer_;

@@ -51,7 +51,7 @@ MpcStateRows make_deviation_rows(const MpcLimits& limits, double weight) {
   return rows;
 }
 
-void set_input_limits(const Rotorcraft& craft, const RotorMixer& mixer,
+void set_input_limits(const RotorcraftModel& craft, const RotorMixer& mixer,
                       const QuadrotorMpcParams& params, LinearMpcProblem& problem) {
   const double weight_N = craft.mass_kg * craft.gravity_mps2;
   const Eigen::Vector3d torque = params.torque_share * mixer.torque_limits_at_hover();
@@ -64,7 +64,7 @@ void set_input_limits(const Rotorcraft& craft, const RotorMixer& mixer,
 
 }  // namespace
 
-LinearMpcProblem make_quadrotor_problem(const Rotorcraft& craft, const RotorMixer& mixer,
+LinearMpcProblem make_quadrotor_problem(const RotorcraftModel& craft, const RotorMixer& mixer,
                                         const QuadrotorMpcParams& params, const std::string& who) {
   const HoverModel model = make_hover_model(craft, true);
   const SampledModel sampled = discretise(model.A, model.B, params.period_s);

@@ -7,7 +7,7 @@
 
 namespace vinerow {
 
-PositionLaw::PositionLaw(const Rotorcraft& craft, const PositionParams& params)
+PositionLaw::PositionLaw(const RotorcraftModel& craft, const PositionParams& params)
     : craft_(craft), params_(params) {}
 
 void PositionLaw::reset() {

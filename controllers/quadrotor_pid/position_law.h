@@ -33,7 +33,7 @@ struct PositionParams {
 
 class PositionLaw {
  public:
-  PositionLaw(const Rotorcraft& craft, const PositionParams& params);
+  PositionLaw(const RotorcraftModel& craft, const PositionParams& params);
 
   void reset();
   /// One cycle. No heap. @param p_W,v_W  of the vehicle @param integrate  false: the integral rests
@@ -48,7 +48,7 @@ class PositionLaw {
   void integrate(const Eigen::Vector3d& v_error, const Eigen::Vector3d& wanted_N,
                  const Eigen::Vector3d& limited_N, double lost_thrust_N);
 
-  Rotorcraft craft_;
+  RotorcraftModel craft_;
   PositionParams params_;
   Eigen::Vector3d integral_ = Eigen::Vector3d::Zero();  ///< m/s2
   Eigen::Vector3d v_before_ = Eigen::Vector3d::Zero(), slope_ = Eigen::Vector3d::Zero();

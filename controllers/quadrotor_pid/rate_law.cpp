@@ -6,7 +6,7 @@
 
 namespace vinerow {
 
-RateLaw::RateLaw(const Rotorcraft& craft, const RateParams& params)
+RateLaw::RateLaw(const RotorcraftModel& craft, const RateParams& params)
     : craft_(craft), params_(params) {}
 
 void RateLaw::reset() {

@@ -25,7 +25,7 @@ struct RateParams {
 
 class RateLaw {
  public:
-  RateLaw(const Rotorcraft& craft, const RateParams& params);
+  RateLaw(const RotorcraftModel& craft, const RateParams& params);
 
   void reset();
   /// One cycle. No heap. @param lost_torque_Nm  wanted less reached of the last cycle
@@ -35,7 +35,7 @@ class RateLaw {
   const Eigen::Vector3d& integral_radps2() const { return integral_; }
 
  private:
-  Rotorcraft craft_;
+  RotorcraftModel craft_;
   RateParams params_;
   Eigen::Vector3d integral_ = Eigen::Vector3d::Zero();  ///< rad/s2
   Eigen::Vector3d w_before_ = Eigen::Vector3d::Zero(), slope_ = Eigen::Vector3d::Zero();

@@ -64,7 +64,7 @@ TrajectoryParams read_trajectory_params(const ParameterSet& parameters,
                                         const ControllerContext& context) {
   const std::string who = context.part + " (trajectory)";
   const VehicleDescription& vehicle = *context.vehicle_description;
-  vehicle.number("rotor_count", who);
+  vehicle.need_rotorcraft(who);
   TrajectoryParams params;
   params.horizon = static_cast<int>(parameters.integer("horizon"));
   params.sample_s = parameters.number("sample_s");
@@ -98,13 +98,13 @@ TrajectoryParams read_trajectory_params(const ParameterSet& parameters,
                     "centre of mass of vehicle type '{}' stands",
                     who, params.height_m, least_m, vehicle.type));
   }
-  if (const auto most = vehicle.numbers.find("max_speed_mps"); most != vehicle.numbers.end()) {
+  if (vehicle.max_speed_mps) {
     for (const char* name : {"row_speed_mps", "transit_speed_mps", "return_speed_mps"}) {
-      if (parameters.number(name) <= most->second) continue;
+      if (parameters.number(name) <= *vehicle.max_speed_mps) continue;
       throw ConfigError(
           fmt::format("{}: {} = {:.2f} m/s is more than the {:.2f} m/s that vehicle "
                       "type '{}' can fly",
-                      who, name, parameters.number(name), most->second, vehicle.type));
+                      who, name, parameters.number(name), *vehicle.max_speed_mps, vehicle.type));
     }
   }
   if (!parameters.has("hover_m")) {

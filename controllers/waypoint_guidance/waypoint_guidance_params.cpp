@@ -11,15 +11,6 @@
 namespace vinerow {
 namespace {
 
-double read_positive(const VehicleDescription& vehicle, const char* name, const std::string& who) {
-  const double value = vehicle.number(name, who);
-  if (!(value > 0.0)) {
-    throw ConfigError(fmt::format("{}: '{}' of vehicle type '{}' is {}, must be > 0", who, name,
-                                  vehicle.type, value));
-  }
-  return value;
-}
-
 double read_or(const ParameterSet& parameters, const char* name, double otherwise) {
   return parameters.has(name) ? parameters.number(name) : otherwise;
 }
@@ -28,7 +19,8 @@ void read_turns(const ParameterSet& parameters, const ControllerContext& context
                 const std::string& who, WaypointGuidanceParams& params) {
   const VehicleDescription& vehicle = *context.vehicle_description;
   TurnLimits& turn = params.legs.turn;
-  const double most_rad = read_positive(vehicle, "max_bank_rad", who);
+  const double most_rad =
+      vehicle.need_positive(vehicle.need_fixed_wing(who).max_bank_rad, "max_bank_rad", who);
   turn.gravity_mps2 = context.gravity_mps2;
   turn.gain_per_s = parameters.number("turn_gain_per_s");
   turn.bank_rad = parameters.has("bank_deg") ? rad_from_deg(parameters.number("bank_deg"))
@@ -43,9 +35,8 @@ void read_turns(const ParameterSet& parameters, const ControllerContext& context
   }
   // A level turn carries 1 / cos(bank) of the weight.
   const double least_mps = params.stall_mps / std::sqrt(std::cos(turn.bank_rad));
-  const auto most = vehicle.numbers.find("max_speed_mps");
   params.legs.least_airspeed_mps = least_mps;
-  params.legs.most_airspeed_mps = most != vehicle.numbers.end() ? most->second : 1e9;
+  params.legs.most_airspeed_mps = vehicle.max_speed_mps.value_or(1e9);
   const double airspeed_mps = read_or(parameters, "airspeed_mps", params.cruise_mps);
   if (airspeed_mps <= least_mps) {
     throw ConfigError(
@@ -87,11 +78,9 @@ void read_landing(const ParameterSet& parameters, const VehicleDescription& vehi
   if (parameters.has("land_course_deg")) {
     params.land_course_rad = rad_from_deg(parameters.number("land_course_deg"));
   }
-  const auto standing = vehicle.numbers.find("start_height_m");
-  params.standing_m =
-      standing != vehicle.numbers.end() ? standing->second : vehicle.height_above_ground_m;
-  const auto belly = vehicle.numbers.find("belly_height_m");
-  params.belly_m = belly != vehicle.numbers.end() ? belly->second : 0.0;
+  const FixedWingAircraft& aircraft = vehicle.need_fixed_wing(who);
+  params.standing_m = aircraft.start_height_m.value_or(vehicle.height_above_ground_m);
+  params.belly_m = aircraft.belly_height_m;
   params.glide_rad = rad_from_deg(parameters.number("glide_deg"));
   params.flare_m = parameters.number("flare_height_m");
   params.power_off_m = parameters.number("power_off_height_m");
@@ -187,10 +176,10 @@ WaypointGuidanceParams read_waypoint_guidance_params(const ParameterSet& paramet
                                                      const ControllerContext& context) {
   const std::string who = context.part + " (waypoint_guidance)";
   const VehicleDescription& vehicle = *context.vehicle_description;
-  read_positive(vehicle, "wing_span_m", who);
+  const FixedWingAircraft& aircraft = vehicle.need_fixed_wing(who);
   WaypointGuidanceParams params;
-  params.cruise_mps = read_positive(vehicle, "cruise_speed_mps", who);
-  params.stall_mps = read_positive(vehicle, "stall_speed_mps", who);
+  params.cruise_mps = vehicle.need_positive(aircraft.cruise_speed_mps, "cruise_speed_mps", who);
+  params.stall_mps = vehicle.need_positive(aircraft.stall_speed_mps, "stall_speed_mps", who);
   read_turns(parameters, context, who, params);
   params.legs.climb_max_rad = rad_from_deg(parameters.number("climb_max_deg"));
   params.legs.descent_max_rad = rad_from_deg(parameters.number("descent_max_deg"));

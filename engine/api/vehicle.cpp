@@ -2,19 +2,67 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 
 namespace vinerow {
+namespace {
 
-double VehicleDescription::number(const std::string& name, const std::string& who) const {
-  const auto found = numbers.find(name);
-  if (found != numbers.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [key, value] : numbers) known.push_back(key);
+/// "wheels and steered axles"
+std::string say_kinds(const VehicleDescription& vehicle) {
+  std::vector<std::string> kinds;
+  if (vehicle.wheeled) kinds.emplace_back("wheels");
+  if (vehicle.steered) kinds.emplace_back("steered axles");
+  if (vehicle.rotorcraft) kinds.emplace_back("rotors");
+  if (vehicle.fixed_wing) kinds.emplace_back("wings");
+  if (kinds.empty()) return "neither wheels nor rotors nor wings";
+  std::string text = kinds.front();
+  for (std::size_t i = 1; i < kinds.size(); ++i) {
+    text += (i + 1 == kinds.size() ? " and " : ", ") + kinds[i];
+  }
+  return text;
+}
+
+template <typename Kind>
+const Kind& need_kind(const VehicleDescription& vehicle, const std::optional<Kind>& kind,
+                      const char* what, const std::string& who) {
+  if (kind) return *kind;
+  throw ConfigError(fmt::format("{} needs a vehicle {}; vehicle type '{}' has {}", who, what,
+                                vehicle.type, say_kinds(vehicle)));
+}
+
+}  // namespace
+
+const WheeledVehicle& VehicleDescription::need_wheeled(const std::string& who) const {
+  return need_kind(*this, wheeled, "with wheels", who);
+}
+
+const SteeredVehicle& VehicleDescription::need_steered(const std::string& who) const {
+  return need_kind(*this, steered, "with steered axles", who);
+}
+
+const Rotorcraft& VehicleDescription::need_rotorcraft(const std::string& who) const {
+  return need_kind(*this, rotorcraft, "with rotors", who);
+}
+
+const FixedWingAircraft& VehicleDescription::need_fixed_wing(const std::string& who) const {
+  return need_kind(*this, fixed_wing, "with wings", who);
+}
+
+double VehicleDescription::need(const std::optional<double>& value, const char* name,
+                                const std::string& who) const {
+  if (value) return *value;
   throw ConfigError(
-      fmt::format("{} needs '{}', which vehicle type '{}' does not tell (it tells: {})", who, name,
-                  type, join(known)));
+      fmt::format("{} needs '{}', which vehicle type '{}' does not tell", who, name, type));
+}
+
+double VehicleDescription::need_positive(double value, const char* name,
+                                         const std::string& who) const {
+  if (value > 0.0 && std::isfinite(value)) return value;
+  throw ConfigError(fmt::format("{} needs '{}' > 0, but vehicle type '{}' tells {:g}", who, name,
+                                type, value));
 }
 
 int VehicleDescription::actuator_index(const std::string& name, const std::string& who) const {

@@ -3,16 +3,16 @@
 /// actuator vector.
 
 #include <Eigen/Core>
-#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/api/flight_model.h"
 #include "engine/api/mesh.h"
 #include "engine/api/part.h"
+#include "engine/api/vehicle_kinds.h"
 
 namespace vinerow {
 
@@ -40,16 +40,38 @@ struct VehicleDescription {
   /// the collision box.
   std::vector<Eigen::Vector2d> footprint_B;
   double height_above_ground_m = 0.0;  ///< of B's origin when standing on level ground
-  /// Further numbers by name with unit suffix: "track_m", "wheel_radius_m", "max_speed_mps",
-  /// "min_turning_radius_m".
-  std::map<std::string, double> numbers;
-  /// Of vehicles with wings: their flight mechanics as their maker knows them. Null elsewhere.
-  std::shared_ptr<const FlightModel> flight_model;
+  /// Fastest that it drives or flies, m/s; with wings through the air. Absent: not known.
+  std::optional<double> max_speed_mps;
+  /// Of the way of B's origin seen from above, m; 0: it turns on the spot. Absent: not known.
+  std::optional<double> min_turning_radius_m;
+  std::optional<double> battery_capacity_J;  ///< when full. Absent: not known
 
-  /// @throws ConfigError "vehicle type 'x' does not tell 'track_m', which rover.controller needs"
-  double number(const std::string& name, const std::string& who) const;
-  /// Whether it flies: tells "rotor_count" or "wing_span_m".
-  bool flies() const { return numbers.contains("rotor_count") || numbers.contains("wing_span_m"); }
+  /// What it has; see vehicle_kinds.h. At least one, and each that is there is filled whole.
+  std::optional<WheeledVehicle> wheeled;
+  std::optional<SteeredVehicle> steered;  ///< only with `wheeled`
+  std::optional<Rotorcraft> rotorcraft;
+  std::optional<FixedWingAircraft> fixed_wing;
+
+  bool flies() const { return rotorcraft.has_value() || fixed_wing.has_value(); }
+
+  /// The record a part cannot do without.
+  /// @param who  part that asks, "rover.controller (pure_pursuit)"
+  /// @throws ConfigError "rover.controller (pure_pursuit) needs a vehicle with wheels; vehicle type
+  /// 'quadrotor' has rotors"
+  const WheeledVehicle& need_wheeled(const std::string& who) const;
+  const SteeredVehicle& need_steered(const std::string& who) const;
+  const Rotorcraft& need_rotorcraft(const std::string& who) const;
+  const FixedWingAircraft& need_fixed_wing(const std::string& who) const;
+  /// A number a part cannot do without. @param name  of its field, "min_turning_radius_m"
+  /// @returns the value
+  /// @throws ConfigError "rover.planner (coverage) needs 'min_turning_radius_m', which vehicle type
+  /// 'x' does not tell"
+  double need(const std::optional<double>& value, const char* name, const std::string& who) const;
+  /// A number that must be above 0 and finite. @returns the value
+  /// @throws ConfigError "rover.controller (dwa) needs 'front_axle_m' > 0, but vehicle type 'x'
+  /// tells -0.75"
+  double need_positive(double value, const char* name, const std::string& who) const;
+
   /// The footprint; the collision box's where none is given.
   std::vector<Eigen::Vector2d> outline_B() const;
   /// Index of an actuator. @throws ConfigError naming the actuators the vehicle has and the

@@ -30,8 +30,8 @@ TrafficVehicle describe(const VehicleRuntime& vehicle, double stop_before_m) {
   result.length_m = 2.0 * half_m;
   result.stop_before_m = stop_before_m + half_m;
   // From its top speed at a gentle 0.5 m/s2; a vehicle between rows is never faster than 4 m/s.
-  const auto speed = description.numbers.find("max_speed_mps");
-  const double v_mps = speed == description.numbers.end() ? 1.5 : std::min(speed->second, 4.0);
+  const std::optional<double>& speed_mps = description.max_speed_mps;
+  const double v_mps = speed_mps ? std::min(*speed_mps, 4.0) : 1.5;
   result.look_ahead_m = v_mps * v_mps + 2.0;
   result.use.flies = description.flies();
   return result;

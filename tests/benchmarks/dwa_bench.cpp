@@ -18,11 +18,12 @@ VehicleDescription make_vehicle() {
   vehicle.footprint_B = {{-0.95, -0.36}, {-0.75, -0.5}, {0.75, -0.5}, {0.95, -0.36},
                          {0.95, 0.36},   {0.75, 0.5},   {-0.75, 0.5}, {-0.95, 0.36}};
   vehicle.height_above_ground_m = 1.0;
-  vehicle.numbers = {{"front_axle_m", 0.75},
-                     {"rear_axle_m", 0.75},
-                     {"max_axle_steer_rad", rad_from_deg(23)},
-                     {"steer_rate_radps", 2.0},
-                     {"max_speed_mps", 1.6}};
+  vehicle.max_speed_mps = 1.6;
+  vehicle.wheeled.emplace();
+  vehicle.steered = {.front_axle_m = 0.75,
+                     .rear_axle_m = 0.75,
+                     .max_axle_steer_rad = rad_from_deg(23),
+                     .steer_rate_radps = 2.0};
   return vehicle;
 }
 

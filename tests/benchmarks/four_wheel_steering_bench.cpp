@@ -22,13 +22,12 @@ VehicleDescription steered_rover() {
     description.actuators.push_back(
         {std::string("wheel_") + wheel + "_speed_radps", "rad/s", -8.0, 8.0});
   }
-  description.numbers = {{"track_m", 0.85},
-                         {"front_axle_m", 0.75},
-                         {"rear_axle_m", 0.75},
-                         {"wheel_radius_m", 0.2},
-                         {"max_axle_steer_rad", limit},
-                         {"steer_rate_radps", 2.0},
-                         {"wheel_speed_limit_radps", 8.0}};
+  description.wheeled = {
+      .track_m = 0.85, .wheel_radius_m = 0.2, .wheel_speed_limit_radps = 8.0};
+  description.steered = {.front_axle_m = 0.75,
+                         .rear_axle_m = 0.75,
+                         .max_axle_steer_rad = limit,
+                         .steer_rate_radps = 2.0};
   return description;
 }
 

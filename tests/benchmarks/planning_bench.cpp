@@ -18,7 +18,7 @@ struct ParcelF {
     vehicle.type = "four_wheel_steering_rover";
     vehicle.footprint_B = {{0.95, -0.36}, {0.95, 0.36},   {0.75, 0.5},   {-0.75, 0.5},
                            {-0.95, 0.36}, {-0.95, -0.36}, {-0.75, -0.5}, {0.75, -0.5}};
-    vehicle.numbers["min_turning_radius_m"] = 1.767;
+    vehicle.min_turning_radius_m = 1.767;
   }
 
   std::unique_ptr<Planner> make(std::uint64_t seed, const std::vector<double>& alleys) const {

@@ -192,14 +192,14 @@ TEST_P(EveryGroundGuidance, AllocatesOnlyToTellAnEvent) {
 TEST_P(EveryGroundGuidance, RefusesVehiclesItDoesNotKnowHowToDrive) {
   VehicleDescription description;
   description.type = "quadrotor";
-  description.numbers = {{"arm_m", 0.2}};
+  description.rotorcraft.emplace();
   try {
     Bench bench(GetParam(), description);
     FAIL() << "must be refused";
   } catch (const ConfigError& error) {
     const std::string text = error.what();
-    EXPECT_EQ(text.find("rover.guidance (" + GetParam() + ") needs '"), 0u) << text;
-    EXPECT_NE(text.find("'quadrotor' does not tell (it tells: arm_m)"), std::string::npos) << text;
+    EXPECT_EQ(text.find("rover.guidance (" + GetParam() + ") needs a vehicle with "), 0u) << text;
+    EXPECT_NE(text.find("; vehicle type 'quadrotor' has rotors"), std::string::npos) << text;
   }
 }
 

@@ -141,7 +141,8 @@ TEST(TrimCommand, RefusesInOneSentence) {
   expect_refused(small + " --set cruise_speed_mps=16 --speed 12",
                  "(lift coefficient 1.28 of at most");
   expect_refused(vehicle_file("quadrotor_q4t"),
-                 "quadrotor_q4t.yaml: vehicle type 'quadrotor' has no wings");
+                 "quadrotor_q4t.yaml needs a vehicle with wings; vehicle type 'quadrotor' has "
+                 "rotors");
   expect_refused("none.yaml", "none.yaml");
   expect_refused(test::scenario_file("survey_still"),
                  "is a scenario, must be the file of one vehicle");

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "engine/api/vehicle_check.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/support/no_alloc.h"
@@ -86,8 +87,8 @@ class Rig {
 
   const VehicleDescription& about() const { return vehicle_->description(); }
   bool flies() const { return about().flies(); }
-  bool has_wings() const { return about().numbers.contains("wing_span_m"); }
-  bool has_rotors() const { return about().numbers.contains("rotor_count"); }
+  bool has_wings() const { return about().fixed_wing.has_value(); }
+  bool has_rotors() const { return about().rotorcraft.has_value(); }
   Vehicle& vehicle() { return *vehicle_; }
   SignalBus& bus() { return bus_; }
 
@@ -100,8 +101,9 @@ class Rig {
   }
   /// At which the rotors carry the weight.
   double hover_radps() const {
-    return std::sqrt(about().mass_kg * 9.80665 / about().number("rotor_count", "the test") /
-                     about().number("rotor_thrust_coefficient", "the test"));
+    const Rotorcraft& craft = about().rotorcraft.value();
+    return std::sqrt(about().mass_kg * 9.80665 / static_cast<double>(craft.rotors.size()) /
+                     craft.thrust_coefficient_Ns2);
   }
   /// Of a vehicle on wings.
   void fly(double throttle, double elevon_left_rad, double elevon_right_rad) {
@@ -125,10 +127,10 @@ class Rig {
   /// Rim speeds of both sides, m/s. A vehicle that steers is asked for the same twist: the yaw rate
   /// of two sides that roll on the track, as far as its steering lets it.
   void drive(double left_mps, double right_mps) {
-    const double radius = about().number("wheel_radius_m", "the test");
+    const double radius = about().wheeled->wheel_radius_m;
     const bool steers = about().actuators[0].name == "axle_front_steer_rad";
-    const double v = 0.5 * (left_mps + right_mps), track = about().number("track_m", "the test");
-    const double half_base = 0.5 * about().number("wheel_base_m", "the test");
+    const double v = 0.5 * (left_mps + right_mps), track = about().wheeled->track_m;
+    const double half_base = 0.5 * about().wheeled->wheel_base_m;
     double curvature = 0.0;
     if (steers) {
       const double most = std::tan(about().actuators[0].max) / half_base;
@@ -196,24 +198,15 @@ TEST_P(VehicleConformance, DescribesItselfCompletely) {
   Rig rig(GetParam(), make_flat_world());
   const VehicleDescription& about = rig.about();
   EXPECT_EQ(about.type, GetParam().type);
-  EXPECT_GT(about.mass_kg, 0.0);
-  EXPECT_GT(about.height_above_ground_m, 0.0);
-  EXPECT_GT(about.collision_half_extents_m.minCoeff(), 0.0);
-  ASSERT_FALSE(about.actuators.empty());
+  EXPECT_EQ(find_fault(about).value_or("none"), "none");
   for (const ActuatorSpec& actuator : about.actuators) {
-    EXPECT_LT(actuator.min, actuator.max) << actuator.name;
     if (actuator.name != "throttle") {  // a share
       EXPECT_FALSE(actuator.unit.empty()) << actuator.name;
     }
   }
-  for (const char* name : {"max_speed_mps", "min_turning_radius_m"}) {
-    EXPECT_GE(about.number(name, "the test"), 0.0);
-  }
-  for (const char* name : {"track_m", "wheel_base_m", "wheel_radius_m"}) {
-    if (!rig.flies()) {
-      EXPECT_GE(about.number(name, "the test"), 0.0);
-    }
-  }
+  EXPECT_TRUE(about.max_speed_mps.has_value());
+  EXPECT_TRUE(about.min_turning_radius_m.has_value());
+  EXPECT_NE(about.flies(), about.wheeled.has_value());
   std::vector<Pose> poses(rig.vehicle().links().size());
   rig.vehicle().read_links(poses);
   ASSERT_FALSE(poses.empty());
@@ -237,7 +230,7 @@ TEST_P(VehicleConformance, StandsWhereItSays) {
 
 TEST_P(WheeledConformance, ComesToRest) {
   Rig rig(GetParam(), make_flat_world());
-  const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
+  const double v = 0.5 * rig.about().max_speed_mps.value();
   rig.drive(v, v);
   rig.run(3.0);
   EXPECT_NEAR(rig.truth().v_WB_B.x(), v, 0.05 * v);  // slip under rolling resistance is below 1 %
@@ -275,7 +268,7 @@ TEST_P(WheeledConformance, StartsOnASlopeWithoutRollingBack) {
 
 TEST_P(WheeledConformance, DrivesStraight) {
   Rig rig(GetParam(), make_flat_world());
-  const double v = rig.about().number("max_speed_mps", "the test");
+  const double v = rig.about().max_speed_mps.value();
   rig.drive(v, v);
   rig.run(10.0);
   const Pose pose = rig.truth().X_WB;
@@ -287,18 +280,18 @@ TEST_P(WheeledConformance, DrivesStraight) {
 
 TEST_P(WheeledConformance, TurnsLeftForAPositiveYawCommand) {
   Rig rig(GetParam(), make_flat_world());
-  const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
+  const double v = 0.5 * rig.about().max_speed_mps.value();
   rig.drive(0.5 * v, 1.5 * v);
   rig.run(2.0);
   EXPECT_GT(rig.truth().w_WB_B.z(), 0.05);
   EXPECT_GT(rig.truth().X_WB.p.y(), 0.0);
   // Never more than rolling without side slip would give.
-  EXPECT_LE(rig.truth().w_WB_B.z(), v / rig.about().number("track_m", "the test") + 1e-9);
+  EXPECT_LE(rig.truth().w_WB_B.z(), v / rig.about().wheeled->track_m + 1e-9);
 }
 
 TEST_P(WheeledConformance, ReversesTheWayItCame) {
   Rig rig(GetParam(), make_flat_world());
-  const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
+  const double v = 0.5 * rig.about().max_speed_mps.value();
   rig.drive(-v, -v);
   rig.run(3.0);
   EXPECT_LT(rig.truth().X_WB.p.x(), -2.0 * v);
@@ -310,7 +303,7 @@ TEST_P(VehicleConformance, SameInputsGiveTheSameBits) {
               return 0.2 * std::sin(0.8 * x) * std::cos(0.6 * y);
             }));
     RandomStream random(7, "rover", "commands");
-    const double v = rig.about().number("max_speed_mps", "the test");
+    const double v = rig.about().max_speed_mps.value();
     for (int i = 0; i < 20; ++i) {
       if (rig.has_wings()) {
         rig.fly(random.uniform(0.5, 1.0), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
@@ -376,7 +369,7 @@ TEST_P(VehicleConformance, StaysFiniteAtItsActuatorLimitsOnRoughGround) {
 TEST_P(VehicleConformance, TellsTheStatesOfItsActuatorsOrNothing) {
   Rig rig(GetParam(), make_flat_world());
   if (rig.vehicle().actuator_states().empty()) GTEST_SKIP() << "tells no actuator states";
-  const double v = 0.5 * rig.about().number("max_speed_mps", "the test");
+  const double v = 0.5 * rig.about().max_speed_mps.value();
   if (rig.flies()) {
     rig.move();
   } else {
@@ -404,14 +397,14 @@ TEST_P(VehicleConformance, PublishesEnergyThatGrows) {
 
 TEST_P(WingedConformance, WaitsForItsThrottleThenFlies) {
   Rig rig(GetParam(), make_flat_world());
-  const double needed = rig.about().number("launch_throttle", "the test");
+  const double needed = rig.about().fixed_wing->launch_throttle;
   const Eigen::Vector3d start = rig.truth().X_WB.p;
   rig.fly(needed, 0.1, 0.1);
   rig.run(1.0);
   EXPECT_EQ(rig.truth().X_WB.p, start);
   rig.fly(1.0, 0.0, 0.0);
   rig.run(1.5);
-  EXPECT_GT(rig.truth().v_WB_B.x(), rig.about().number("stall_speed_mps", "the test"));
+  EXPECT_GT(rig.truth().v_WB_B.x(), rig.about().fixed_wing->stall_speed_mps);
   EXPECT_GT(rig.truth().X_WB.p.x(), 10.0);
   EXPECT_GT(rig.truth().X_WB.p.z(), start.z());
   EXPECT_LT(std::abs(rig.truth().X_WB.p.y()), 1e-6);
@@ -433,20 +426,19 @@ TEST_P(WingedConformance, TellsAControllerHowItFlies) {
   EXPECT_EQ(about.actuators[0].name, "throttle");
   EXPECT_EQ(about.actuators[1].name, "elevon_left_rad");
   EXPECT_EQ(about.actuators[2].name, "elevon_right_rad");
-  for (const char* name :
-       {"wing_span_m", "cruise_speed_mps", "stall_speed_mps", "max_bank_rad", "throttle_lag_s",
-        "elevon_lag_s", "launch_throttle", "landing_sink_limit_mps", "belly_height_m"}) {
-    EXPECT_GT(about.number(name, "the test"), 0.0) << name;
-  }
-  EXPECT_GT(about.number("cruise_speed_mps", "the test"),
-            about.number("stall_speed_mps", "the test"));
-  ASSERT_NE(about.flight_model, nullptr);
-  const FlightModel& model = *about.flight_model;
+  const FixedWingAircraft& aircraft = about.fixed_wing.value();
+  EXPECT_GT(aircraft.throttle_lag_s, 0.0);
+  EXPECT_GT(aircraft.elevon_lag_s, 0.0);
+  EXPECT_GT(aircraft.launch_throttle, 0.0);
+  EXPECT_GT(aircraft.belly_height_m, 0.0);
+  EXPECT_GT(aircraft.cruise_speed_mps, aircraft.stall_speed_mps);
+  ASSERT_NE(aircraft.flight_model, nullptr);
+  const FlightModel& model = *aircraft.flight_model;
   EXPECT_EQ(model.mass_kg(), about.mass_kg);
   // More throttle pulls forward; elevons down pitch the nose down (+y of B), left down and right up
   // roll to the right (+x of B).
   AirPoint air;
-  air.v_air_B = {about.number("cruise_speed_mps", "the test"), 0.0, -1.0};
+  air.v_air_B = {aircraft.cruise_speed_mps, 0.0, -1.0};
   const auto load = [&](double throttle, double left_rad, double right_rad) {
     const std::array<double, 3> actuators = {throttle, left_rad, right_rad};
     return model.load(air, actuators);
@@ -486,27 +478,26 @@ TEST_P(FlyingConformance, HoversAtTheSpeedThatItsNumbersTell) {
 TEST_P(FlyingConformance, TellsAControllerWhereItsRotorsAre) {
   Rig rig(GetParam(), make_flat_world());
   const VehicleDescription& about = rig.about();
-  const auto number = [&](const std::string& name) { return about.number(name, "the test"); };
-  const int count = static_cast<int>(number("rotor_count"));
-  ASSERT_EQ(static_cast<std::size_t>(count), about.actuators.size());
-  double torque = 0.0, x = 0.0, y = 0.0, tip = 0.0;
-  for (int i = 1; i <= count; ++i) {
-    const std::string rotor = "rotor_" + std::to_string(i);
-    EXPECT_EQ(about.actuators[static_cast<std::size_t>(i - 1)].name, rotor + "_speed_radps");
-    EXPECT_EQ(about.actuators[static_cast<std::size_t>(i - 1)].max, number("rotor_max_radps"));
-    EXPECT_EQ(std::abs(number(rotor + "_torque_sign")), 1.0);
-    torque += number(rotor + "_torque_sign");
-    x += number(rotor + "_x_m"), y += number(rotor + "_y_m");
-    tip = std::max(tip, std::hypot(number(rotor + "_x_m"), number(rotor + "_y_m")));
+  const Rotorcraft& craft = about.rotorcraft.value();
+  ASSERT_EQ(craft.rotors.size(), about.actuators.size());
+  double torque = 0.0, tip = 0.0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < craft.rotors.size(); ++i) {
+    EXPECT_EQ(about.actuators[i].name, "rotor_" + std::to_string(i + 1) + "_speed_radps");
+    EXPECT_EQ(about.actuators[i].max, craft.max_rotor_radps);
+    EXPECT_EQ(std::abs(craft.rotors[i].torque_sign), 1.0);
+    torque += craft.rotors[i].torque_sign;
+    sum += craft.rotors[i].p_B;
+    tip = std::max(tip, craft.rotors[i].p_B.norm());
   }
   EXPECT_EQ(torque, 0.0);
-  EXPECT_NEAR(x, 0.0, 1e-12);
-  EXPECT_NEAR(y, 0.0, 1e-12);
-  EXPECT_NEAR(number("tip_radius_m"), tip + number("rotor_radius_m"), 1e-12);
-  for (const char* name : {"rotor_torque_coefficient", "rotor_lag_s", "inertia_xx_kgm2",
-                           "inertia_yy_kgm2", "inertia_zz_kgm2", "max_tilt_rad"}) {
-    EXPECT_GT(number(name), 0.0) << name;
-  }
+  EXPECT_NEAR(sum.x(), 0.0, 1e-12);
+  EXPECT_NEAR(sum.y(), 0.0, 1e-12);
+  EXPECT_NEAR(craft.tip_radius_m, tip + craft.rotor_radius_m, 1e-12);
+  EXPECT_GT(craft.torque_coefficient_Nms2, 0.0);
+  EXPECT_GT(craft.rotor_lag_s, 0.0);
+  EXPECT_GT(craft.inertia_kgm2.minCoeff(), 0.0);
+  EXPECT_GT(craft.max_tilt_rad, 0.0);
 }
 
 std::vector<Setup> setups_that(const std::function<bool(const Rig&)>& fit) {

@@ -42,7 +42,7 @@ std::string to_json(const TrimReport& report) {
   const Trim& t = report.trim;
   ordered_json json;
   json["vehicle"] = {{"type", report.aircraft.type},
-                     {"mass_kg", report.aircraft.model->mass_kg()},
+                     {"mass_kg", report.aircraft.flight_model->mass_kg()},
                      {"wing_span_m", report.aircraft.span_m},
                      {"air_density_kgm3", report.aircraft.air_density_kgm3},
                      {"gravity_mps2", report.aircraft.gravity_mps2}};

@@ -122,7 +122,7 @@ std::string to_text(const TrimReport& report) {
     text += fmt::format("{:<16} {}\n", key, value);
   };
   line("vehicle", fmt::format("{}, {:g} kg, span {:g} m", report.aircraft.type,
-                              report.aircraft.model->mass_kg(), report.aircraft.span_m));
+                              report.aircraft.flight_model->mass_kg(), report.aircraft.span_m));
   line("flight", fmt::format("{:.2f} m/s, climb {:.2f} deg, bank {:.2f} deg, air {:.4f} kg/m3",
                              t.request.airspeed_mps, deg(t.request.climb_angle_rad),
                              deg(t.request.bank_rad), report.aircraft.air_density_kgm3));

@@ -60,16 +60,15 @@ void DiffDriveRover::describe() {
                                            0.5 * (p.track_m + p.tyre_width_m),
                                            0.5 * (kHullTop_m - kHullBottom_m)};
   description_.collision_centre_B = {0.0, 0.0, 0.5 * (kHullTop_m + kHullBottom_m) - p.com_height_m};
-  description_.numbers = {
-      {"track_m", p.track_m},
-      {"wheel_base_m", p.wheel_base_m},
-      {"wheel_radius_m", p.wheel_radius_m},
-      {"max_speed_mps", p.max_speed_mps},
-      {"min_turning_radius_m", p.min_turning_radius_m},
-      {"wheel_speed_limit_radps", p.wheel_speed_limit_radps},
-      {"effective_track_m",
-       p.kinematic ? p.track_m : calc_effective_track_m(p.track_m, p.wheel_base_m)},
-  };
+  WheeledVehicle& wheeled = description_.wheeled.emplace();
+  wheeled.track_m = p.track_m;
+  wheeled.wheel_base_m = p.wheel_base_m;
+  wheeled.wheel_radius_m = p.wheel_radius_m;
+  wheeled.wheel_speed_limit_radps = p.wheel_speed_limit_radps;
+  wheeled.effective_track_m =
+      p.kinematic ? p.track_m : calc_effective_track_m(p.track_m, p.wheel_base_m);
+  description_.max_speed_mps = p.max_speed_mps;
+  description_.min_turning_radius_m = p.min_turning_radius_m;
 }
 
 void DiffDriveRover::make_links() {

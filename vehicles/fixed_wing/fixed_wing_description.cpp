@@ -11,30 +11,29 @@ void FixedWing::describe() {
   description_.type = "fixed_wing";
   description_.mass_kg = p.mass_kg;
   description_.height_above_ground_m = p.shape.belly_m;
-  description_.flight_model = model_;
   describe_outline(p, description_);
   const double limit_rad = p.elevon_limit_rad;
   description_.actuators = {{"throttle", "", 0.0, 1.0},
                             {"elevon_left_rad", "rad", -limit_rad, limit_rad},
                             {"elevon_right_rad", "rad", -limit_rad, limit_rad}};
   const double v = p.cruise_speed_mps;
-  description_.numbers = {
-      {"wing_span_m", p.wing.span_m},
-      {"wing_area_m2", p.wing.area_m2},
-      {"cruise_speed_mps", v},
-      {"stall_speed_mps", p.stall_speed_mps(gravity_mps2_)},
-      {"max_speed_mps", p.max_speed_mps},
-      {"max_bank_rad", p.max_bank_rad},
-      {"min_turning_radius_m", v * v / (gravity_mps2_ * std::tan(p.max_bank_rad))},
-      {"throttle_lag_s", p.propeller.lag_s},
-      {"elevon_lag_s", p.elevon_lag_s},
-      {"launch_throttle", p.launch.throttle},
-      {"landing_sink_limit_mps", p.landing_sink_limit_mps},
-      {"belly_height_m", p.shape.belly_m},
-      {"start_height_m",
-       p.launch.mode == LaunchMode::kAir ? p.launch.start_height_m : p.launch.height_m},
-      {"battery_capacity_J", p.battery.capacity_Wh * 3600.0},
-  };
+  description_.max_speed_mps = p.max_speed_mps;
+  description_.min_turning_radius_m = v * v / (gravity_mps2_ * std::tan(p.max_bank_rad));
+  description_.battery_capacity_J = p.battery.capacity_Wh * 3600.0;
+  FixedWingAircraft& aircraft = description_.fixed_wing.emplace();
+  aircraft.flight_model = model_;
+  aircraft.span_m = p.wing.span_m;
+  aircraft.wing_area_m2 = p.wing.area_m2;
+  aircraft.cruise_speed_mps = v;
+  aircraft.stall_speed_mps = p.stall_speed_mps(gravity_mps2_);
+  aircraft.max_bank_rad = p.max_bank_rad;
+  aircraft.throttle_lag_s = p.propeller.lag_s;
+  aircraft.elevon_lag_s = p.elevon_lag_s;
+  aircraft.launch_throttle = p.launch.throttle;
+  aircraft.landing_sink_limit_mps = p.landing_sink_limit_mps;
+  aircraft.belly_height_m = p.shape.belly_m;
+  aircraft.start_height_m =
+      p.launch.mode == LaunchMode::kAir ? p.launch.start_height_m : p.launch.height_m;
 }
 
 void FixedWing::make_links() {

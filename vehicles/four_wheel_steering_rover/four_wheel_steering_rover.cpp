@@ -68,20 +68,20 @@ void FourWheelSteeringRover::describe() {
                                            0.5 * (kHullTop_m - kHullBottom_m)};
   description_.collision_centre_B = {0.0, 0.0, 0.5 * (kHullTop_m + kHullBottom_m) - p.com_height_m};
   const TwoAxles axles = p.axles();
-  description_.numbers = {
-      {"track_m", p.track_m},
-      {"wheel_base_m", p.wheel_base_m},
-      {"front_axle_m", axles.front_m},
-      {"rear_axle_m", axles.rear_m},
-      {"wheel_radius_m", p.wheel_radius_m},
-      {"max_axle_steer_rad", max_axle},
-      {"steer_rate_radps", p.servo.rate_radps},
-      {"steer_lag_s", p.servo.lag_s},
-      {"wheel_speed_limit_radps", p.wheel_speed_limit_radps},
-      {"max_speed_mps", p.wheel_speed_limit_radps * p.wheel_radius_m},
-      {"min_turning_radius_m", p.min_turning_radius_m()},
-      {"battery_capacity_J", p.battery.capacity_Wh * 3600.0},
-  };
+  WheeledVehicle& wheeled = description_.wheeled.emplace();
+  wheeled.track_m = p.track_m;
+  wheeled.wheel_base_m = p.wheel_base_m;
+  wheeled.wheel_radius_m = p.wheel_radius_m;
+  wheeled.wheel_speed_limit_radps = p.wheel_speed_limit_radps;
+  SteeredVehicle& steered = description_.steered.emplace();
+  steered.front_axle_m = axles.front_m;
+  steered.rear_axle_m = axles.rear_m;
+  steered.max_axle_steer_rad = max_axle;
+  steered.steer_rate_radps = p.servo.rate_radps;
+  steered.steer_lag_s = p.servo.lag_s;
+  description_.max_speed_mps = p.wheel_speed_limit_radps * p.wheel_radius_m;
+  description_.min_turning_radius_m = p.min_turning_radius_m();
+  description_.battery_capacity_J = p.battery.capacity_Wh * 3600.0;
 }
 
 void FourWheelSteeringRover::make_links() {

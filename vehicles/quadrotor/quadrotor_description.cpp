@@ -12,32 +12,25 @@ void Quadrotor::describe() {
   description_.mass_kg = p.mass_kg;
   description_.height_above_ground_m = p.stand_height_m;
   describe_outline(p, description_);
-  description_.numbers = {
-      {"rotor_count", static_cast<double>(kRotors)},
-      {"rotor_thrust_coefficient", p.rotor.thrust_coefficient_Ns2},
-      {"rotor_torque_coefficient", p.rotor.torque_coefficient_Nms2},
-      {"rotor_min_radps", 0.0},
-      {"rotor_max_radps", p.rotor.max_radps},
-      {"rotor_lag_s", p.rotor.rise_lag_s},
-      {"rotor_drag_Ns_per_m", p.rotor_drag_Ns_per_m},
-      {"rotor_radius_m", p.rotor_radius_m},
-      {"tip_radius_m", p.arm_m + p.rotor_radius_m},
-      {"inertia_xx_kgm2", p.inertia_kgm2.x()},
-      {"inertia_yy_kgm2", p.inertia_kgm2.y()},
-      {"inertia_zz_kgm2", p.inertia_kgm2.z()},
-      {"rotor_inertia_kgm2", p.rotor.inertia_kgm2},
-      {"max_tilt_rad", p.max_tilt_rad},
-      {"max_speed_mps", p.max_speed_mps},
-      {"min_turning_radius_m", p.min_turning_radius_m},
-      {"landing_speed_limit_mps", p.landing_speed_limit_mps},
-      {"battery_capacity_J", p.battery.capacity_Wh * 3600.0},
-  };
+  description_.max_speed_mps = p.max_speed_mps;
+  description_.min_turning_radius_m = p.min_turning_radius_m;
+  description_.battery_capacity_J = p.battery.capacity_Wh * 3600.0;
+  Rotorcraft& craft = description_.rotorcraft.emplace();
+  craft.inertia_kgm2 = p.inertia_kgm2;
+  craft.thrust_coefficient_Ns2 = p.rotor.thrust_coefficient_Ns2;
+  craft.torque_coefficient_Nms2 = p.rotor.torque_coefficient_Nms2;
+  craft.max_rotor_radps = p.rotor.max_radps;
+  craft.rotor_lag_s = p.rotor.rise_lag_s;
+  craft.rotor_inertia_kgm2 = p.rotor.inertia_kgm2;
+  craft.rotor_drag_Ns_per_m = p.rotor_drag_Ns_per_m;
+  craft.rotor_radius_m = p.rotor_radius_m;
+  craft.tip_radius_m = p.arm_m + p.rotor_radius_m;
+  craft.max_tilt_rad = p.max_tilt_rad;
+  craft.landing_speed_limit_mps = p.landing_speed_limit_mps;
   for (std::size_t i = 0; i < kRotors; ++i) {
-    const std::string rotor = fmt::format("rotor_{}", i + 1);
-    description_.actuators.push_back({rotor + "_speed_radps", "rad/s", 0.0, p.rotor.max_radps});
-    description_.numbers[rotor + "_x_m"] = p.hub_B(i).x();
-    description_.numbers[rotor + "_y_m"] = p.hub_B(i).y();
-    description_.numbers[rotor + "_torque_sign"] = QuadrotorParams::torque_sign(i);
+    description_.actuators.push_back(
+        {fmt::format("rotor_{}_speed_radps", i + 1), "rad/s", 0.0, p.rotor.max_radps});
+    craft.rotors.push_back({p.hub_B(i).head<2>(), QuadrotorParams::torque_sign(i)});
   }
 }
 

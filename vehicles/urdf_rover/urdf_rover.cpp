@@ -190,15 +190,14 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
   description_.collision_centre_B = model_.bounds_B.center();
   description_.collision_half_extents_m = 0.5 * model_.bounds_B.sizes();
   description_.height_above_ground_m = model_.height_above_ground_m;
-  description_.numbers = {
-      {"track_m", model_.track_m},
-      {"wheel_base_m", model_.wheel_base_m},
-      {"wheel_radius_m", model_.wheels.front().radius_m},
-      {"max_speed_mps", params.max_speed_mps},
-      {"min_turning_radius_m", params.min_turning_radius_m},
-      {"wheel_speed_limit_radps", params.wheel_speed_limit_radps},
-      {"effective_track_m", calc_effective_track_m(model_.track_m, model_.wheel_base_m)},
-  };
+  WheeledVehicle& wheeled = description_.wheeled.emplace();
+  wheeled.track_m = model_.track_m;
+  wheeled.wheel_base_m = model_.wheel_base_m;
+  wheeled.wheel_radius_m = model_.wheels.front().radius_m;
+  wheeled.wheel_speed_limit_radps = params.wheel_speed_limit_radps;
+  wheeled.effective_track_m = calc_effective_track_m(model_.track_m, model_.wheel_base_m);
+  description_.max_speed_mps = params.max_speed_mps;
+  description_.min_turning_radius_m = params.min_turning_radius_m;
 }
 
 std::unique_ptr<Vehicle> make_urdf_rover(const ParameterSet& parameters,

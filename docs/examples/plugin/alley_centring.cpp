@@ -13,8 +13,9 @@ class AlleyCentring final : public vinerow::Controller {
         damping_(parameters.number("damping_rad_per_m")),
         period_s_(context.period.s()) {
     const vinerow::VehicleDescription& vehicle = *context.vehicle_description;
-    wheel_radius_m_ = vehicle.number("wheel_radius_m", context.part);
-    track_m_ = vehicle.number("track_m", context.part);
+    const vinerow::WheeledVehicle& wheeled = vehicle.need_wheeled(context.part);
+    wheel_radius_m_ = wheeled.wheel_radius_m;
+    track_m_ = wheeled.track_m;
     for (const vinerow::ActuatorSpec& actuator : vehicle.actuators)
       command_.names.push_back(actuator.name);
     command_.values.assign(command_.names.size(), 0.0);

@@ -22,7 +22,7 @@ class AirTracking final : public Metric {
   explicit AirTracking(const MetricContext& context)
       : vehicle_(context.vehicle_truth),
         gravity_mps2_(context.gravity_mps2),
-        has_wings_(context.vehicle_description->numbers.contains("wing_span_m")) {
+        has_wings_(context.vehicle_description->fixed_wing.has_value()) {
     outside_at_.fill(-1);
   }
 

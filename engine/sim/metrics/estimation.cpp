@@ -17,7 +17,7 @@ class Estimation final : public Metric {
       : from_(duration_from_s(parameters.number("from_s"))),
         row_reach_m_(parameters.number("row_reach_m")),
         is_rotorcraft_(context.vehicle_description != nullptr &&
-                       context.vehicle_description->numbers.contains("rotor_count")) {
+                       context.vehicle_description->rotorcraft.has_value()) {
     const auto& nis = parameters.texts("nis");
     const double margin = parameters.number("nees_margin");
     judges_.emplace_back(EstimateJudge::Signals{}, EstimateJudge::Prefixes{}, nis, margin);

@@ -43,7 +43,7 @@ class Flight final : public Metric {
       : scene_(context.scene),
         description_(context.vehicle_description),
         vehicle_(context.vehicle_truth),
-        has_wings_(description_->numbers.contains("wing_span_m")) {}
+        has_wings_(description_->fixed_wing.has_value()) {}
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");

@@ -33,7 +33,7 @@ class SurveyMetric final : public Metric {
   SurveyMetric(const ParameterSet& parameters, const MetricContext& context)
       : camera_(parameters.has("camera") ? parameters.text("camera") : "camera"),
         is_wanted_(parameters.has("camera") ||
-                   context.vehicle_description->numbers.contains("wing_span_m")) {
+                   context.vehicle_description->fixed_wing.has_value()) {
     options_ = read_coverage_options(parameters);
     if (options_.parcel_W.empty() && context.world != nullptr) {
       options_.parcel_W = context.world->rows.boundary_W;

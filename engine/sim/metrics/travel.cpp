@@ -10,9 +10,8 @@ namespace {
 class Travel final : public Metric {
  public:
   explicit Travel(const MetricContext& context) : vehicle_(context.vehicle_truth) {
-    const auto& numbers = context.vehicle_description->numbers;
-    const auto capacity = numbers.find("battery_capacity_J");
-    if (capacity != numbers.end()) capacity_J_ = capacity->second;
+    const std::optional<double>& capacity_J = context.vehicle_description->battery_capacity_J;
+    if (capacity_J) capacity_J_ = *capacity_J;
   }
 
   void connect(Ports& ports) override {

@@ -28,8 +28,7 @@ class WheelSlip final : public Metric {
   explicit WheelSlip(const MetricContext& context) {
     const VehicleDescription& vehicle = *context.vehicle_description;
     flies_ = vehicle.flies();
-    const auto radius = vehicle.numbers.find("wheel_radius_m");
-    if (radius != vehicle.numbers.end()) radius_m_ = radius->second;
+    if (vehicle.wheeled) radius_m_ = vehicle.wheeled->wheel_radius_m;
     // The names of the results are asked for before the wheels have said a word.
     for (const ActuatorSpec& actuator : vehicle.actuators) {
       const std::string name = wheel_of(actuator.name, "_speed_radps");

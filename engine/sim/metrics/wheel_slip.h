@@ -7,8 +7,8 @@
 /// is nearest to a turn of its plan (PlanStretch).
 ///
 /// Left out are samples that mean nothing: a wheel without load, and one that is nearly standing,
-/// that is |R omega| < 0.05 m/s (R: the vehicle's "wheel_radius_m") while the vehicle moves slower
-/// than 0.05 m/s. A vehicle that does not tell its wheels' radius is judged by its own speed alone.
+/// that is |R omega| < 0.05 m/s (R: the wheel's radius) while the vehicle moves slower than 0.05
+/// m/s. A vehicle that does not tell its wheels (`wheeled`) is judged by its own speed alone.
 ///
 /// Results: slip_rms, slip_max, slip_rms_turn, slip_max_turn and slip_angle_rms_rad over all
 /// wheels, slip_rms_<n> and slip_max_<n> of each. NaN where there are no wheels, or no turns;

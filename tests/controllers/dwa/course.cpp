@@ -176,16 +176,16 @@ VehicleDescription make_four_wheel_rover() {
   description.footprint_B = {{-0.95, -0.36}, {-0.75, -0.5}, {0.75, -0.5}, {0.95, -0.36},
                              {0.95, 0.36},   {0.75, 0.5},   {-0.75, 0.5}, {-0.95, 0.36}};
   description.height_above_ground_m = 0.45;
-  description.numbers = {{"front_axle_m", 0.75},
-                         {"rear_axle_m", 0.75},
-                         {"max_axle_steer_rad", 23.0 * kPi / 180.0},
-                         {"steer_rate_radps", 2.0},
-                         {"max_speed_mps", 1.6},
-                         {"track_m", 0.85},
-                         {"wheel_base_m", 1.5},
-                         {"wheel_radius_m", 0.2},
-                         {"wheel_speed_limit_radps", 8.0},
-                         {"min_turning_radius_m", 1.767}};
+  description.max_speed_mps = 1.6;
+  description.min_turning_radius_m = 1.767;
+  description.wheeled = {.track_m = 0.85,
+                         .wheel_base_m = 1.5,
+                         .wheel_radius_m = 0.2,
+                         .wheel_speed_limit_radps = 8.0};
+  description.steered = {.front_axle_m = 0.75,
+                         .rear_axle_m = 0.75,
+                         .max_axle_steer_rad = 23.0 * kPi / 180.0,
+                         .steer_rate_radps = 2.0};
   return description;
 }
 

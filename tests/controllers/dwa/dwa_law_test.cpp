@@ -13,7 +13,7 @@
 namespace vinerow::test::dwa_law_test {
 namespace {
 
-const FourWheelGeometry kRover{0.75, 0.75, rad_from_deg(23), 2.0};
+const SteeredVehicle kRover{0.75, 0.75, rad_from_deg(23), 2.0};
 
 AxleAngles steering_deg(double front, double rear) {
   return {rad_from_deg(front), rad_from_deg(rear)};
@@ -62,7 +62,7 @@ TEST(DwaRollout, CrabsAlongALine) {
 TEST(DwaRollout, BothAxlesRollWithoutSkidding) {
   RandomStream random(1, "", "steering");
   for (int i = 0; i < 100; ++i) {
-    const double limit = kRover.max_steer_rad;
+    const double limit = kRover.max_axle_steer_rad;
     const AxleAngles steering{random.uniform(-limit, limit), random.uniform(-limit, limit)};
     const double v = random.uniform(0.1, 1.0);
     constexpr double kTiny_s = 1e-6;

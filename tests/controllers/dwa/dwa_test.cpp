@@ -219,13 +219,15 @@ TEST(Dwa, RefusesWithOneSentence) {
   EXPECT_EQ(refusal({{"mode", std::string("pur")}}, same).find("mode"), 0u);
   EXPECT_NE(refusal({{"horizon_s", 0.0}}, same).find("horizon_s = 0 s, must be > 0"),
             std::string::npos);
-  EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.numbers.erase("front_axle_m"); })
-                .find("rover.guidance (dwa) needs 'front_axle_m', which vehicle type "
-                      "'four_wheel_steering_rover' does not tell (it tells: "),
-            0u);
-  EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.numbers["rear_axle_m"] = -0.75; }),
-            "rover.guidance (dwa): 'rear_axle_m' of vehicle type 'four_wheel_steering_rover' is "
-            "-0.75, must be > 0");
+  EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.steered.reset(); }),
+            "rover.guidance (dwa) needs a vehicle with steered axles; vehicle type "
+            "'four_wheel_steering_rover' has wheels");
+  EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.steered->rear_axle_m = -0.75; }),
+            "rover.guidance (dwa) needs 'rear_axle_m' > 0, but vehicle type "
+            "'four_wheel_steering_rover' tells -0.75");
+  EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.max_speed_mps.reset(); }),
+            "rover.guidance (dwa) needs 'max_speed_mps', which vehicle type "
+            "'four_wheel_steering_rover' does not tell");
 }
 
 TEST(Dwa, StandingWhereTheAuthorityEndsIsNoJam) {

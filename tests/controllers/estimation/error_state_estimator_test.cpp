@@ -121,8 +121,7 @@ class Bench {
     return at == values.names.end() ? kNaN : values.values[at - values.names.begin()];
   }
   void write_wheels(double rim_mps) {
-    speeds_.values.assign(speeds_.names.size(),
-                          rim_mps / description_.numbers.at("wheel_radius_m"));
+    speeds_.values.assign(speeds_.names.size(), rim_mps / description_.wheeled->wheel_radius_m);
     wheels.write(now(), speeds_);
   }
 

@@ -194,7 +194,7 @@ TEST(OdometryFilter, RefusesWheelsWhereThereAreNone) {
   const VehicleDescription description = [] {
     VehicleDescription d;
     d.type = "quadrotor";
-    d.numbers = {{"wheel_radius_m", 0.2}};
+    d.wheeled.emplace().wheel_radius_m = 0.2;
     return d;
   }();
   EstimatorContext context;

@@ -114,7 +114,7 @@ struct SlopeDrive {
   SlopeDrive(const Text& type, const Values& values, std::uint64_t seed, bool flies = false)
       : map(make_wall_map(kSlope)), random(seed, "test", "drive") {
     vehicle.height_above_ground_m = 0.4;
-    if (flies) vehicle.numbers["rotor_count"] = 4.0;
+    if (flies) vehicle.rotorcraft.emplace();
     bench.emplace(type, values, &map, make_sensors(), &vehicle, seed);
   }
   Pose true_pose() const {
@@ -266,7 +266,7 @@ TEST_P(GroundOf, SaysWhyAVehicleCannotStandOnTheMap) {
     }
   };
   VehicleDescription rover, drone;
-  drone.numbers["rotor_count"] = 4.0;
+  drone.rotorcraft.emplace();
   const RowMap map = make_wall_map(kSlope), one = make_wall_map({.rows = 1});
   say(&drone, map, "the vehicle flies");
   say(&rover, one, "the map has no two rows that tell its ground");

@@ -228,18 +228,21 @@ TEST(FourWheelSteering, RefusesVehiclesItCannotSteer) {
       "'test_rover' has no 'axle_front_steer_rad', only wheel_fl_speed_radps, "
       "wheel_fr_speed_radps, wheel_rl_speed_radps, wheel_rr_speed_radps");
   VehicleDescription vehicle = make_steered_description();
-  vehicle.numbers.erase("steer_rate_radps");
-  EXPECT_EQ(
-      refusal_of(vehicle).find("rover.controller (four_wheel_steering) needs 'steer_rate_radps', "
-                               "which vehicle type 'test_steered_rover' does not tell"),
-      0u);
-  vehicle = make_steered_description();
-  vehicle.numbers["rear_axle_m"] = -0.75;
+  vehicle.steered->steer_rate_radps = 0.0;
   EXPECT_EQ(refusal_of(vehicle),
-            "rover.controller (four_wheel_steering): vehicle type 'test_steered_rover' tells "
-            "rear_axle_m = -0.75, must be > 0");
+            "rover.controller (four_wheel_steering) needs 'steer_rate_radps' > 0, but vehicle type "
+            "'test_steered_rover' tells 0");
+  vehicle.steered.reset();
+  EXPECT_EQ(refusal_of(vehicle),
+            "rover.controller (four_wheel_steering) needs a vehicle with steered axles; vehicle "
+            "type 'test_steered_rover' has wheels");
   vehicle = make_steered_description();
-  vehicle.numbers["max_axle_steer_rad"] = 1.4;
+  vehicle.steered->rear_axle_m = -0.75;
+  EXPECT_EQ(refusal_of(vehicle),
+            "rover.controller (four_wheel_steering) needs 'rear_axle_m' > 0, but vehicle type "
+            "'test_steered_rover' tells -0.75");
+  vehicle = make_steered_description();
+  vehicle.steered->max_axle_steer_rad = 1.4;
   for (int i = 0; i < 2; ++i) vehicle.actuators[i].min = -(vehicle.actuators[i].max = 1.4);
   EXPECT_NE(refusal_of(vehicle).find("axles that turn by 1.4 rad"), std::string::npos);
 }

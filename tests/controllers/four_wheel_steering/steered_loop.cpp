@@ -46,7 +46,7 @@ SteeredLoop::SteeredLoop(const LoopOptions& options, const Pose2& start)
       plant_({start.p + options.offset_m, start.yaw_rad + options.heading_error_rad},
              options.plant),
       has_encoders_(options.encoders) {
-  description_.numbers["steer_lag_s"] = options.plant.servo_lag_s;
+  description_.steered->steer_lag_s = options.plant.servo_lag_s;
   Ports world(bus_, "rover", "test");
   estimate_ = world.write<Odometry>("estimate");
   plan_ = world.write<PlannedPath>("plan");

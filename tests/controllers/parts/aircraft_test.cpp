@@ -45,14 +45,17 @@ TEST(Aircraft, RefusesWhatHasNoWingsOrTellsTooLittle) {
     return complaint([&] { read_aircraft(description, 9.81, "plane.controller (trmpc)"); });
   };
   EXPECT_EQ(read(make_rover_description()),
-            "plane.controller (trmpc): vehicle type 'test_rover' has no wings");
+            "plane.controller (trmpc) needs a vehicle with wings; vehicle type 'test_rover' has "
+            "wheels");
   VehicleDescription description = describe(make_mh900_like());
-  description.numbers.erase("cruise_speed_mps");
-  EXPECT_EQ(read(description)
-                .find("plane.controller (trmpc) needs 'cruise_speed_mps', which "
-                      "vehicle type 'fixed_wing' does not tell"),
-            0u)
-      << read(description);
+  description.fixed_wing->cruise_speed_mps = 0.0;
+  EXPECT_EQ(read(description),
+            "plane.controller (trmpc) needs 'cruise_speed_mps' > 0, but vehicle type 'fixed_wing' "
+            "tells 0");
+  description.fixed_wing->flight_model = nullptr;
+  EXPECT_EQ(read(description),
+            "plane.controller (trmpc) needs 'flight_model', which vehicle type 'fixed_wing' does "
+            "not tell");
   description = describe(make_mh900_like());
   description.actuators[1].name = "flap_rad";
   EXPECT_NE(read(description).find("elevon_left_rad"), std::string::npos) << read(description);

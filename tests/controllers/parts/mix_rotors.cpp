@@ -25,11 +25,11 @@ int main() {
   RandomStream random(1, "test", "mixer");
   for (const QuadrotorNumbers& numbers :
        {test::make_q4t(), test::with_plus_layout(test::make_q4t()), test::make_m100(), odd, six}) {
-    const Rotorcraft craft = read_rotorcraft(test::describe(numbers), 9.80665, "test");
+    const RotorcraftModel craft = read_rotorcraft(test::describe(numbers), 9.80665, "test");
     RotorMixer mixer(craft, "test");
     std::vector<double> speeds(craft.rotors.size());
     std::printf("vehicle %zu %.17g %.17g %.17g %.17g\n", craft.rotors.size(),
-                craft.thrust_coefficient, craft.torque_coefficient, craft.min_rotor_radps,
+                craft.thrust_coefficient_Ns2, craft.torque_coefficient_Nms2, craft.min_rotor_radps,
                 craft.max_rotor_radps);
     for (const RotorPlace& rotor : craft.rotors) {
       std::printf("%.17g %.17g %.17g\n", rotor.p_B.x(), rotor.p_B.y(), rotor.torque_sign);

@@ -12,7 +12,7 @@
 namespace vinerow::rotor_mixer_test {
 namespace {
 
-Rotorcraft make_craft(const test::QuadrotorNumbers& numbers) {
+RotorcraftModel make_craft(const test::QuadrotorNumbers& numbers) {
   return read_rotorcraft(test::describe(numbers), numbers.gravity_mps2, "drone.controller");
 }
 
@@ -41,7 +41,7 @@ std::vector<test::QuadrotorNumbers> layouts() {
 TEST(RotorMixer, IsExactInsideTheLimits) {
   RandomStream random(1, "test", "mixer");
   for (const test::QuadrotorNumbers& numbers : layouts()) {
-    const Rotorcraft craft = make_craft(numbers);
+    const RotorcraftModel craft = make_craft(numbers);
     RotorMixer mixer(craft, "test");
     const double weight = numbers.mass_kg * numbers.gravity_mps2;
     for (int i = 0; i < 200; ++i) {

@@ -14,12 +14,12 @@ namespace {
 using test::QuadrotorNumbers;
 using test::QuadrotorSim;
 
-Rotorcraft make_craft(const QuadrotorNumbers& numbers) {
+RotorcraftModel make_craft(const QuadrotorNumbers& numbers) {
   return read_rotorcraft(test::describe(numbers), numbers.gravity_mps2, "drone.controller");
 }
 
 TEST(Rotorcraft, HoversAtTheRateOfTheReference) {
-  const Rotorcraft craft = make_craft(test::make_q4t());
+  const RotorcraftModel craft = make_craft(test::make_q4t());
   EXPECT_NEAR(craft.hover_rotor_radps(), 286.0, 0.5);  // reference, section 5
   EXPECT_NEAR(craft.max_thrust_N(), 4 * 24.5, 0.1);    // paper A: 24.5 N per motor
   EXPECT_NEAR(make_craft(test::make_m100()).hover_rotor_radps(), 580.0, 1e-9);  // paper C, table 1
@@ -38,8 +38,8 @@ TEST(Rotorcraft, RefusesWhatCannotFlyBySentences) {
   VehicleDescription rover;
   rover.type = "diff_drive_rover";
   expect_refused(rover,
-                 "drone.controller needs 'rotor_count', which vehicle type 'diff_drive_rover' does "
-                 "not tell");
+                 "drone.controller needs a vehicle with rotors; vehicle type 'diff_drive_rover' "
+                 "has neither wheels nor rotors nor wings");
   QuadrotorNumbers numbers = test::make_q4t();
   numbers.max_radps = 250.0;
   expect_refused(test::describe(numbers),
@@ -54,11 +54,11 @@ TEST(Rotorcraft, RefusesWhatCannotFlyBySentences) {
   numbers = test::make_q4t();
   numbers.inertia_kgm2.y() = 0.0;
   expect_refused(test::describe(numbers),
-                 "drone.controller needs 'inertia_yy_kgm2' > 0, but vehicle type 'quadrotor' tells "
+                 "drone.controller needs 'inertia_kgm2.y' > 0, but vehicle type 'quadrotor' tells "
                  "0");
   numbers = test::make_q4t();
   numbers.lag_s = 0.0;
-  const Rotorcraft craft = make_craft(numbers);
+  const RotorcraftModel craft = make_craft(numbers);
   EXPECT_EQ(make_hover_model(craft, false).A.rows(), 12);
   EXPECT_THROW(make_hover_model(craft, true), ConfigError);
 }
@@ -110,7 +110,7 @@ void put(QuadrotorSim& sim, double yaw_rad, const Eigen::VectorXd& x, RotorMixer
 TEST(HoverModel, IsTheDerivativeOfTheNonlinearVehicle) {
   for (QuadrotorNumbers numbers : {test::make_q4t(), test::with_plus_layout(test::make_m100())}) {
     numbers.body_drag_area_m2 = 0.0;  // quadratic drag has no derivative but zero at rest
-    const Rotorcraft craft = make_craft(numbers);
+    const RotorcraftModel craft = make_craft(numbers);
     RotorMixer mixer(craft, "test");
     const HoverModel model = make_hover_model(craft, true);
     ASSERT_EQ(model.A.rows(), 16);
@@ -139,7 +139,7 @@ TEST(HoverModel, IsTheDerivativeOfTheNonlinearVehicle) {
 }
 
 TEST(HoverModel, WithoutLagHasTheWrenchAsInput) {
-  const Rotorcraft craft = make_craft(test::make_m100());
+  const RotorcraftModel craft = make_craft(test::make_m100());
   const HoverModel lagged = make_hover_model(craft, true), direct = make_hover_model(craft, false);
   EXPECT_EQ(direct.A, lagged.A.topLeftCorner(12, 12));
   // In the long run, when the lagged wrench is the wanted one, with what spinning up gives at once.

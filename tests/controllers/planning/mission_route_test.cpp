@@ -23,15 +23,15 @@ using Eigen::Vector2d;
 VehicleDescription plane() {
   VehicleDescription vehicle;
   vehicle.type = "fixed_wing";
-  vehicle.numbers = {
-      {"wing_span_m", 0.9}, {"min_turning_radius_m", 21.0}, {"stall_speed_mps", 8.4}};
+  vehicle.min_turning_radius_m = 21.0;
+  vehicle.fixed_wing.emplace().stall_speed_mps = 8.4;
   return vehicle;
 }
 
 VehicleDescription quadrotor() {
   VehicleDescription vehicle;
   vehicle.type = "quadrotor";
-  vehicle.numbers = {{"rotor_count", 4.0}};
+  vehicle.rotorcraft.emplace();
   vehicle.height_above_ground_m = 0.2;
   return vehicle;
 }

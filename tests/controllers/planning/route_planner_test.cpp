@@ -340,12 +340,14 @@ TEST(RoutePlannerParameters, TurningRadiusIsTheVehiclesOrWider) {
               ::testing::ThrowsMessage<ConfigError>(
                   "me: turning_radius_m = 1.500 m is less than the 1.767 m that vehicle type "
                   "'four_wheel_steering_rover' can turn"));
-  vehicle.numbers["min_turning_radius_m"] = 0.0;
+  vehicle.min_turning_radius_m = 0.0;
   EXPECT_THAT([&] { read_route_planner_params(make_parameters(), context, "me"); },
               ::testing::ThrowsMessage<ConfigError>(HasSubstr("give turning_radius_m")));
-  vehicle.numbers.clear();
+  vehicle.min_turning_radius_m.reset();
   EXPECT_THAT([&] { read_route_planner_params(make_parameters(), context, "me"); },
-              ::testing::ThrowsMessage<ConfigError>(HasSubstr("min_turning_radius_m")));
+              ::testing::ThrowsMessage<ConfigError>(
+                  "me needs 'min_turning_radius_m', which vehicle type "
+                  "'four_wheel_steering_rover' does not tell"));
 }
 
 TEST(AnalyticTurn, EveryCandidateArrivesAndTheyAreSorted) {

@@ -32,7 +32,8 @@ struct Mission {
     }
     rover.type = "four_wheel_steering_rover";
     rover.footprint_B = hand_grids::rover_outline_B();
-    rover.numbers = {{"wheel_base_m", 1.5}, {"min_turning_radius_m", 1.767}};
+    rover.min_turning_radius_m = 1.767;
+    rover.wheeled.emplace().wheel_base_m = 1.5;
   }
 
   std::unique_ptr<Planner> make(const Values& values, std::uint64_t seed = 1) const {
@@ -157,9 +158,12 @@ TEST(RrtQuartilePlanner, RefusesWhatCannotWork) {
   blank.map.occupancy = {};
   EXPECT_NE(blank.refusal({}).find("no occupancy grid"), std::string::npos);
   Mission stiff(make_vineyard(2));
-  stiff.rover.numbers.erase("wheel_base_m");
+  stiff.rover.wheeled->wheel_base_m = 0.0;
   EXPECT_EQ(stiff.refusal({}), "accepted") << "the turning radius is enough";
   EXPECT_NE(stiff.refusal({{"steering", Text("two_wheel")}}).find("wheel_base_m"),
+            std::string::npos);
+  stiff.rover.wheeled.reset();
+  EXPECT_NE(stiff.refusal({{"steering", Text("two_wheel")}}).find("needs a vehicle with wheels"),
             std::string::npos);
 }
 

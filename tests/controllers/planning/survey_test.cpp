@@ -14,10 +14,10 @@ namespace {
 VehicleDescription plane() {
   VehicleDescription vehicle;
   vehicle.type = "fixed_wing";
-  vehicle.numbers = {{"wing_span_m", 0.9},
-                     {"min_turning_radius_m", 15.0},
-                     {"stall_speed_mps", 8.4},
-                     {"max_bank_rad", 0.7}};
+  vehicle.min_turning_radius_m = 15.0;
+  FixedWingAircraft& aircraft = vehicle.fixed_wing.emplace();
+  aircraft.stall_speed_mps = 8.4;
+  aircraft.max_bank_rad = 0.7;
   return vehicle;
 }
 
@@ -99,11 +99,11 @@ TEST(SurveyPart, RefusesWhileLoading) {
 
 TEST(SurveyPart, TurnsAsTheVehicleCan) {
   VehicleDescription wide = plane();
-  wide.numbers["min_turning_radius_m"] = 40.0;
+  wide.min_turning_radius_m = 40.0;
   EXPECT_EQ(run({}, wide).numbers.at("turn_radius_m"), 40.0);
   EXPECT_NEAR(run({}).numbers.at("turn_radius_m"), 20.97, 0.01);
   VehicleDescription gentle = plane();
-  gentle.numbers["max_bank_rad"] = 0.4;
+  gentle.fixed_wing->max_bank_rad = 0.4;
   EXPECT_NEAR(run({}, gentle).numbers.at("turn_radius_m"), 144.0 / (9.80665 * std::tan(0.4)), 1e-9);
 }
 

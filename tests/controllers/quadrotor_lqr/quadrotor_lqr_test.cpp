@@ -30,7 +30,7 @@ struct Law {
         mixer(craft, "test"),
         params(p),
         law(craft, mixer, limits, p, "test") {}
-  Rotorcraft craft;
+  RotorcraftModel craft;
   RotorMixer mixer;
   LqrParams params;
   QuadrotorLqrLaw law;

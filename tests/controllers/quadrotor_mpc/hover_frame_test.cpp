@@ -14,7 +14,7 @@
 namespace vinerow::test::hover_frame_test {
 namespace {
 
-Rotorcraft q4t() {
+RotorcraftModel q4t() {
   return read_rotorcraft(describe(make_q4t()), 9.80665, "test");
 }
 
@@ -91,7 +91,7 @@ TEST(HoverFrame, TurnsWrenchesForthAndBack) {
 }
 
 TEST(RotorPrediction, FollowsTheLagAndItsMeanThrust) {
-  const Rotorcraft craft = q4t();
+  const RotorcraftModel craft = q4t();
   const RotorMixer mixer(craft, "test");
   RotorPrediction rotors(craft, mixer);
   const std::vector<double> start = {100, 200, 300, 400}, wanted = {500, 250, 100, 0};
@@ -123,7 +123,7 @@ TEST(RotorPrediction, FollowsTheLagAndItsMeanThrust) {
 /// A vehicle that is pushed by `force_W` and turned by `torque_B`, held up by its weight as thrust,
 /// while it yaws.
 FlightDisturbance learn(double time_s, double seconds, bool torques = true) {
-  const Rotorcraft craft = q4t();
+  const RotorcraftModel craft = q4t();
   FlightDisturbance disturbance(craft, time_s, torques, 0.05);
   const double weight_N = craft.mass_kg * craft.gravity_mps2;
   const Eigen::Vector3d force_W(1.2, -0.4, 0.6), torque_B(0.02, 0.01, -0.03);

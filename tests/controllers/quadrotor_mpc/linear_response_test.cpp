@@ -72,7 +72,7 @@ TEST(QuadrotorMpcLinear, IsTheInfiniteHorizonLqrWhileNoLimitIsActive) {
   EXPECT_NEAR(LinearLoop(0.0).spectral_radius(), 0.893, 5e-4);
   const LinearLoop loop;
   EXPECT_NEAR(loop.spectral_radius(), 0.899, 5e-4);
-  const Rotorcraft craft = read_rotorcraft(describe(make_q4t()), 9.80665, "test");
+  const RotorcraftModel craft = read_rotorcraft(describe(make_q4t()), 9.80665, "test");
   LinearMpc mpc(make_quadrotor_problem(craft, RotorMixer(craft, "test"), {}, "test"), "test");
   State x = State::Zero(), expected;
   x.head<3>() << 0.05, -0.04, 0.03;

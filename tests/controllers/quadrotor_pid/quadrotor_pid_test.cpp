@@ -14,7 +14,7 @@ namespace {
 
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-Rotorcraft make_craft() {
+RotorcraftModel make_craft() {
   return read_rotorcraft(describe(make_q4t()), 9.80665, "test");
 }
 
@@ -26,7 +26,7 @@ PositionParams make_params() {
 }
 
 TEST(PositionLaw, FeedsTheReferenceForward) {
-  const Rotorcraft craft = make_craft();
+  const RotorcraftModel craft = make_craft();
   PositionLaw law(craft, make_params());
   TrajectoryPoint at;
   at.p_W = {1, 2, 3};
@@ -131,7 +131,7 @@ TEST(AttitudeLaw, RightsAVehicleThatHangsHeadDown) {
 }
 
 TEST(RateLaw, ScalesWithInertiaAndCancelsTheGyroscopicTorque) {
-  const Rotorcraft craft = make_craft();
+  const RotorcraftModel craft = make_craft();
   RateParams params;
   params.torque_limits_Nm.setConstant(1e3);
   RateLaw law(craft, params);
@@ -144,7 +144,7 @@ TEST(RateLaw, ScalesWithInertiaAndCancelsTheGyroscopicTorque) {
 }
 
 TEST(RateLaw, DoesNotWindUpWhereTorqueIsLost) {
-  const Rotorcraft craft = make_craft();
+  const RotorcraftModel craft = make_craft();
   RateParams params;
   RateLaw law(craft, params);
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();

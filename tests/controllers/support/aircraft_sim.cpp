@@ -106,23 +106,23 @@ VehicleDescription describe(const AircraftNumbers& numbers) {
       {"elevon_left_rad", "rad", -numbers.max_elevon_rad, numbers.max_elevon_rad},
       {"elevon_right_rad", "rad", -numbers.max_elevon_rad, numbers.max_elevon_rad}};
   description.collision_half_extents_m = {0.3, 0.5 * numbers.span_m, 0.05};
-  description.flight_model = std::make_shared<SimFlightModel>(numbers);
-  auto& tell = description.numbers;
-  tell["wing_span_m"] = numbers.span_m;
-  tell["wing_area_m2"] = numbers.area_m2;
-  tell["air_density_kgm3"] = numbers.air_density_kgm3;
-  tell["cruise_speed_mps"] = numbers.cruise_speed_mps;
-  tell["stall_speed_mps"] = std::sqrt(2.0 * numbers.mass_kg * numbers.gravity_mps2 /
-                                      (numbers.air_density_kgm3 * numbers.area_m2));
-  tell["max_bank_rad"] = numbers.max_bank_rad;
-  tell["throttle_lag_s"] = numbers.throttle_lag_s;
-  tell["elevon_lag_s"] = numbers.elevon_lag_s;
-  tell["max_speed_mps"] = 25.0;
-  tell["min_turning_radius_m"] = numbers.cruise_speed_mps * numbers.cruise_speed_mps /
-                                 (numbers.gravity_mps2 * std::tan(numbers.max_bank_rad));
-  tell["launch_throttle"] = 0.3;
-  tell["landing_sink_limit_mps"] = 2.0;
-  tell["belly_height_m"] = 0.05;
+  description.max_speed_mps = 25.0;
+  description.min_turning_radius_m = numbers.cruise_speed_mps * numbers.cruise_speed_mps /
+                                     (numbers.gravity_mps2 * std::tan(numbers.max_bank_rad));
+  FixedWingAircraft& aircraft = description.fixed_wing.emplace();
+  aircraft.flight_model = std::make_shared<SimFlightModel>(numbers);
+  aircraft.span_m = numbers.span_m;
+  aircraft.wing_area_m2 = numbers.area_m2;
+  aircraft.air_density_kgm3 = numbers.air_density_kgm3;
+  aircraft.cruise_speed_mps = numbers.cruise_speed_mps;
+  aircraft.stall_speed_mps = std::sqrt(2.0 * numbers.mass_kg * numbers.gravity_mps2 /
+                                       (numbers.air_density_kgm3 * numbers.area_m2));
+  aircraft.max_bank_rad = numbers.max_bank_rad;
+  aircraft.throttle_lag_s = numbers.throttle_lag_s;
+  aircraft.elevon_lag_s = numbers.elevon_lag_s;
+  aircraft.launch_throttle = 0.3;
+  aircraft.landing_sink_limit_mps = 2.0;
+  aircraft.belly_height_m = 0.05;
   return description;
 }
 

@@ -83,7 +83,8 @@ VehicleDescription make_four_wheel_description(double min_turning_radius_m) {
   description.collision_half_extents_m = {0.75, 0.5, 0.2};
   description.footprint_B = {{0.95, -0.36}, {0.95, 0.36},   {0.75, 0.5},   {-0.75, 0.5},
                              {-0.95, 0.36}, {-0.95, -0.36}, {-0.75, -0.5}, {0.75, -0.5}};
-  description.numbers["min_turning_radius_m"] = min_turning_radius_m;
+  description.min_turning_radius_m = min_turning_radius_m;
+  description.wheeled.emplace();
   return description;
 }
 

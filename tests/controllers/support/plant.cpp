@@ -55,7 +55,7 @@ VehicleDescription make_rover_description() {
     description.actuators.push_back(
         {std::string("wheel_") + place + "_speed_radps", "rad/s", -kNoLimit, kNoLimit});
   }
-  description.numbers = {{"track_m", 1.0}, {"wheel_radius_m", 0.2}};
+  description.wheeled = {.track_m = 1.0, .wheel_radius_m = 0.2};
   return description;
 }
 
@@ -73,11 +73,16 @@ VehicleDescription make_steered_description() {
     description.actuators.push_back(
         {std::string("wheel_") + place + "_speed_radps", "rad/s", -8.0, 8.0});
   }
-  description.numbers = {{"track_m", kTrack_m},         {"wheel_base_m", 2.0 * kAxle_m},
-                         {"front_axle_m", kAxle_m},     {"rear_axle_m", kAxle_m},
-                         {"wheel_radius_m", kRadius_m}, {"max_axle_steer_rad", limit},
-                         {"steer_rate_radps", 2.0},     {"wheel_speed_limit_radps", 8.0},
-                         {"max_speed_mps", 1.6},        {"min_turning_radius_m", 1.767}};
+  description.max_speed_mps = 1.6;
+  description.min_turning_radius_m = 1.767;
+  description.wheeled = {.track_m = kTrack_m,
+                         .wheel_base_m = 2.0 * kAxle_m,
+                         .wheel_radius_m = kRadius_m,
+                         .wheel_speed_limit_radps = 8.0};
+  description.steered = {.front_axle_m = kAxle_m,
+                         .rear_axle_m = kAxle_m,
+                         .max_axle_steer_rad = limit,
+                         .steer_rate_radps = 2.0};
   return description;
 }
 

@@ -56,32 +56,27 @@ VehicleDescription describe(const QuadrotorNumbers& numbers) {
   VehicleDescription description;
   description.type = "quadrotor";
   description.mass_kg = numbers.mass_kg;
-  auto& tell = description.numbers;
-  tell["rotor_count"] = static_cast<double>(numbers.rotors.size());
-  for (std::size_t i = 0; i < numbers.rotors.size(); ++i) {
-    const std::string rotor = "rotor_" + std::to_string(i + 1);
+  description.max_speed_mps = 8.0;
+  description.min_turning_radius_m = 1.0;
+  description.battery_capacity_J = 4.0e5;
+  Rotorcraft& craft = description.rotorcraft.emplace();
+  for (const SimRotor& rotor : numbers.rotors) {
+    craft.rotors.push_back({{rotor.x_m, rotor.y_m}, rotor.torque_sign});
     description.actuators.push_back(
-        {rotor + "_speed_radps", "rad/s", numbers.min_radps, numbers.max_radps});
-    tell[rotor + "_x_m"] = numbers.rotors[i].x_m;
-    tell[rotor + "_y_m"] = numbers.rotors[i].y_m;
-    tell[rotor + "_torque_sign"] = numbers.rotors[i].torque_sign;
+        {"rotor_" + std::to_string(craft.rotors.size()) + "_speed_radps", "rad/s",
+         numbers.min_radps, numbers.max_radps});
   }
-  tell["rotor_thrust_coefficient"] = numbers.thrust_coefficient;
-  tell["rotor_torque_coefficient"] = numbers.torque_coefficient;
-  tell["rotor_min_radps"] = numbers.min_radps;
-  tell["rotor_max_radps"] = numbers.max_radps;
-  tell["rotor_lag_s"] = numbers.lag_s;
-  tell["rotor_inertia_kgm2"] = numbers.rotor_inertia_kgm2;
-  tell["rotor_drag_Ns_per_m"] = numbers.rotor_drag_Ns_per_m;
-  tell["inertia_xx_kgm2"] = numbers.inertia_kgm2.x();
-  tell["inertia_yy_kgm2"] = numbers.inertia_kgm2.y();
-  tell["inertia_zz_kgm2"] = numbers.inertia_kgm2.z();
-  tell["tip_radius_m"] = 0.50;
-  tell["rotor_radius_m"] = 0.19;
-  tell["max_tilt_rad"] = 25.0 * M_PI / 180.0;
-  tell["max_speed_mps"] = 8.0;
-  tell["min_turning_radius_m"] = 1.0;
-  tell["battery_capacity_J"] = 4.0e5;
+  craft.inertia_kgm2 = numbers.inertia_kgm2;
+  craft.thrust_coefficient_Ns2 = numbers.thrust_coefficient;
+  craft.torque_coefficient_Nms2 = numbers.torque_coefficient;
+  craft.min_rotor_radps = numbers.min_radps;
+  craft.max_rotor_radps = numbers.max_radps;
+  craft.rotor_lag_s = numbers.lag_s;
+  craft.rotor_inertia_kgm2 = numbers.rotor_inertia_kgm2;
+  craft.rotor_drag_Ns_per_m = numbers.rotor_drag_Ns_per_m;
+  craft.rotor_radius_m = 0.19;
+  craft.tip_radius_m = 0.50;
+  craft.max_tilt_rad = 25.0 * M_PI / 180.0;
   return description;
 }
 

@@ -50,29 +50,25 @@ VehicleDescription make_quadrotor_description() {
     const double angle = 0.25 * kPi * i;
     description.footprint_B.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle));
   }
-  auto& tell = description.numbers;
+  description.max_speed_mps = 10.0;
+  description.min_turning_radius_m = 1.77;
+  Rotorcraft& craft = description.rotorcraft.emplace();
   const double arm_m = 0.31 * std::sqrt(0.5);
   for (int i = 0; i < 4; ++i) {
-    const std::string rotor = "rotor_" + std::to_string(i + 1);
-    description.actuators.push_back({rotor + "_speed_radps", "rad/s", 0.0, 640.0});
-    tell[rotor + "_x_m"] = i == 0 || i == 3 ? arm_m : -arm_m;
-    tell[rotor + "_y_m"] = i < 2 ? arm_m : -arm_m;
-    tell[rotor + "_torque_sign"] = i % 2 == 0 ? 1.0 : -1.0;
+    description.actuators.push_back(
+        {"rotor_" + std::to_string(i + 1) + "_speed_radps", "rad/s", 0.0, 640.0});
+    craft.rotors.push_back({{i == 0 || i == 3 ? arm_m : -arm_m, i < 2 ? arm_m : -arm_m},
+                            i % 2 == 0 ? 1.0 : -1.0});
   }
-  tell["rotor_count"] = 4.0;
-  tell["rotor_thrust_coefficient"] = 5.98e-5;
-  tell["rotor_torque_coefficient"] = 1.32e-6;
-  tell["rotor_min_radps"] = 0.0;
-  tell["rotor_max_radps"] = 640.0;
-  tell["rotor_lag_s"] = 0.05;
-  tell["rotor_drag_Ns_per_m"] = 0.30;
-  tell["inertia_xx_kgm2"] = tell["inertia_yy_kgm2"] = 0.050;
-  tell["inertia_zz_kgm2"] = 0.0977;
-  tell["tip_radius_m"] = 0.50;
-  tell["rotor_radius_m"] = 0.19;
-  tell["max_tilt_rad"] = rad_from_deg(25.0);
-  tell["max_speed_mps"] = 10.0;
-  tell["min_turning_radius_m"] = 1.77;
+  craft.inertia_kgm2 = {0.050, 0.050, 0.0977};
+  craft.thrust_coefficient_Ns2 = 5.98e-5;
+  craft.torque_coefficient_Nms2 = 1.32e-6;
+  craft.max_rotor_radps = 640.0;
+  craft.rotor_lag_s = 0.05;
+  craft.rotor_drag_Ns_per_m = 0.30;
+  craft.rotor_radius_m = 0.19;
+  craft.tip_radius_m = 0.50;
+  craft.max_tilt_rad = rad_from_deg(25.0);
   return description;
 }
 

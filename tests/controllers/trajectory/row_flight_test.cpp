@@ -322,7 +322,7 @@ TEST(RowFlight, RefusesWhatCannotBeFlown) {
   bench.values = {};
   FlightBench rover({.alleys = 1, .row_length_m = 20.0});
   rover.vehicle.type = "four_wheel_steering_rover";
-  rover.vehicle.numbers.erase("rotor_count");
+  rover.vehicle.rotorcraft.reset();
   EXPECT_EQ(refusal_of(rover),
             "drone.planner (row_flight) plans flights, but vehicle type "
             "'four_wheel_steering_rover' does not fly");

@@ -508,8 +508,8 @@ TEST(Trajectory, TellsWhatIsWrongWithItsParameters) {
   EXPECT_THAT(refusal_of({{"acceleration_mps2", 0.0}}), HasSubstr("must be > 0"));
   VehicleDescription rover = make_four_wheel_description();
   EXPECT_EQ(refusal_of({}, rover),
-            "drone.guidance (trajectory) needs 'rotor_count', which vehicle type "
-            "'four_wheel_steering_rover' does not tell (it tells: min_turning_radius_m)");
+            "drone.guidance (trajectory) needs a vehicle with rotors; vehicle type "
+            "'four_wheel_steering_rover' has wheels");
 }
 
 }  // namespace

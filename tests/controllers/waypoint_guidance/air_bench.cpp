@@ -15,13 +15,13 @@ VehicleDescription make_plane_description() {
   description.actuators = {{"throttle", "", 0.0, 1.0},
                            {"elevon_left_rad", "rad", -0.436, 0.436},
                            {"elevon_right_rad", "rad", -0.436, 0.436}};
-  auto& tell = description.numbers;
-  tell["wing_span_m"] = 0.9;
-  tell["cruise_speed_mps"] = 12.0;
-  tell["stall_speed_mps"] = 8.4;
-  tell["max_bank_rad"] = rad_from_deg(45.0);
-  tell["max_speed_mps"] = 20.0;
-  tell["belly_height_m"] = 0.05;
+  description.max_speed_mps = 20.0;
+  FixedWingAircraft& aircraft = description.fixed_wing.emplace();
+  aircraft.span_m = 0.9;
+  aircraft.cruise_speed_mps = 12.0;
+  aircraft.stall_speed_mps = 8.4;
+  aircraft.max_bank_rad = rad_from_deg(45.0);
+  aircraft.belly_height_m = 0.05;
   return description;
 }
 

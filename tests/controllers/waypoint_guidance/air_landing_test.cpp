@@ -15,7 +15,7 @@ Event land(const Values& values) {
   PlaneOptions options;
   options.start_W = {0.0, 0.0, 60.1};
   VehicleDescription vehicle = make_plane_description();
-  vehicle.numbers["start_height_m"] = 60.1;
+  vehicle.fixed_wing->start_height_m = 60.1;
   AirBench bench(values, options, "waypoint_guidance", vehicle);
   bench.give_plan(make_waypoints({{0, 0, 60}, {200, 0, 60}}));
   bench.fly(40.0);

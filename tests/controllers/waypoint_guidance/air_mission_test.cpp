@@ -394,8 +394,8 @@ TEST(AirMission, RefusesParametersThatCannotBeFlown) {
                  who + "flare_height_m = 40.00 m is not below approach_height_m = 30.00 m");
   VehicleDescription rover;
   rover.type = "rover";
-  rover.numbers = {{"track_m", 0.5}};
-  expect_refused({}, "vehicle type 'rover' does not tell (it tells: track_m)", rover);
+  rover.wheeled.emplace();
+  expect_refused({}, "needs a vehicle with wings; vehicle type 'rover' has wheels", rover);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ PathPoint point(double x, double y, PathKind kind, int alley = -1) {
 class WingBench : public ::testing::Test {
  protected:
   WingBench() {
-    description_.numbers["wing_span_m"] = 0.9;
+    description_.fixed_wing.emplace();
     Ports ports(bus_, "plane", "test");
     truth_out_ = ports.write<Odometry>("truth");
     reference_out_ = ports.write<AirReference>("reference");
@@ -200,8 +200,8 @@ TEST_F(WingBench, ResultsAreNamedBeforeTheFirstTick) {
 }
 
 TEST_F(WingBench, WithoutWingsThereAreNoSuchResults) {
-  description_.numbers.clear();
-  description_.numbers["rotor_count"] = 4;
+  description_.fixed_wing.reset();
+  description_.rotorcraft.emplace();
   SignalBus bus;
   Ports ports(bus, "drone", "test");
   ports.write<Odometry>("truth");

@@ -242,9 +242,7 @@ TEST(EstimationMetric, LeavesOutTheBeginningAndOldEstimates) {
 
 TEST(EstimationMetric, LeavesOutARotorcraftThatHasLanded) {
   using Phase = ReferenceTrajectory::Phase;
-  const auto largest_m = [](const char* lifted_by) {
-    VehicleDescription vehicle;
-    vehicle.numbers[lifted_by] = 4.0;
+  const auto largest_m = [](const VehicleDescription& vehicle) {
     Bench bench(0.0, 0.0, vehicle);
     for (const auto& [phase, error_m] : {std::pair(Phase::kLand, 0.1), {Phase::kDone, 0.5}}) {
       bench.write_truth({0, 0, 0}, 0);
@@ -254,8 +252,11 @@ TEST(EstimationMetric, LeavesOutARotorcraftThatHasLanded) {
     }
     return bench.result("estimate_longitudinal_max_m");
   };
-  EXPECT_NEAR(largest_m("rotor_count"), 0.1, 1e-12);
-  EXPECT_NEAR(largest_m("wing_span_m"), 0.5, 1e-12) << "what has wings has no such reference";
+  VehicleDescription rotors, wings;
+  rotors.rotorcraft.emplace();
+  wings.fixed_wing.emplace();
+  EXPECT_NEAR(largest_m(rotors), 0.1, 1e-12);
+  EXPECT_NEAR(largest_m(wings), 0.5, 1e-12) << "what has wings has no such reference";
 }
 
 TEST(EstimationMetric, CountsWhatTheEllipsoidContains) {

@@ -103,7 +103,7 @@ class FlightBench : public ::testing::Test {
   using Make = std::unique_ptr<Metric> (*)(const ParameterSet&, const MetricContext&);
 
   FlightBench() {
-    description_.numbers["rotor_count"] = 2;
+    description_.rotorcraft.emplace();
     description_.height_above_ground_m = 0.2;
     description_.actuators = {{"rotor_1_speed_radps", "rad/s", 0, 100},
                               {"rotor_2_speed_radps", "rad/s", 0, 100}};
@@ -334,7 +334,7 @@ TEST_F(FlightBench, OnTheGroundThereIsNoFlightAndInTheAirNoSlip) {
   start(make_wheel_slip);
   fly(8, 2, 1.5);
   EXPECT_TRUE(metric_->results().empty());
-  description_.numbers.clear();
+  description_.rotorcraft.reset();
   start(make_flight);
   fly(8, 2, 1.5);
   EXPECT_TRUE(metric_->results().empty());

@@ -22,7 +22,7 @@ constexpr double kPitch_m = 3.75e-6, kFocal_m = 5.4e-3, kHalfColumns = 640.0;
 class GsdBench : public ::testing::Test {
  protected:
   GsdBench() {
-    plane_.numbers["wing_span_m"] = 0.9;
+    plane_.fixed_wing.emplace();
     ParameterSet camera(camera_trigger_spec().parameters, "camera_trigger");
     camera.set("on", std::string("always"));
     // Upright at the nose's 7.35 deg up in level flight, as in the shipped surveys.

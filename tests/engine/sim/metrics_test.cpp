@@ -104,7 +104,7 @@ NamedValues two_wheels(double left_slip, double right_slip, double speed_radps =
 
 TEST(WheelSlip, IsMeasuredForAllForEachAndInTurns) {
   Bench bench;
-  bench.vehicle.numbers["wheel_radius_m"] = 0.2;
+  bench.vehicle.wheeled.emplace().wheel_radius_m = 0.2;
   bench.start(make_wheel_slip);
   bench.drive(0.0, {5, 0}, 1.0);
   bench.plan(u_turn(2.0, 20));
@@ -126,7 +126,7 @@ TEST(WheelSlip, IsMeasuredForAllForEachAndInTurns) {
 
 TEST(WheelSlip, CountsEachSampleOnceAndLeavesOutWheelsThatStandOrHang) {
   Bench bench;
-  bench.vehicle.numbers["wheel_radius_m"] = 0.2;
+  bench.vehicle.wheeled.emplace().wheel_radius_m = 0.2;
   bench.start(make_wheel_slip);
   bench.drive(0.0, {0, 0}, 0.049);
   bench.wheels(two_wheels(1.0, 1.0, 0.24));  // rim 0.048 m/s
@@ -247,7 +247,7 @@ TEST(PathDeviation, ArcsToTheRightLieOnTheOtherSide) {
 
 TEST(Travel, TellsPowerBatteryLifeAndDisplacement) {
   Bench bench;
-  bench.vehicle.numbers["battery_capacity_J"] = 7.2e6;  // 2 kWh
+  bench.vehicle.battery_capacity_J = 7.2e6;  // 2 kWh
   bench.start(make_travel);
   // 3 m east, then 4 m north, in 10 s with 2500 J.
   bench.drive(0.0, {1, 1}, 1.0);
@@ -267,7 +267,7 @@ TEST(Travel, TellsPowerBatteryLifeAndDisplacement) {
 
 TEST(Travel, TimeAndEnergyCountFromTheFirstLook) {
   Bench bench;
-  bench.vehicle.numbers["battery_capacity_J"] = 7.2e6;
+  bench.vehicle.battery_capacity_J = 7.2e6;
   bench.start(make_travel);
   bench.drive(300.0, {1, 1}, 1.0);
   bench.energy(9000.0);  // used before its phase began
@@ -293,7 +293,7 @@ TEST(Travel, WithoutBatteryOrCapacityDoesNotGuess) {
   EXPECT_TRUE(std::isnan(without_capacity.results().at("battery_hours")));
 
   Bench without_battery;
-  without_battery.vehicle.numbers["battery_capacity_J"] = 1e6;
+  without_battery.vehicle.battery_capacity_J = 1e6;
   without_battery.start(make_travel);
   without_battery.drive(10.0, {0, 0}, 0.0);
   without_battery.step();

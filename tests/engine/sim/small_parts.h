@@ -44,7 +44,7 @@ class Statue final : public Vehicle {
  public:
   explicit Statue(double crash_s = 0.0, bool flies = false) : crash_s_(crash_s) {
     description_.type = "statue";
-    if (flies) description_.numbers["rotor_count"] = 4;
+    if (flies) description_.rotorcraft.emplace();
   }
   const VehicleDescription& description() const override { return description_; }
   const std::vector<VehicleLink>& links() const override { return links_; }

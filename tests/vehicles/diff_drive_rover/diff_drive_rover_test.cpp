@@ -56,11 +56,11 @@ TEST(DiffDriveRover, KinematicArcIsExactOnAnyTerrain) {
 TEST(DiffDriveRover, TellsPaperBsTableOne) {
   const DiffDriveRover rover{DiffDriveRoverParams{}};
   const VehicleDescription& about = rover.description();
-  EXPECT_EQ(about.number("wheel_base_m", "test"), 1.5);
-  EXPECT_EQ(about.number("track_m", "test"), 1.0);
-  EXPECT_EQ(about.number("wheel_radius_m", "test"), 0.2);
-  EXPECT_EQ(about.number("min_turning_radius_m", "test"), 1.0);
-  EXPECT_DOUBLE_EQ(about.number("max_speed_mps", "test"), 7.0 / 3.6);
+  EXPECT_EQ(about.wheeled->wheel_base_m, 1.5);
+  EXPECT_EQ(about.wheeled->track_m, 1.0);
+  EXPECT_EQ(about.wheeled->wheel_radius_m, 0.2);
+  EXPECT_EQ(about.min_turning_radius_m, 1.0);
+  EXPECT_DOUBLE_EQ(about.max_speed_mps.value(), 7.0 / 3.6);
   ASSERT_EQ(about.actuators.size(), 4u);
   EXPECT_EQ(about.actuators[0].name, "wheel_fl_speed_radps");
   EXPECT_EQ(about.actuators[3].name, "wheel_rr_speed_radps");

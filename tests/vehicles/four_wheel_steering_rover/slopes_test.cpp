@@ -115,9 +115,8 @@ TEST(FourWheelSteeringRover, ABatteryLastsEightHoursOfRowsOnFourteenDegrees) {
       0.5 * 4.0 * 0.02 * (std::pow(0.05 * up_N, 2) + std::pow(0.05 * down_N, 2));
   const double by_hand_W = 0.5 * (up_N / 0.85 - 0.5 * down_N) + copper_W + 60.0;
   EXPECT_NEAR(mean_W, by_hand_W, 0.04 * by_hand_W);  // driving slip is up to 2 %
-  const double capacity_J =
-      FourWheelSteeringRover{FourWheelSteeringRoverParams{}}.description().number(
-          "battery_capacity_J", "test");
+  const FourWheelSteeringRover rover{FourWheelSteeringRoverParams{}};
+  const double capacity_J = rover.description().battery_capacity_J.value();
   EXPECT_GT(capacity_J / mean_W, 8.0 * 3600.0);
 }
 

@@ -84,11 +84,11 @@ TEST(FourWheelSteeringRover, TellsBothReadingsOfTheSteeringRange) {
   FourWheelSteeringRoverParams params;
   const FourWheelSteeringRover as_axle(params);
   const VehicleDescription& about = as_axle.description();
-  EXPECT_NEAR(about.number("min_turning_radius_m", "test"), 1.767, 5e-4);
-  EXPECT_NEAR(deg_from_rad(about.number("max_axle_steer_rad", "test")), 23.0, 1e-9);
-  EXPECT_DOUBLE_EQ(about.number("max_speed_mps", "test"), 1.6);
-  EXPECT_DOUBLE_EQ(about.number("front_axle_m", "test"), 0.75);
-  EXPECT_DOUBLE_EQ(about.number("rear_axle_m", "test"), 0.75);
+  EXPECT_NEAR(about.min_turning_radius_m.value(), 1.767, 5e-4);
+  EXPECT_NEAR(deg_from_rad(about.steered->max_axle_steer_rad), 23.0, 1e-9);
+  EXPECT_DOUBLE_EQ(about.max_speed_mps.value(), 1.6);
+  EXPECT_DOUBLE_EQ(about.steered->front_axle_m, 0.75);
+  EXPECT_DOUBLE_EQ(about.steered->rear_axle_m, 0.75);
   ASSERT_EQ(about.actuators.size(), 6u);
   const char* names[] = {"axle_front_steer_rad", "axle_rear_steer_rad",  "wheel_fl_speed_radps",
                          "wheel_fr_speed_radps", "wheel_rl_speed_radps", "wheel_rr_speed_radps"};
@@ -98,7 +98,7 @@ TEST(FourWheelSteeringRover, TellsBothReadingsOfTheSteeringRange) {
 
   params.limits_wheels = true;
   const FourWheelSteeringRover as_wheel(params);
-  EXPECT_NEAR(as_wheel.description().number("min_turning_radius_m", "test"), 2.19, 5e-3);
+  EXPECT_NEAR(as_wheel.description().min_turning_radius_m.value(), 2.19, 5e-3);
   EXPECT_NEAR(deg_from_rad(as_wheel.description().actuators[0].max), 18.9, 0.05);
   // No pair of axle angles inside that limit turns a wheel beyond 23 deg.
   const double most = params.max_axle_steer_rad();

@@ -60,16 +60,16 @@ TEST(QuadrotorLayout, EveryRotorOfAPlusTurnsTheBodyItsWay) {
 TEST(QuadrotorLayout, TellsWhatControllersAskFor) {
   const QuadrotorRig rig;
   const VehicleDescription& about = rig.vehicle.description();
-  const auto number = [&](const char* name) { return about.number(name, "the test"); };
-  EXPECT_EQ(number("rotor_count"), 4.0);
-  EXPECT_NEAR(number("rotor_1_x_m"), 0.219203, 1e-6);
-  EXPECT_NEAR(number("rotor_2_x_m"), -0.219203, 1e-6);
-  EXPECT_NEAR(number("rotor_2_y_m"), 0.219203, 1e-6);
-  EXPECT_NEAR(number("rotor_4_y_m"), -0.219203, 1e-6);
-  EXPECT_EQ(number("rotor_1_torque_sign"), -1.0);
-  EXPECT_EQ(number("rotor_2_torque_sign"), 1.0);
-  EXPECT_NEAR(number("tip_radius_m"), 0.50, 1e-12);
-  EXPECT_EQ(number("rotor_min_radps"), 0.0);
+  const Rotorcraft& craft = about.rotorcraft.value();
+  ASSERT_EQ(craft.rotors.size(), 4u);
+  EXPECT_NEAR(craft.rotors[0].p_B.x(), 0.219203, 1e-6);
+  EXPECT_NEAR(craft.rotors[1].p_B.x(), -0.219203, 1e-6);
+  EXPECT_NEAR(craft.rotors[1].p_B.y(), 0.219203, 1e-6);
+  EXPECT_NEAR(craft.rotors[3].p_B.y(), -0.219203, 1e-6);
+  EXPECT_EQ(craft.rotors[0].torque_sign, -1.0);
+  EXPECT_EQ(craft.rotors[1].torque_sign, 1.0);
+  EXPECT_NEAR(craft.tip_radius_m, 0.50, 1e-12);
+  EXPECT_EQ(craft.min_rotor_radps, 0.0);
   EXPECT_EQ(about.actuators.size(), 4u);
   EXPECT_EQ(about.actuators[3].name, "rotor_4_speed_radps");
   EXPECT_EQ(about.actuators[3].max, 640.0);

@@ -99,7 +99,7 @@ void read_signal(const record::LogReader& log, const record::ChannelInfo& channe
 void describe(const VehicleDescription& description, VehicleLog& vehicle) {
   vehicle.actuators = description.actuators;
   vehicle.flies = description.flies();
-  vehicle.has_wings = description.numbers.contains("wing_span_m");
+  vehicle.has_wings = description.fixed_wing.has_value();
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "engine/api/messages/motion.h"
 #include "engine/math/angles.h"
+#include "engine/math/pose.h"
 
 namespace vinerow {
 namespace {

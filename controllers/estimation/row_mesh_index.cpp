@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "controllers/estimation/ray_shear.h"
+#include "engine/api/map.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 

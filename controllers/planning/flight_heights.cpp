@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "controllers/parts/box_filter.h"
+#include "engine/api/map.h"
 
 namespace vinerow {
 namespace {

@@ -9,6 +9,7 @@
 #include "controllers/planning/lift.h"
 #include "controllers/planning/survey_lanes.h"
 #include "engine/api/file_shelf.h"
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 

@@ -10,6 +10,7 @@
 #include "controllers/planning/lift.h"
 #include "controllers/planning/row_check.h"
 #include "engine/api/file_shelf.h"
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 
 namespace vinerow {

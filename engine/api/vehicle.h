@@ -10,8 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/api/mesh.h"
+#include "engine/api/forward.h"
+#include "engine/api/messages/motion.h"
 #include "engine/api/part.h"
+#include "engine/api/surface.h"
 #include "engine/api/vehicle_kinds.h"
 
 namespace vinerow {

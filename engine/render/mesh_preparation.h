@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/api/mesh.h"
+#include "engine/api/forward.h"
 
 namespace vinerow::render {
 

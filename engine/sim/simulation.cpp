@@ -8,6 +8,7 @@
 #include <atomic>
 #include <limits>
 
+#include "engine/api/map.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
@@ -42,7 +43,7 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
   physics_ = std::make_unique<physics::PhysicsWorld>(settings, world_.scene, *world_.model);
 
   events_ = bus_.advertise<Event>("run/events", "run");
-  if (!world().rows.occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
+  if (!world().rows->occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
   const RunContext run{scenario_,
                        registry,
                        world(),
@@ -177,7 +178,7 @@ bool Simulation::is_done() const {
 }
 
 void Simulation::work_instant() {
-  if (now_.ns == 0 && map_.connected()) map_.write(now_, world().rows.occupancy);
+  if (now_.ns == 0 && map_.connected()) map_.write(now_, world().rows->occupancy);
   for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
   outside_.deliver(now_);
   if (mission_) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/map.h"
 #include "engine/api/observer.h"
 #include "engine/api/outside.h"
 #include "engine/core/error.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/api/mesh.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"

@@ -91,7 +91,7 @@ TEST(InvariantSet, IsWhatSimulationsNeverLeave) {
     EXPECT_LE(invariance_excess(A, result->set, Zonotope(Eigen::MatrixXd(n, 0))), 1e-8);
     EXPECT_TRUE(X.contains(result->set));
     for (int i = 0; i < 1000; ++i) {
-      const Eigen::VectorXd start = 0.6 * random_matrix(random, n, 1);
+      const Eigen::VectorXd start = 0.6 * normal_matrix(random, n, 1);
       bool kept = true;
       Eigen::VectorXd x = start;
       // 0.95^400 is 1e-9: what has not left by then is inside for good.
@@ -133,7 +133,7 @@ TEST(RobustInvariantSet, IsWhatNoSequenceOfGustsLeadsOutOf) {
   for (int run = 0; run < 5; ++run) {
     const Eigen::Matrix2d A = random_system(random, 2, 0.35);
     const Polytope X = random_constraints(random, 2, 4);
-    const Eigen::Vector2d e = 0.2 * random_matrix(random, 2, 1);
+    const Eigen::Vector2d e = 0.2 * normal_matrix(random, 2, 1);
     const Zonotope W{Eigen::MatrixXd(e)};
     const Result<InvariantSet> result = maximal_robust_invariant_set(A, X, W);
     ASSERT_TRUE(result) << result.reason();
@@ -144,7 +144,7 @@ TEST(RobustInvariantSet, IsWhatNoSequenceOfGustsLeadsOutOf) {
     EXPECT_TRUE(nominal->set.contains(result->set));
     for (int i = 0; i < 200; ++i) {
       // Somewhere about the edge, where it matters.
-      const Eigen::Vector2d way = random_matrix(random, 2, 1);
+      const Eigen::Vector2d way = normal_matrix(random, 2, 1);
       const double to_edge = (result->set.F() * way).cwiseQuotient(result->set.g()).maxCoeff();
       const Eigen::Vector2d x = way / to_edge * random.uniform(0.7, 1.2);
       const bool kept = survives(A, X, e, x, 12);
@@ -165,11 +165,11 @@ TEST(RobustInvariantSet, WorstGustsForARowLeadOutExactlyOutside) {
     const int n = 3 + run % 2;
     const Eigen::MatrixXd A = random_system(random, n, 0.7);
     const Polytope X = random_constraints(random, n, 4);
-    const Zonotope W{Eigen::MatrixXd(0.02 * random_matrix(random, n, 2))};
+    const Zonotope W{Eigen::MatrixXd(0.02 * normal_matrix(random, n, 2))};
     const Result<InvariantSet> result = maximal_robust_invariant_set(A, X, W);
     ASSERT_TRUE(result) << result.reason();
     for (int i = 0; i < 100; ++i) {
-      const Eigen::VectorXd start = 0.5 * random_matrix(random, n, 1);
+      const Eigen::VectorXd start = 0.5 * normal_matrix(random, n, 1);
       bool kept = true;
       for (int row = 0; row < X.rows() && kept; ++row) {
         for (int last = 0; last <= 40 && kept; ++last) {

@@ -52,8 +52,8 @@ Polytope random_polytope(RandomStream& random, int rows) {
 TEST(Polytope, SupportOfBoxAndOneNormBall) {
   RandomStream random(1, "", "polytope");
   for (int n = 1; n <= 8; ++n) {
-    const Eigen::VectorXd c = random_matrix(random, n, 1);
-    const Eigen::VectorXd half = random_matrix(random, n, 1).cwiseAbs();
+    const Eigen::VectorXd c = normal_matrix(random, n, 1);
+    const Eigen::VectorXd half = normal_matrix(random, n, 1).cwiseAbs();
     EXPECT_NEAR(Polytope::box(half).support(c), half.dot(c.cwiseAbs()), 1e-12);
     EXPECT_NEAR(one_norm_ball(n).support(c), c.cwiseAbs().maxCoeff(), 1e-12);
   }
@@ -76,7 +76,7 @@ TEST(Polytope, SupportIsTheBestOfAllVertices) {
     const std::vector<Eigen::Vector3d> corners = vertices(P);
     ASSERT_GE(corners.size(), 4u);
     for (int i = 0; i < 10; ++i) {
-      const Eigen::Vector3d c = random_matrix(random, 3, 1);
+      const Eigen::Vector3d c = normal_matrix(random, 3, 1);
       double best = -kInfinity;
       for (const Eigen::Vector3d& corner : corners) best = std::max(best, c.dot(corner));
       EXPECT_NEAR(P.support(c), best, 1e-9);
@@ -158,12 +158,12 @@ TEST(Polytope, ContainsPointsAndSets) {
 TEST(Polytope, MappedAndScaledSetsHoldTheMappedPoints) {
   RandomStream random(4, "", "polytope");
   const Polytope P = random_polytope(random, 10);
-  const Eigen::MatrixXd A = random_matrix(random, 3, 2);
+  const Eigen::MatrixXd A = normal_matrix(random, 3, 2);
   const Polytope preimage = P.linear_preimage(A), big = P.scaled(2.5);
   int inside = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Eigen::Vector2d y = random_matrix(random, 2, 1);
-    const Eigen::Vector3d x = random_matrix(random, 3, 1);
+    const Eigen::Vector2d y = normal_matrix(random, 2, 1);
+    const Eigen::Vector3d x = normal_matrix(random, 3, 1);
     EXPECT_EQ(preimage.contains(y), P.contains(A * y));
     EXPECT_EQ(big.contains(2.5 * x, 1e-12), P.contains(x, 1e-12));
     inside += P.contains(x);

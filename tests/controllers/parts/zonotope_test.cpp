@@ -31,8 +31,8 @@ TEST(Zonotope, SupportIsTheBestCorner) {
   RandomStream random(1, "", "zonotope");
   for (int run = 0; run < 30; ++run) {
     const int n = 1 + run % 5, k = run % 9;
-    const Zonotope Z(random_matrix(random, n, 1), random_matrix(random, n, k));
-    const Eigen::VectorXd c = random_matrix(random, n, 1);
+    const Zonotope Z(normal_matrix(random, n, 1), normal_matrix(random, n, k));
+    const Eigen::VectorXd c = normal_matrix(random, n, 1);
     EXPECT_NEAR(Z.support(c), best_corner(Z, c), 1e-12);
     EXPECT_NEAR(Z.half_widths()[0] + Z.centre()[0], Z.support(Eigen::VectorXd::Unit(n, 0)), 1e-12);
   }
@@ -41,11 +41,11 @@ TEST(Zonotope, SupportIsTheBestCorner) {
 
 TEST(Zonotope, ImagesMapTheirSupports) {
   RandomStream random(2, "", "zonotope");
-  const Zonotope Z(random_matrix(random, 3, 1), random_matrix(random, 3, 4));
-  const Eigen::MatrixXd M = random_matrix(random, 2, 3);
+  const Zonotope Z(normal_matrix(random, 3, 1), normal_matrix(random, 3, 4));
+  const Eigen::MatrixXd M = normal_matrix(random, 2, 3);
   for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector3d c = random_matrix(random, 3, 1);
-    const Eigen::Vector2d d = random_matrix(random, 2, 1);
+    const Eigen::Vector3d c = normal_matrix(random, 3, 1);
+    const Eigen::Vector2d d = normal_matrix(random, 2, 1);
     EXPECT_NEAR(Z.linear_image(M).support(d), best_corner(Z, M.transpose() * d), 1e-12);
     EXPECT_NEAR(Z.scaled(-2.0).support(c), 2.0 * best_corner(Z, -c), 1e-12);
   }
@@ -111,12 +111,12 @@ TEST(SeriesSupport, BoundIsAboveALongSumAndNoHigherThanItsExcess) {
   RandomStream random(3, "", "zonotope");
   for (int run = 0; run < 20; ++run) {
     const int n = 1 + run % 6;
-    Eigen::MatrixXd A = random_matrix(random, n, n);
+    Eigen::MatrixXd A = normal_matrix(random, n, n);
     A *= 0.95 / A.norm();  // at least the largest singular value
-    const Zonotope W(random_matrix(random, n, 1), random_matrix(random, n, 2));
+    const Zonotope W(normal_matrix(random, n, 1), normal_matrix(random, n, 2));
     const Result<SeriesSupport> series = SeriesSupport::make(A, W);
     ASSERT_TRUE(series);
-    const Eigen::VectorXd c = random_matrix(random, n, 1);
+    const Eigen::VectorXd c = normal_matrix(random, n, 1);
     const SeriesSupport::Bound bound = series->bound(c);
     Eigen::VectorXd moved = c;
     double sum = 0.0;

@@ -90,7 +90,7 @@ TEST_P(WorldConformance, AWorldThatSaysSoIsTheSameForEverySeed) {
   const auto first = make_with_seed(GetParam(), 1), second = make_with_seed(GetParam(), 2);
   ASSERT_FALSE(first->depends_on_seed) << "no built-in world does";
   EXPECT_EQ(digest_of(*first), digest_of(*second));
-  EXPECT_EQ(first->rows.occupancy.cells, second->rows.occupancy.cells);
+  EXPECT_EQ(first->rows->occupancy.cells, second->rows->occupancy.cells);
   EXPECT_EQ(first->notes, second->notes);
   EXPECT_EQ(first->soil.name, second->soil.name);
   EXPECT_EQ(first->spawn_points.size(), second->spawn_points.size());

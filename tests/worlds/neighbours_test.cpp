@@ -1,6 +1,7 @@
 /// Neighbouring fields: where they are laid, and that nothing but pictures knows of them.
 
 #include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "worlds/parts/neighbours.h"
 
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/math/polygon.h"
 #include "tests/worlds/mapping/cloud_map_fixture.h"
 

@@ -22,7 +22,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages.h"
+#include "engine/api/registry.h"
 #include "vinerow/session.h"
+
+namespace vinerow {
+class Simulation;
+}
 
 namespace vinerow::testing {
 

@@ -30,7 +30,8 @@ class FileShelf {
     // Not under the lock: reading takes long, and may ask for other files.
     std::shared_ptr<const void> made = std::make_shared<const T>(make());
     const std::lock_guard lock(mutex_);
-    return std::static_pointer_cast<const T>(kept_.emplace(full_key, std::move(made)).first->second);
+    const auto kept = kept_.emplace(full_key, std::move(made)).first;
+    return std::static_pointer_cast<const T>(kept->second);
   }
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 /// A scenario that is loaded once, run as often as wanted, and stepped by whoever holds it:
 ///
-///   Session session = open_session("assets/scenarios/riseholme_rover.yaml");   // vinerow/session.h
+///   Session session = open_session("riseholme_rover.yaml");   // vinerow/session.h
 ///   const SignalView<Odometry> truth = session.signal<Odometry>("rover/truth");
 ///   while (!session.over()) {
 ///     session.advance(session.now() + Duration{50'000'000});
@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages.h"
 #include "engine/api/outside.h"
 #include "engine/api/registry.h"
 #include "engine/api/signal.h"
@@ -139,7 +140,7 @@ class Session {
 
   /// Works on every instant up to `until`, that one included, or to the end of the run. Nothing
   /// happens where `until` is before now().
-  /// @throws ConfigError when the run is over or broke off before, and on a plan that cannot be made
+  /// @throws ConfigError when the run is over or broke off before; on a plan that cannot be made
   /// @throws SimulationError when it breaks off; what was reached can still be read
   void advance(Time until);
   /// Works on the instants of so long a time from now() on: advance_for(a), advance_for(b) is
@@ -160,8 +161,9 @@ class Session {
   /// runs. The signal must have been taken over (SessionOptions). Its stamp on the bus is that
   /// instant; it goes into the digest and the log as any other does. Where several values fall
   /// into one instant the one with the latest stamp counts, of equal stamps the last one given.
-  /// @throws ConfigError on a signal that is unknown, written by a part, or of another type; a stamp
-  ///   before now(); a value that holds NaN; actuators that the vehicle does not have; when over
+  /// @throws ConfigError on a signal that is unknown, written by a part, or of another type; a
+  ///   stamp before now(); a value that holds NaN; actuators that the vehicle does not have; when
+  ///   over
   template <class T>
   void command(const std::string& signal, Time stamp, const T& value) {
     command(outside_command<T>(signal, stamp, value));

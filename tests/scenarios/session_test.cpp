@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
         Shipped{"riseholme_rover", 4.0},
         Shipped{"quadrotor_gust",
                 2.0,
-                {"world.wind.random_gusts={interval_s: 1, amplitude_mps: 2, duration_s: 1}"}},
+                {"world.wind.random_gusts={interval_s: 1, amplitude_mps: 2, duration_s: 0.5}"}},
         Shipped{"trmpc_stress", 1.0}, Shipped{"localisation_closed_loop", 1.5},
         Shipped{"cooperative_small", 12.0}),
     [](const auto& shipped) { return std::string(shipped.param.name); });
@@ -255,9 +255,9 @@ TEST(Session, SaysWhatIsWrong) {
 TEST(Session, CanBeResetAfterItBrokeOff) {
   // Driven off the terrain's edge.
   Session session = open_session_text(
-      "{vinerow: 1, name: edge, duration_s: 20, world: {type: vineyard, row_count: 2, row_length_m: "
-      "20, leaf_cards_per_m: 10, plant_variants: 1}, vehicles: {rover: {type: diff_drive_rover, "
-      "spawn: {alley: 0, offset_m: 9}}}}",
+      "{vinerow: 1, name: edge, duration_s: 20, world: {type: vineyard, row_count: 2, "
+      "row_length_m: 20, leaf_cards_per_m: 10, plant_variants: 1}, vehicles: {rover: {type: "
+      "diff_drive_rover, spawn: {alley: 0, offset_m: 9}}}}",
       ".", {}, SessionOptions().take_over<NamedValues>("rover/actuators"));
   NamedValues backwards{{"wheel_fl_speed_radps", "wheel_fr_speed_radps", "wheel_rl_speed_radps",
                          "wheel_rr_speed_radps"},

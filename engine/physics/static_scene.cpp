@@ -6,7 +6,7 @@
 namespace vinerow::physics {
 namespace {
 
-std::shared_ptr<const WorldModel> checked(std::shared_ptr<const WorldModel> world) {
+std::shared_ptr<const WorldModel> checked_world(std::shared_ptr<const WorldModel> world) {
   check_world(*world);
   return world;
 }
@@ -14,7 +14,7 @@ std::shared_ptr<const WorldModel> checked(std::shared_ptr<const WorldModel> worl
 }  // namespace
 
 StaticScene::StaticScene(std::shared_ptr<const WorldModel> world)
-    : world_(checked(std::move(world))),
+    : world_(checked_world(std::move(world))),
       queries_(*world_),
       normals_(*world_),
       geometry_(std::make_unique<const StaticGeometry>(*world_)) {}

@@ -9,7 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <typeinfo>
+#include <typeindex>
 #include <utility>
 
 namespace vinerow {
@@ -21,7 +21,7 @@ class FileShelf {
   /// @param key  everything that the value depends on: file_mark() of its files, options
   template <class T, class Make>
   std::shared_ptr<const T> get(const std::string& key, Make&& make) {
-    const std::string full_key = std::string(typeid(T).name()) + " " + key;
+    const Key full_key{typeid(T), key};
     {
       const std::lock_guard lock(mutex_);
       const auto found = kept_.find(full_key);
@@ -35,8 +35,10 @@ class FileShelf {
   }
 
  private:
+  using Key = std::pair<std::type_index, std::string>;
+
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<const void>> kept_;
+  std::map<Key, std::shared_ptr<const void>> kept_;
 };
 
 /// The file's name, size and time of writing; of a folder, those of all that is in it. A file that

@@ -13,9 +13,10 @@ if(VINEROW_PCH)
   target_compile_options(vinerow_headers PRIVATE ${VINEROW_PCH_OPTIONS})
 endif()
 
-# vinerow_use_common_headers(TARGET): of a library that links fmt; programs are compiled with other options.
+# vinerow_use_common_headers(TARGET): of a library; programs are compiled with other options.
 function(vinerow_use_common_headers target)
   if(VINEROW_PCH)
+    target_link_libraries(${target} PRIVATE fmt::fmt)
     target_precompile_headers(${target} REUSE_FROM vinerow_headers)
     target_compile_options(${target} PRIVATE ${VINEROW_PCH_OPTIONS})
   endif()

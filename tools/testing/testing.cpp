@@ -91,10 +91,6 @@ template const Event& TestRun::signal<Event>(const std::string&) const;
 
 namespace {
 
-struct VehicleText {
-  std::string name, type, parameters, sensors, estimator, planner, controller;
-};
-
 std::string part_text(const std::string& type, const std::string& parameters) {
   return fmt::format("{{type: {}{}{}}}", type, parameters.empty() ? "" : ", ", parameters);
 }
@@ -102,6 +98,9 @@ std::string part_text(const std::string& type, const std::string& parameters) {
 }  // namespace
 
 struct SmallWorld::Impl {
+  struct VehicleText {
+    std::string name, type, parameters, sensors, estimator, planner, controller;
+  };
   std::string world;
   std::vector<VehicleText> vehicles;
   std::vector<std::filesystem::path> plugins;
@@ -200,7 +199,7 @@ std::string SmallWorld::yaml() const {
       "vinerow: 1\nname: small_world\nseed: {}\nduration_s: {}\nphysics: {{step_s: {}}}\n",
       impl_->seed, impl_->duration_s, impl_->physics_step_s);
   text += fmt::format("world: {}\nvehicles:\n", impl_->world);
-  for (const VehicleText& vehicle : impl_->vehicles) {
+  for (const Impl::VehicleText& vehicle : impl_->vehicles) {
     std::string inside = fmt::format("type: {}", vehicle.type);
     if (vehicle.parameters.find("spawn:") == std::string::npos) inside += ", spawn: {alley: 0}";
     const auto append = [&](const std::string& key, const std::string& value) {

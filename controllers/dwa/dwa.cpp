@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "controllers/dwa/dwa_params.h"
+#include "engine/api/map.h"
+#include "engine/api/messages/event.h"
 #include "engine/math/pose.h"
 
 namespace vinerow {

@@ -12,6 +12,7 @@
 #include "controllers/dwa/plan_ahead.h"
 #include "controllers/dwa/recovery.h"
 #include "controllers/parts/stop_profile.h"
+#include "engine/api/messages/commands.h"
 
 namespace vinerow {
 

@@ -22,6 +22,7 @@
 
 #include "controllers/parts/distance_field.h"
 #include "controllers/parts/pose2.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {

@@ -12,6 +12,8 @@
 #include "controllers/estimation/ground_reference.h"
 #include "controllers/estimation/map_watch.h"
 #include "controllers/estimation/range_sensors.h"
+#include "engine/api/messages/commands.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {

@@ -12,6 +12,8 @@
 #include "controllers/estimation/navigation_measurements.h"
 #include "controllers/estimation/standing.h"
 #include "controllers/estimation/wheel_speed.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/signal.h"
 
 namespace vinerow {

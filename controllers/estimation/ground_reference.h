@@ -9,6 +9,7 @@
 
 #include "controllers/estimation/range_prediction.h"
 #include "controllers/estimation/row_ground.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {

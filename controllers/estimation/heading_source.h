@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {

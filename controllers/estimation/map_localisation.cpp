@@ -11,6 +11,8 @@
 #include "controllers/estimation/map_localisation_law.h"
 #include "controllers/estimation/map_watch.h"
 #include "controllers/estimation/range_sensors.h"
+#include "engine/api/messages/commands.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {

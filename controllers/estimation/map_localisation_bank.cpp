@@ -6,6 +6,7 @@
 
 #include "controllers/estimation/map_localisation_law.h"
 #include "controllers/estimation/row_line.h"
+#include "engine/api/map.h"
 
 namespace vinerow {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "controllers/estimation/row_line.h"
+#include "engine/api/map.h"
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 

@@ -18,7 +18,8 @@
 
 #include "controllers/estimation/localisation_state.h"
 #include "controllers/estimation/range_prediction.h"
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
+#include "engine/api/plant_row.h"
 #include "engine/core/time.h"
 
 namespace vinerow {

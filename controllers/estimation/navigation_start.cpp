@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "engine/api/messages/motion.h"
 #include "engine/core/constants.h"
 #include "engine/math/angles.h"
+#include "engine/math/pose.h"
 
 namespace vinerow {
 

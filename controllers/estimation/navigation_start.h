@@ -3,7 +3,6 @@
 /// vehicle stands, or by levelling at rest.
 
 #include "controllers/estimation/error_state_options.h"
-#include "engine/api/messages.h"
 #include "engine/core/random.h"
 
 namespace vinerow {

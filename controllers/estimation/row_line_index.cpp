@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/api/map.h"
+
 namespace vinerow {
 namespace {
 

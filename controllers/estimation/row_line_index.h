@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "controllers/estimation/row_line.h"
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
 
 namespace vinerow {
 

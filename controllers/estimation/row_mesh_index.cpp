@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "controllers/estimation/ray_shear.h"
+#include "engine/api/map.h"
 #include "engine/core/check.h"
 #include "engine/core/constants.h"
 #include "engine/core/error.h"

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
 
 namespace vinerow {
 

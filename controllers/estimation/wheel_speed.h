@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/commands.h"
 #include "engine/api/vehicle.h"
 
 namespace vinerow {

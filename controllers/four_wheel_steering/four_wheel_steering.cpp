@@ -14,6 +14,7 @@
 #include "controllers/four_wheel_steering/steering_law.h"
 #include "controllers/four_wheel_steering/wheel_speeds.h"
 #include "controllers/parts/stop_profile.h"
+#include "engine/api/messages/event.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 

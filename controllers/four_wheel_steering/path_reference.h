@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "controllers/parts/path.h"
+#include "engine/api/forward.h"
 
 namespace vinerow {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "controllers/four_wheel_steering/axle_geometry.h"
-#include "engine/api/messages.h"
+#include "engine/api/messages/commands.h"
 #include "engine/api/vehicle.h"
 
 namespace vinerow {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "controllers/parts/tube_watch.h"
+#include "engine/api/messages/event.h"
 
 namespace vinerow {
 namespace {

@@ -15,6 +15,8 @@
 #include "controllers/parts/aircraft.h"
 #include "controllers/parts/aircraft_limits.h"
 #include "controllers/parts/trim_table.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/commands.h"
 #include "engine/api/vehicle.h"
 
 namespace vinerow {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/messages/grid.h"
+
 namespace vinerow {
 namespace {
 

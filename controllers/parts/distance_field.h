@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
 
 namespace vinerow {
 

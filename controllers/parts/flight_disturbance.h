@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 
 #include "controllers/parts/rotor_mixer.h"
-#include "engine/api/messages.h"
 
 namespace vinerow {
 

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "controllers/parts/rotor_mixer.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {

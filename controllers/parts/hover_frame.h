@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 
 #include "controllers/parts/rotor_mixer.h"
-#include "engine/api/messages.h"
+#include "engine/api/messages/flight.h"
 
 namespace vinerow {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/api/messages/path.h"
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 

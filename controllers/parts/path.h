@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "controllers/parts/pose2.h"
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
 
 namespace vinerow {
 

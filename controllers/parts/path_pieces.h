@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "controllers/parts/dubins.h"
-#include "engine/api/messages.h"
+#include "engine/api/messages/path.h"
 
 namespace vinerow {
 

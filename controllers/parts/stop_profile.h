@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/messages/path.h"
 #include "engine/api/signal.h"
 
 namespace vinerow {

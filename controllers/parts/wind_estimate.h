@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/motion.h"
+#include "engine/api/messages/sensors.h"
 
 namespace vinerow {
 

@@ -20,6 +20,7 @@
 #include "controllers/parts/path.h"
 #include "controllers/parts/stop_profile.h"
 #include "controllers/path_follower/speed_profile.h"
+#include "engine/api/messages/commands.h"
 
 namespace vinerow {
 

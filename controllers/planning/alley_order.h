@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "controllers/parts/pose2.h"
-#include "engine/api/map.h"
 
 namespace vinerow {
 

@@ -9,6 +9,7 @@
 #include "controllers/planning/lift.h"
 #include "controllers/planning/row_check.h"
 #include "controllers/planning/row_route.h"
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 

@@ -8,6 +8,7 @@
 
 #include "controllers/parts/box_filter.h"
 #include "controllers/planning/lift.h"
+#include "engine/api/map.h"
 
 namespace vinerow {
 namespace {

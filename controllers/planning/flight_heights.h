@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "controllers/parts/path.h"
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 #include "engine/core/result.h"
 

@@ -8,6 +8,7 @@
 #include "controllers/planning/lift.h"
 #include "controllers/planning/route_room.h"
 #include "controllers/planning/row_check.h"
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 

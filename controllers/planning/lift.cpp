@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/api/messages/path.h"
+
 namespace vinerow {
 
 std::optional<std::string> lift_to_ground(const SceneQuery* scene, double height_m,

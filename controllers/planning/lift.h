@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 
 namespace vinerow {

@@ -3,6 +3,7 @@
 
 #include "controllers/planning/analytic_turn.h"
 #include "controllers/planning/route_planner.h"
+#include "engine/api/messages/grid.h"
 
 namespace vinerow {
 namespace {

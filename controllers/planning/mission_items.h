@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/geo_origin.h"
 #include "engine/io/mission_file.h"
 
 namespace vinerow {

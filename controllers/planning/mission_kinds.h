@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
 
 namespace vinerow {
 

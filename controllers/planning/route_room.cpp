@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {

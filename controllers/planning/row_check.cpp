@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "controllers/parts/pose2.h"
+#include "engine/api/map.h"
+#include "engine/api/messages/path.h"
 
 namespace vinerow {
 namespace {

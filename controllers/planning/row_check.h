@@ -4,8 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/api/map.h"
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
 
 namespace vinerow {
 

@@ -9,6 +9,7 @@
 #include "controllers/planning/flight_way.h"
 #include "controllers/planning/row_flight_params.h"
 #include "controllers/planning/rrt_star.h"
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 
 namespace vinerow {

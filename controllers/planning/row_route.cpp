@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 
 namespace vinerow {

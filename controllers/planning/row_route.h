@@ -9,6 +9,7 @@
 #include "controllers/parts/path_pieces.h"
 #include "controllers/parts/pose2.h"
 #include "controllers/planning/alley_order.h"
+#include "engine/api/forward.h"
 #include "engine/api/parameters.h"
 #include "engine/core/result.h"
 

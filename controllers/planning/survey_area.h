@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/geo_origin.h"
 
 namespace vinerow {
 

@@ -2,7 +2,6 @@
 /// A survey as a mission for ground stations and autopilots.
 
 #include "controllers/planning/survey_plan.h"
-#include "engine/api/world_model.h"
 #include "engine/io/mission_file.h"
 
 namespace vinerow {

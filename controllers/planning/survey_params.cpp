@@ -8,6 +8,7 @@
 #include "controllers/parts/pose2.h"
 #include "controllers/planning/lift.h"
 #include "controllers/planning/survey_lanes.h"
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 

@@ -9,7 +9,7 @@
 #include "controllers/planning/survey_heights.h"
 #include "controllers/planning/survey_lanes.h"
 #include "controllers/planning/survey_request.h"
-#include "engine/api/messages.h"
+#include "engine/api/messages/path.h"
 #include "engine/core/result.h"
 
 namespace vinerow {

@@ -6,7 +6,7 @@
 
 #include "controllers/planning/survey_lanes.h"
 #include "controllers/planning/survey_order.h"
-#include "engine/api/messages.h"
+#include "engine/api/messages/path.h"
 
 namespace vinerow {
 

@@ -9,6 +9,7 @@
 #include "controllers/parts/path_pieces.h"
 #include "controllers/planning/lift.h"
 #include "controllers/planning/row_check.h"
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 
 namespace vinerow {

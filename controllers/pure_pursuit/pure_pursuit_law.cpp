@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/messages/path.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {

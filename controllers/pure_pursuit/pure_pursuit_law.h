@@ -23,7 +23,8 @@
 #include <vector>
 
 #include "controllers/parts/pose2.h"
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
+#include "engine/api/messages/commands.h"
 
 namespace vinerow {
 

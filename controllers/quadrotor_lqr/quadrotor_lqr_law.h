@@ -23,7 +23,6 @@
 #include "controllers/parts/flight_limits.h"
 #include "controllers/parts/hover_frame.h"
 #include "controllers/parts/rotor_prediction.h"
-#include "engine/api/messages.h"
 
 namespace vinerow {
 

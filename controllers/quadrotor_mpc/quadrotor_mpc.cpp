@@ -7,6 +7,7 @@
 #include "controllers/parts/flight_ports.h"
 #include "controllers/quadrotor_mpc/limit_watch.h"
 #include "controllers/quadrotor_mpc/quadrotor_mpc_law.h"
+#include "engine/api/messages/event.h"
 
 namespace vinerow {
 namespace {

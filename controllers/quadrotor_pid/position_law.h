@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 
 #include "controllers/parts/rotorcraft.h"
-#include "engine/api/messages.h"
+#include "engine/api/messages/flight.h"
 
 namespace vinerow {
 

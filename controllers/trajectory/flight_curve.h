@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "controllers/parts/pose2.h"
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
+#include "engine/api/messages/path.h"
 
 namespace vinerow {
 

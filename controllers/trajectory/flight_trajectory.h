@@ -7,6 +7,7 @@
 
 #include "controllers/trajectory/time_law.h"
 #include "controllers/trajectory/yaw_move.h"
+#include "engine/api/messages/flight.h"
 
 namespace vinerow {
 

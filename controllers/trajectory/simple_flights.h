@@ -1,7 +1,7 @@
 #pragma once
 /// Flights made of little: plans of ground vehicles lifted into the air, and holding one place.
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/path.h"
 
 namespace vinerow {
 

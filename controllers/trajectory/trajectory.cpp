@@ -9,6 +9,7 @@
 #include "controllers/trajectory/flight_clock.h"
 #include "controllers/trajectory/simple_flights.h"
 #include "controllers/trajectory/trajectory_params.h"
+#include "engine/api/messages/event.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {

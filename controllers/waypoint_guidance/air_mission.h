@@ -17,6 +17,7 @@
 #include "controllers/waypoint_guidance/leg_pilot.h"
 #include "controllers/waypoint_guidance/loiter_circle.h"
 #include "controllers/waypoint_guidance/waypoint_guidance_params.h"
+#include "engine/api/messages/flight.h"
 
 namespace vinerow {
 

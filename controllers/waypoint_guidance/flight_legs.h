@@ -6,7 +6,8 @@
 
 #include "controllers/parts/leg_frame.h"
 #include "controllers/waypoint_guidance/heading_generator.h"
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
+#include "engine/api/messages/path.h"
 #include "engine/core/result.h"
 #include "engine/math/angles.h"
 

@@ -8,6 +8,7 @@
 #include "controllers/parts/wind_triangle.h"
 #include "controllers/waypoint_guidance/air_mission.h"
 #include "controllers/waypoint_guidance/waypoint_guidance_params.h"
+#include "engine/api/messages/event.h"
 
 namespace vinerow {
 namespace {

@@ -9,10 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/forward.h"
+#include "engine/api/messages/path.h"
 #include "engine/api/part.h"
 #include "engine/api/product.h"
 #include "engine/api/scene_query.h"
-#include "engine/api/world_model.h"
 #include "engine/core/result.h"
 
 namespace vinerow {

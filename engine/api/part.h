@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/parameters.h"
-#include "engine/api/product.h"
+#include "engine/api/product_port.h"
 #include "engine/api/signal.h"
-#include "engine/core/random.h"
 #include "engine/core/time.h"
 
 namespace vinerow {
@@ -27,10 +27,6 @@ struct PartSpec {
   std::optional<ProductKind> gives;  ///< of jobs, and pictures of cameras that survey
 };
 
-struct WorldModel;
-class SceneQuery;
-struct VehicleDescription;
-
 /// What a part may know when it is built. References live as long as the run.
 struct PartContext {
   std::string vehicle;     ///< name of its vehicle, "" for worlds and run-wide metrics
@@ -40,9 +36,7 @@ struct PartContext {
   Duration physics_step;
   double gravity_mps2 = 9.80665;
   /// A fresh random stream of this part; `component` distinguishes several streams of one part.
-  RandomStream random(const std::string& component = "") const {
-    return RandomStream(seed, vehicle, component.empty() ? part : part + "." + component);
-  }
+  RandomStream random(const std::string& component = "") const;
 };
 
 /// A part that runs at its own rate between physics steps: estimator, guidance, controller, sensor,

@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
 #include "engine/api/part.h"
 #include "engine/api/scene_query.h"
 #include "engine/api/vehicle.h"
-#include "engine/api/world_model.h"
 
 namespace vinerow {
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/api/messages/path.h"
 #include "engine/api/signal.h"
 #include "engine/math/deviation.h"
 

@@ -6,16 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/map.h"
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
+#include "engine/api/product_port.h"
 #include "engine/api/survey_camera.h"
+#include "engine/math/pose.h"
 
 namespace vinerow {
-
-enum class ProductKind { kPictures, kCloud, kMap, kPlan };
-
-/// "pictures", "cloud", "map", "plan": how files spell it.
-const char* to_string(ProductKind kind);
 
 /// Where a camera took its pictures, in the order in which they were taken.
 struct PictureSet {
@@ -33,14 +29,6 @@ struct Product {
   std::filesystem::path file;
   std::shared_ptr<const RowMap> map;
   std::shared_ptr<const PlannedPath> plan;
-};
-
-/// A product that a job takes, by the key that names it.
-struct ProductPort {
-  std::string key;  ///< "cloud" in `cloud: from build_cloud`
-  ProductKind kind = ProductKind::kMap;
-  bool required = true;
-  std::string description;
 };
 
 }  // namespace vinerow

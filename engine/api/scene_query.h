@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "engine/api/mesh.h"
+#include "engine/api/surface.h"
 #include "engine/math/pose.h"
 
 namespace vinerow {

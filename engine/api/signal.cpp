@@ -2,101 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <type_traits>
-
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 
 namespace vinerow {
-namespace {
-
-/// Feeds every field of a message to the digest.
-struct HashField {
-  Hasher& hasher;
-
-  template <class T>
-  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void operator()(const T& value) { hasher.add(value); }
-  void operator()(const std::string& text) { hasher.add(std::string_view(text)); }
-  void operator()(const Eigen::Vector3d& v) { hasher.add_bytes(v.data(), sizeof(double) * 3); }
-  void operator()(const Eigen::Quaterniond& q) {
-    hasher.add_bytes(q.coeffs().data(), sizeof(double) * 4);
-  }
-  void operator()(const std::vector<double>& values) {
-    hasher.add(static_cast<std::uint64_t>(values.size()));
-    hasher.add_bytes(values.data(), values.size() * sizeof(double));
-  }
-  void operator()(const std::vector<std::uint8_t>& bytes) {
-    hasher.add(static_cast<std::uint64_t>(bytes.size()));
-    hasher.add_bytes(bytes.data(), bytes.size());
-  }
-  void operator()(const std::vector<std::string>& texts) {
-    hasher.add(static_cast<std::uint64_t>(texts.size()));
-    for (const std::string& text : texts) hasher.add(std::string_view(text));
-  }
-};
-
-/// Finds a field that is not a number.
-struct NanField {
-  bool found = false;
-
-  template <class T>
-  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void operator()(const T& value) {
-    if constexpr (std::is_floating_point_v<T>) found = found || std::isnan(value);
-  }
-  void operator()(const std::string&) {}
-  void operator()(const Eigen::Vector3d& v) { found = found || v.array().isNaN().any(); }
-  void operator()(const Eigen::Quaterniond& q) {
-    found = found || q.coeffs().array().isNaN().any();
-  }
-  void operator()(const std::vector<double>& values) {
-    for (const double value : values) found = found || std::isnan(value);
-  }
-  void operator()(const std::vector<std::uint8_t>&) {}
-  void operator()(const std::vector<std::string>&) {}
-};
-
-}  // namespace
-
-template <class T>
-void Signal<T>::hash_into(Hasher& hasher) {
-  hasher.add(std::string_view(name_));
-  hasher.add(stamp_.ns);
-  value_.fields(HashField{hasher});
-}
-
-template <class T>
-bool Signal<T>::has_nan() {
-  NanField check;
-  value_.fields(check);
-  return check.found;
-}
-
-template class Signal<Odometry>;
-template class Signal<ImuSample>;
-template class Signal<GnssFix>;
-template class Signal<RangeSample>;
-template class Signal<PressureSample>;
-template class Signal<MagneticSample>;
-template class Signal<LaserScan>;
-template class Signal<PositionEllipsoid>;
-template class Signal<VelocityCommand>;
-template class Signal<LocalCommand>;
-template class Signal<LineList>;
-template class Signal<OccupancyGrid>;
-template class Signal<NamedValues>;
-template class Signal<LinkPoses>;
-template class Signal<PlannedPath>;
-template class Signal<FollowerState>;
-template class Signal<MovementAuthority>;
-template class Signal<ReferenceTrajectory>;
-template class Signal<AirReference>;
-template class Signal<AirData>;
-template class Signal<CameraShot>;
-template class Signal<BatteryState>;
-template class Signal<Event>;
 
 SignalBase& SignalBus::slot(const std::string& name, const char* type, const std::string& who,
                             std::unique_ptr<SignalBase> (*make)(const std::string&)) {

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/message_fields.h"
 #include "engine/core/check.h"
 #include "engine/core/hash.h"
 #include "engine/core/time.h"
@@ -52,6 +52,7 @@ class SignalBase {
   std::string first_reader_;
 };
 
+/// @tparam T  a message: default constructible, copyable, with `kType` and `fields`
 template <class T>
 class Signal final : public SignalBase {
  public:
@@ -64,8 +65,16 @@ class Signal final : public SignalBase {
     stamp_ = stamp;
     ++sequence_;
   }
-  void hash_into(Hasher& hasher) override;
-  bool has_nan() override;
+  void hash_into(Hasher& hasher) override {
+    hasher.add(std::string_view(name_));
+    hasher.add(stamp_.ns);
+    value_.fields(HashField{hasher});
+  }
+  bool has_nan() override {
+    NanField check;
+    value_.fields(check);
+    return check.found;
+  }
 
  private:
   T value_{};

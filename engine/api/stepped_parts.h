@@ -16,11 +16,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
+#include "engine/api/geo_origin.h"
+#include "engine/api/messages/path.h"
 #include "engine/api/part.h"
 #include "engine/api/scene_query.h"
 #include "engine/api/vehicle.h"
-#include "engine/api/world_model.h"
 #include "engine/core/result.h"
 
 namespace vinerow {

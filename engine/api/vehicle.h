@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "engine/api/flight_model.h"
-#include "engine/api/mesh.h"
+#include "engine/api/forward.h"
+#include "engine/api/messages/motion.h"
 #include "engine/api/part.h"
+#include "engine/api/surface.h"
 
 namespace vinerow {
 

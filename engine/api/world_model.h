@@ -3,35 +3,20 @@
 /// then constant.
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/api/forward.h"
+#include "engine/api/geo_origin.h"
 #include "engine/api/height_field.h"
-#include "engine/api/map.h"
 #include "engine/api/mesh.h"
 #include "engine/api/scenery.h"
+#include "engine/api/soil.h"
 #include "engine/api/wind.h"
+#include "engine/core/indirect.h"
 
 namespace vinerow {
-
-/// Where W's origin is on the WGS84 ellipsoid.
-struct GeoOrigin {
-  double latitude_rad = 0.0;
-  double longitude_rad = 0.0;
-  double altitude_m = 0.0;  ///< above the ellipsoid
-};
-
-/// What a wheel feels. Sources of the built-in soils: vehicles/parts/README.md.
-struct Soil {
-  std::string name = "dry_grass";
-  double peak_friction = 0.75;                ///< largest force / load
-  double sliding_friction = 0.65;             ///< force / load at full slip
-  double slip_stiffness = 15.0;               ///< d(force/load)/d(slip) at zero slip
-  double cornering_stiffness_per_rad = 10.0;  ///< d(force/load)/d(slip angle) at zero
-  double rolling_resistance = 0.06;           ///< force / load
-};
 
 /// A place to start from.
 struct SpawnPoint {
@@ -51,7 +36,7 @@ struct WorldModel {
   GeoOrigin origin;
   std::optional<HeightField> terrain;  ///< absent where the ground is a mesh of class kTerrain
   std::vector<MeshInstance> meshes;
-  RowMap rows;  ///< true rows and alleys
+  Indirect<RowMap> rows;  ///< true rows and alleys; whoever looks into them includes map.h
   Soil soil;
   std::vector<SpawnPoint> spawn_points;
   Daylight daylight;

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "engine/api/world_model.h"
+#include "engine/api/geo_origin.h"
 
 namespace vinerow::io {
 

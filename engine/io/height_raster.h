@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "engine/api/geo_origin.h"
 #include "engine/api/height_field.h"
-#include "engine/api/world_model.h"
 
 namespace vinerow::io {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/api/world_model.h"
+#include "engine/api/geo_origin.h"
 
 namespace vinerow::io {
 

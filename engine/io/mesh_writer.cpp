@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/api/mesh.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/files.h"

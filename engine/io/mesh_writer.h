@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/api/mesh.h"
+#include "engine/api/forward.h"
 
 namespace vinerow::io {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "engine/api/world_model.h"
+#include "engine/api/geo_origin.h"
 #include "engine/io/point_cloud.h"
 
 namespace vinerow::io {

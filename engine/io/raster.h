@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/geo_origin.h"
+#include "engine/api/height_field.h"
 
 namespace vinerow::io {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/map.h"
+#include "engine/api/messages/grid.h"
 
 namespace vinerow::io {
 

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "engine/api/height_field.h"
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 
 namespace vinerow::physics {

@@ -1,7 +1,9 @@
 #pragma once
 /// Refuses worlds that physics cannot be built from, and says who takes part in what.
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
+#include "engine/api/mesh.h"
+#include "engine/api/surface.h"
 
 namespace vinerow::physics {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/api/height_field.h"
+#include "engine/api/world_model.h"
 #include "engine/physics/bullet_convert.h"
 #include "engine/physics/mesh_gate.h"
 #include "engine/physics/terrain_gate.h"

@@ -6,7 +6,11 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/api/height_field.h"
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
+#include "engine/math/pose.h"
 #include "engine/physics/check_world.h"
 
 namespace vinerow::physics {

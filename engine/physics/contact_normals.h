@@ -17,7 +17,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 
 namespace vinerow::physics {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/height_field.h"
 #include "engine/core/constants.h"
 
 namespace vinerow::physics {

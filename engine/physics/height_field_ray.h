@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 
 namespace vinerow::physics {
 

@@ -5,6 +5,9 @@
 #include <limits>
 #include <map>
 
+#include "engine/api/height_field.h"
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "engine/physics/check_world.h"
 #include "engine/physics/triangle_box.h"
 

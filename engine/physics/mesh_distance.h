@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/api/world_model.h"
 #include "engine/physics/box_tree.h"
 
 namespace vinerow::physics {

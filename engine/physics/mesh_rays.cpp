@@ -8,6 +8,8 @@
 #include <map>
 #include <vector>
 
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/physics/check_world.h"

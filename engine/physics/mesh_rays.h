@@ -9,8 +9,8 @@
 #include <memory>
 #include <optional>
 
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/api/world_model.h"
 
 namespace vinerow::physics {
 

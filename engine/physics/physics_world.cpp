@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/physics/body.h"

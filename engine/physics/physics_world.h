@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/api/world_model.h"
 #include "engine/core/time.h"
 #include "engine/physics/settings.h"
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/api/height_field.h"
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "engine/physics/bullet_convert.h"
 #include "engine/physics/check_world.h"
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 
 namespace vinerow::physics {
 

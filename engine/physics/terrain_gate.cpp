@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/height_field.h"
+
 namespace vinerow::physics {
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <btBulletCollisionCommon.h>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 
 namespace vinerow::physics {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/api/world_model.h"
 #include "engine/physics/height_field_ray.h"
 #include "engine/physics/mesh_distance.h"
 #include "engine/physics/mesh_rays.h"

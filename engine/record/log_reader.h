@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/messages.h"
 #include "engine/core/time.h"
 
 namespace vinerow::record {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <vector>
 
+#include "engine/api/messages.h"
 #include "engine/core/error.h"
 #include "engine/record/mcap_writer.h"
 #include "engine/record/ros_definitions.h"

@@ -7,8 +7,15 @@
 
 #include <string>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/flight.h"
+#include "engine/api/messages/grid.h"
+#include "engine/api/messages/motion.h"
+#include "engine/api/messages/path.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/core/time.h"
+#include "engine/math/pose.h"
 #include "engine/record/cdr.h"
 
 namespace vinerow::record {

@@ -6,7 +6,6 @@
 #include <array>
 #include <string>
 
-#include "engine/api/mesh.h"
 #include "engine/render/scene.h"
 
 namespace vinerow::render {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/api/mesh.h"
 #include "engine/api/vehicle.h"
-#include "engine/api/world_model.h"
 #include "engine/render/culling.h"
 #include "engine/render/gpu_mesh.h"
 

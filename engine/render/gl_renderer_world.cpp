@@ -2,6 +2,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/api/map.h"
 #include "engine/render/builtin_textures.h"
 #include "engine/render/gl_renderer.h"
 #include "engine/render/ribbons.h"

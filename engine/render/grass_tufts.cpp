@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/height_field.h"
 #include "engine/math/angles.h"
 #include "engine/render/builtin_textures.h"
 #include "engine/render/noise.h"

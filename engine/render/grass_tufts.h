@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "engine/api/world_model.h"
 #include "engine/render/culling.h"
 #include "engine/render/ground_mask.h"
 #include "engine/render/mesh_preparation.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/messages/grid.h"
 #include "engine/render/texture_units.h"
 
 namespace vinerow::render {

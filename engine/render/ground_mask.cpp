@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
+
 namespace vinerow::render {
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
 #include "engine/render/pixels.h"
 
 namespace vinerow::render {

@@ -4,7 +4,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
+#include "engine/api/scenery.h"
 #include "engine/render/pixels.h"
 
 namespace vinerow::render {

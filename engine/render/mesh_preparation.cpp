@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/api/mesh.h"
 #include "engine/render/builtin_textures.h"
 #include "engine/render/noise.h"
 

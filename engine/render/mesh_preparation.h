@@ -2,10 +2,11 @@
 /// From a TriangleMesh to what the GPU draws: compact vertices with normals, and card pictures
 /// chosen.
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
-#include "engine/api/mesh.h"
+#include "engine/api/forward.h"
 
 namespace vinerow::render {
 

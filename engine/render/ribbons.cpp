@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "engine/api/height_field.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::render {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/api/world_model.h"
 #include "engine/render/scene.h"
 
 namespace vinerow::render {

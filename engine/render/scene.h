@@ -25,8 +25,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/vehicle.h"
-#include "engine/api/world_model.h"
 #include "engine/core/result.h"
 
 namespace vinerow::render {

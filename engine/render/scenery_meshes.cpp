@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/height_field.h"
+#include "engine/api/mesh.h"
 #include "engine/math/polygon.h"
 #include "engine/render/noise.h"
 

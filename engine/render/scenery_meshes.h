@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "engine/api/world_model.h"
+#include "engine/api/scenery.h"
 #include "engine/render/mesh_preparation.h"
 
 namespace vinerow::render {

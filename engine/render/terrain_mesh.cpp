@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/height_field.h"
 #include "engine/render/noise.h"
 
 namespace vinerow::render {

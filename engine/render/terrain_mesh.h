@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "engine/api/world_model.h"
 #include "engine/render/mesh_preparation.h"
 
 namespace vinerow::render {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/sensors/reading_sensor.h"
 
 namespace vinerow {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/api/messages/sensors.h"
+#include "engine/api/world_model.h"
 #include "engine/math/standard_atmosphere.h"
 #include "engine/sensors/gauss_markov.h"
 #include "engine/sensors/mounted_sensor.h"

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/api/survey_camera.h"
 #include "engine/core/error.h"

@@ -21,8 +21,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/api/mesh.h"
 #include "engine/api/parameters.h"
+#include "engine/api/surface.h"
 
 namespace vinerow {
 

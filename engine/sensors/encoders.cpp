@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/messages/commands.h"
 #include "engine/core/error.h"
 #include "engine/sensors/reading_sensor.h"
 #include "engine/sensors/resolution.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/parameters.h"
 #include "engine/core/random.h"
 #include "engine/sensors/gauss_markov.h"

@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/parameters.h"
 
 namespace vinerow {

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/geo_origin.h"
 
 namespace vinerow {
 

@@ -1,5 +1,6 @@
 #include "engine/sensors/imu.h"
 
+#include "engine/api/messages/sensors.h"
 #include "engine/core/constants.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/mounted_sensor.h"

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"

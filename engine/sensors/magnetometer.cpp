@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/messages/sensors.h"
+#include "engine/api/world_model.h"
 #include "engine/math/geomagnetic_field.h"
 #include "engine/sensors/mounted_sensor.h"
 #include "engine/sensors/resolution.h"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/api/stepped_parts.h"
+#include "engine/core/random.h"
 #include "engine/sensors/delay_line.h"
 #include "engine/sensors/time_window.h"
 

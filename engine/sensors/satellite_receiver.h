@@ -1,6 +1,8 @@
 #pragma once
 /// What receivers of satellites share: an antenna, and where it is on the ellipsoid.
 
+#include "engine/api/messages/sensors.h"
+#include "engine/api/world_model.h"
 #include "engine/io/geo.h"
 #include "engine/sensors/mounted_sensor.h"
 

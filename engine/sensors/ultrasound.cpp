@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/messages/path.h"
 #include "engine/math/deviation.h"
 
 namespace vinerow {

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "engine/api/map.h"
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
+#include "engine/api/plant_row.h"
 
 namespace vinerow {
 

@@ -18,8 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/map.h"
-#include "engine/api/messages.h"
+#include "engine/api/messages/path.h"
 #include "engine/core/time.h"
 #include "engine/sim/alley_stretches.h"
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/sim/coverage_lanes.h"
 

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/math/polygon.h"
 
 namespace vinerow {

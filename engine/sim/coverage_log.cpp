@@ -5,7 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/api/map.h"
 #include "engine/api/plan_stretch.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/sim/log_trace.h"
 #include "engine/sim/metrics/survey_coverage.h"
@@ -96,7 +98,7 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
   options.cell_m = choice.cell_m.value_or(options.cell_m);
   if (!choice.parcel_W.empty()) options.parcel_W = choice.parcel_W;
   const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
-  if (options.parcel_W.empty()) options.parcel_W = world->rows.boundary_W;
+  if (options.parcel_W.empty()) options.parcel_W = world->rows->boundary_W;
 
   std::vector<std::string> names;
   for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
@@ -112,7 +114,7 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
       one.camera = channel.topic.substr(prefix.size());
       one.shots = read_shots(reader, channel.topic, trace.vehicles.at(name));
       one.track_W = track_of(trace.vehicles.at(name));
-      for (const PlantRow& row : world->rows.rows) {
+      for (const PlantRow& row : world->rows->rows) {
         for (std::size_t i = 0; i + 1 < row.line_W.size(); ++i) {
           one.rows.push_back({row.line_W[i].head<2>(), row.line_W[i + 1].head<2>()});
         }

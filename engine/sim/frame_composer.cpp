@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "engine/render/cameras.h"
 #include "engine/sim/estimate_drawing.h"
@@ -32,7 +34,7 @@ FrameComposer::FrameComposer(const io::Scenario& scenario, const WorldModel& wor
                              const std::vector<std::unique_ptr<Vehicle>>& vehicles,
                              const LogTrace& trace)
     : scenario_(scenario), world_(world), vehicles_(vehicles), trace_(trace) {
-  for (const PlantRow& row : world.rows.rows) {
+  for (const PlantRow& row : world.rows->rows) {
     for (const Eigen::Vector3d& p : row.line_W)
       extent_W_.extend(p).extend(p + Eigen::Vector3d(0, 0, row.canopy_top_m));
   }
@@ -43,12 +45,12 @@ FrameComposer::FrameComposer(const io::Scenario& scenario, const WorldModel& wor
     }
   }
   // Both live longer than the frames that point to the grid.
-  const OccupancyGrid& grid = trace.map.empty() ? world.rows.occupancy : trace.map;
+  const OccupancyGrid& grid = trace.map.empty() ? world.rows->occupancy : trace.map;
   if (!grid.empty()) grid_ = {std::shared_ptr<const OccupancyGrid>(), &grid};
   if (extent_W_.isEmpty())
     extent_W_ = Eigen::AlignedBox3d(Eigen::Vector3d(-10, -10, 0), Eigen::Vector3d(10, 10, 2));
   parcel_W_ = extent_W_;
-  for (const Eigen::Vector2d& p : world.rows.boundary_W) {
+  for (const Eigen::Vector2d& p : world.rows->boundary_W) {
     parcel_W_.extend(Eigen::Vector3d(p.x(), p.y(), extent_W_.center().z()));
   }
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/io/scenario.h"
 #include "engine/render/scene.h"
 #include "engine/sim/log_trace.h"

@@ -7,8 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/grid.h"
+#include "engine/api/messages/motion.h"
+#include "engine/api/messages/path.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/core/time.h"
+#include "engine/math/pose.h"
 #include "engine/record/log_reader.h"
 
 namespace vinerow {

@@ -6,6 +6,9 @@
 #include <map>
 #include <vector>
 
+#include "engine/api/map.h"
+#include "engine/api/mesh.h"
+
 namespace vinerow {
 namespace {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// A vehicle's low-complexity map as lines: what the log keeps of it for pictures and viewers.
 
-#include "engine/api/map.h"
-#include "engine/api/messages.h"
+#include "engine/api/forward.h"
+#include "engine/api/messages/path.h"
 
 namespace vinerow {
 

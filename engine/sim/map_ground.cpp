@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/api/height_field.h"
+
 namespace vinerow {
 
 std::optional<double> MapGround::ground_height_m(double x, double y, double z_from) const {

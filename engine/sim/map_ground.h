@@ -1,7 +1,7 @@
 #pragma once
 /// The ground as a vehicle's map has it.
 
-#include "engine/api/height_field.h"
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 
 namespace vinerow {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/io/scenario_phases.h"
@@ -32,7 +33,7 @@ std::shared_ptr<const RowMap> make_stand_in(const RunContext& run) {
   constexpr const char* kType = "row_mesh";
   const std::vector<std::string> known = run.registry.names(PartKind::kMap);
   const bool has_type = std::find(known.begin(), known.end(), kType) != known.end();
-  if (!has_type || run.world.rows.rows.empty()) {
+  if (!has_type || run.world.rows->rows.empty()) {
     return std::make_shared<RowMap>(run.world.rows);
   }
   MapContext context;

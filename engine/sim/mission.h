@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/api/job.h"
+#include "engine/api/messages/commands.h"
 #include "engine/sim/phase_report.h"
 #include "engine/sim/picture_collector.h"
 #include "engine/sim/vehicle_runtime.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/api/messages/commands.h"
 #include "engine/sim/phase_report.h"
 
 namespace vinerow {

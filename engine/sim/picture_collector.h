@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/api/product.h"
 #include "engine/api/signal.h"
 #include "engine/io/scenario.h"

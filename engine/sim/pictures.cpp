@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/render/scene.h"

@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "engine/api/messages/flight.h"
 #include "engine/core/error.h"
 #include "engine/record/recorder.h"
 #include "engine/sim/canopy_file.h"

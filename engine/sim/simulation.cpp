@@ -8,6 +8,7 @@
 #include <atomic>
 #include <limits>
 
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/sim/mission.h"
@@ -47,7 +48,7 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
   physics_ = std::make_unique<physics::PhysicsWorld>(settings, *world_);
 
   events_ = bus_.advertise<Event>("run/events", "run");
-  if (!world_->rows.occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
+  if (!world_->rows->occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
   const RunContext run{scenario_,
                        registry,
                        *world_,
@@ -175,7 +176,7 @@ bool Simulation::is_done() const {
 }
 
 void Simulation::work_instant() {
-  if (now_.ns == 0 && map_.connected()) map_.write(now_, world_->rows.occupancy);
+  if (now_.ns == 0 && map_.connected()) map_.write(now_, world_->rows->occupancy);
   for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
   if (mission_) {
     for (const auto& [vehicle, reason] : lost_vehicles_) {

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/grid.h"
 #include "engine/api/registry.h"
 #include "engine/core/hash.h"
 #include "engine/io/scenario.h"

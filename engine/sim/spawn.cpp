@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/math/angles.h"
@@ -17,7 +18,7 @@ struct Heading {
 
 Heading find_on_alley(const io::SpawnConfig& spawn, const WorldModel& world,
                       const std::string& vehicle) {
-  const auto& alleys = world.rows.alleys;
+  const auto& alleys = world.rows->alleys;
   if (*spawn.alley < 0 || *spawn.alley >= static_cast<int>(alleys.size())) {
     throw ConfigError(
         fmt::format("{}: vehicles.{}.spawn.alley = {}, but world '{}' has {} alleys (0 to {})",

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/api/plugin.h"
+#include "engine/api/world_model.h"
 
 namespace vinerow {
 namespace {

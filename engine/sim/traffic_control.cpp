@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
@@ -66,11 +67,11 @@ TrafficControl::TrafficControl(
       lanes_.push_back(std::move(lane));
     }
   }
-  if (run.world.rows.alleys.empty()) {
+  if (run.world.rows->alleys.empty()) {
     throw ConfigError(
         fmt::format("{}: traffic.reserve_alleys: the world has no alleys", config.where.text()));
   }
-  traffic_ = std::make_unique<AlleyTraffic>(run.world.rows.alleys, std::move(described));
+  traffic_ = std::make_unique<AlleyTraffic>(run.world.rows->alleys, std::move(described));
 }
 
 double TrafficControl::distance_m(const Lane& lane) const {

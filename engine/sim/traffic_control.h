@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/flight.h"
 #include "engine/sim/alley_traffic.h"
 #include "engine/sim/vehicle_runtime.h"
 

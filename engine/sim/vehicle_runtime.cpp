@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/map.h"
 #include "engine/api/observer.h"
 #include "engine/core/error.h"
 #include "engine/sim/map_edges.h"

@@ -9,7 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/api/forward.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/registry.h"
+#include "engine/api/world_model.h"
 #include "engine/io/scenario.h"
 #include "engine/physics/physics_world.h"
 #include "engine/sim/crash.h"
@@ -114,7 +118,7 @@ class VehicleRuntime {
   std::shared_ptr<const RowMap> make_map() const;
   void take_map(std::shared_ptr<const RowMap> map);
   void show_map();
-  const RowMap& map() const { return own_map_ ? *own_map_ : run_.world.rows; }
+  const RowMap& map() const { return own_map_ ? *own_map_ : *run_.world.rows; }
   PlannerContext planner_context() const;
   void add_sensors();
   void add_estimator();

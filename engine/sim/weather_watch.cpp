@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "engine/api/map.h"
 #include "engine/api/wind_field.h"
+#include "engine/api/world_model.h"
 
 namespace vinerow {
 namespace {

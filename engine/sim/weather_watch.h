@@ -3,7 +3,8 @@
 
 #include <deque>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
+#include "engine/api/wind.h"
 #include "engine/core/time.h"
 #include "engine/io/scenario.h"
 

@@ -6,7 +6,12 @@
 #include <limits>
 
 #include "controllers/dwa/dwa.h"
+#include "engine/api/map.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/grid.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/vehicle.h"
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::dwa_bench {

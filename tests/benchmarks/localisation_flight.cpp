@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/api/world_model.h"
+
 namespace vinerow::bench {
 namespace {
 

@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "engine/api/map.h"
 #include "engine/physics/physics_world.h"
 #include "tests/benchmarks/bench_worlds.h"
 #include "vehicles/payloads/canopy_patches.h"
@@ -43,7 +44,7 @@ void payload_tick(benchmark::State& state, const char* type, double height_m) {
   context.scene = &v.world.scene();
   context.world = v.model.get();
   context.vehicle_description = &description;
-  context.map = &v.model->rows;
+  context.map = &*v.model->rows;
   ParameterSet parameters(spec.parameters, type);
   // The tank lasts.
   if (spec.name == "sprayer") parameters.set("tank_l", 1e9);
@@ -54,7 +55,7 @@ void payload_tick(benchmark::State& state, const char* type, double height_m) {
   Ports ports(bus, "rover", "rover.p");
   payload->connect(ports);
 
-  const auto& line = v.model->rows.alleys[7].line_W;
+  const auto& line = v.model->rows->alleys[7].line_W;
   const Eigen::Vector3d way = line.back() - line.front();
   const double length_m = way.head<2>().norm();
   Odometry odometry;

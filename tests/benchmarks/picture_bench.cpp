@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "engine/api/map.h"
 #include "engine/render/cameras.h"
 #include "engine/render/scene.h"
 #include "tests/benchmarks/bench_worlds.h"
@@ -19,7 +20,7 @@ void frame_of_riseholme(benchmark::State& state) {
     state.SkipWithError(renderer.reason().c_str());
     return;
   }
-  const Alley& alley = world->rows.alleys[4];
+  const Alley& alley = world->rows->alleys[4];
   const Eigen::Vector3d along = (alley.line_W.back() - alley.line_W.front()).normalized();
   render::Frame frame;
   frame.camera = render::look_at(alley.line_W.front() - 3.0 * along + Eigen::Vector3d(0, 0, 2.0),

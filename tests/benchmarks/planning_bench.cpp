@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "engine/api/map.h"
 #include "engine/math/angles.h"
 #include "tests/benchmarks/bench_worlds.h"
 
@@ -26,7 +27,7 @@ struct ParcelF {
     context.seed = seed;
     context.vehicle = "rover";
     context.part = "rover.planner";
-    context.map = &world->rows;
+    context.map = &*world->rows;
     context.vehicle_description = &vehicle;
     ParameterSet parameters(registry.spec(PartKind::kPlanner, "rrt_star").parameters, "rrt_star");
     parameters.set("alleys", alleys);
@@ -35,7 +36,7 @@ struct ParcelF {
 
   /// A metre before the first alley, heading in.
   Pose start() const {
-    const auto& line = world->rows.alleys.front().line_W;
+    const auto& line = world->rows->alleys.front().line_W;
     const Eigen::Vector3d along = (line.back() - line.front()).normalized();
     return {quaternion_from_rpy({0, 0, std::atan2(along.y(), along.x())}), line.front() - along};
   }

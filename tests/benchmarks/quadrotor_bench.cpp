@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "engine/api/map.h"
 #include "tests/benchmarks/bench_worlds.h"
 #include "vehicles/quadrotor/quadrotor.h"
 
@@ -81,7 +82,7 @@ void step_of_quadrotor_standing(benchmark::State& state) {
 void step_of_quadrotor_beside_leaves(benchmark::State& state) {
   static const auto vineyard = bench::make_world("vineyard");
   WorldModel model = *vineyard;
-  const std::vector<Eigen::Vector3d>& line_W = model.rows.alleys.at(0).line_W;
+  const std::vector<Eigen::Vector3d>& line_W = model.rows->alleys.at(0).line_W;
   Flight flight(model, 1.5);
   const Eigen::Vector2d middle = 0.5 * (line_W.front() + line_W.back()).head<2>();
   flight.start.X_WB.p = {middle.x(), middle.y(),

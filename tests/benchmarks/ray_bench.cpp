@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "engine/api/map.h"
 #include "engine/core/random.h"
 #include "engine/physics/physics_world.h"
 #include "tests/benchmarks/bench_worlds.h"
@@ -30,7 +31,7 @@ const Vineyard& vineyard() {
 /// 4 m rays from the middle of an alley, in all horizontal directions.
 void ray_fan_4m(benchmark::State& state) {
   const Vineyard& v = vineyard();
-  const auto& line = v.model->rows.alleys[7].line_W;
+  const auto& line = v.model->rows->alleys[7].line_W;
   RandomStream random(1, "", "rays");
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rays;
   for (int i = 0; i < 4096; ++i) {
@@ -51,7 +52,7 @@ BENCHMARK(ray_fan_4m)->Unit(benchmark::kNanosecond);
 
 void distance_of_rover_box(benchmark::State& state) {
   const Vineyard& v = vineyard();
-  const auto& line = v.model->rows.alleys[7].line_W;
+  const auto& line = v.model->rows->alleys[7].line_W;
   std::size_t i = 0;
   for (auto _ : state) {
     Pose box;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/api/messages/motion.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/core/random.h"
 #include "engine/record/recorder.h"
 

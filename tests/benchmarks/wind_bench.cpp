@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "engine/api/map.h"
 #include "engine/physics/physics_world.h"
 #include "tests/benchmarks/bench_worlds.h"
 #include "vehicles/parts/wind_probe.h"
@@ -23,8 +24,8 @@ WorldModel windy_field(bool sheltered) {
   wind.shelter_attenuation = sheltered ? 1.2 : 0.0;
   for (int i = 0; i < 16; ++i) {
     const double y = 2.5 * i - 18.75;
-    world.rows.rows.push_back({i, {{-45, y, 0}, {45, y, 0}}, 0.6, 0.5, 2.0});
-    if (i > 0) world.rows.alleys.push_back({i, {{-45, y - 1.25, 0}, {45, y - 1.25, 0}}, 2.5});
+    world.rows->rows.push_back({i, {{-45, y, 0}, {45, y, 0}}, 0.6, 0.5, 2.0});
+    if (i > 0) world.rows->alleys.push_back({i, {{-45, y - 1.25, 0}, {45, y - 1.25, 0}}, 2.5});
   }
   return world;
 }

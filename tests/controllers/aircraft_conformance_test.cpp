@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/parts/random_sets.h"
 #include "tests/controllers/support/aircraft_loop.h"

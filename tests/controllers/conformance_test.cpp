@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/sensors.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/mission.h"
@@ -25,9 +28,9 @@ MissionSetup make_small_mission(const std::string& controller, double angle_rad 
     return Eigen::Vector3d(p.x(), p.y(), 0.0);
   };
   MissionSetup setup;
-  setup.map.alleys = {{0, {place(0, 0), place(20, 0)}, 5.0}, {1, {place(0, 5), place(20, 5)}, 5.0}};
-  setup.map.rows.resize(1);
-  setup.map.rows[0].line_W = {place(0, 2.5), place(20, 2.5)};
+  setup.map->alleys = {{0, {place(0, 0), place(20, 0)}, 5.0}, {1, {place(0, 5), place(20, 5)}, 5.0}};
+  setup.map->rows.resize(1);
+  setup.map->rows[0].line_W = {place(0, 2.5), place(20, 2.5)};
   const Eigen::Vector3d start = place(-0.5, 0.2);
   setup.start = {start.head<2>(), (mirrored ? -0.1 : 0.1) + angle_rad};
   setup.planner.values = {{"approach", false}};

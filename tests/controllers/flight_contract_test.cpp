@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "tests/controllers/support/flight_loop.h"
 #include "tests/support/no_alloc.h"

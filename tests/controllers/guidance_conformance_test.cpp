@@ -10,6 +10,7 @@
 
 #include "controllers/register.h"
 #include "engine/api/registry.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/dwa/course.h"

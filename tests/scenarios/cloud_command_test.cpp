@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/api/world_model.h"
 #include "engine/io/point_cloud.h"
 #include "engine/io/point_cloud_crs.h"
 #include "tests/scenarios/command.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "tests/scenarios/command.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
 #include "worlds/mapping/cloud/sampling/cloud_truth.h"

@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/sim/run.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <thread>
 
+#include "engine/api/messages/motion.h"
 #include "engine/record/log_reader.h"
 #include "tests/scenarios/command.h"
 #include "tests/support/paths.h"

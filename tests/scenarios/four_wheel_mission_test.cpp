@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "engine/api/world_model.h"
 #include "engine/math/polygon.h"
 #include "engine/render/png.h"
 #include "tests/scenarios/small_vineyard_map.h"

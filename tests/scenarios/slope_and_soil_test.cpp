@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"

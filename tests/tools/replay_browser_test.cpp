@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "engine/api/messages/event.h"
 #include "engine/render/png.h"
 #include "tests/scenarios/command.h"
 #include "tools/vinerow/report/replay.h"

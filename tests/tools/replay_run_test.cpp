@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/api/world_model.h"
 #include "engine/record/log_reader.h"
 #include "tests/scenarios/command.h"
 #include "tests/tools/replay_page.h"

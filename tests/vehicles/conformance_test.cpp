@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/support/no_alloc.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/api/vehicle.h"
 #include "tests/vehicles/small_worlds.h"
 
 namespace vinerow::vehicles::test {

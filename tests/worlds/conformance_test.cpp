@@ -6,6 +6,10 @@
 #include <cmath>
 #include <set>
 
+#include "engine/api/height_field.h"
+#include "engine/api/map.h"
+#include "engine/api/messages/grid.h"
+#include "engine/api/world_model.h"
 #include "tests/worlds/world_fixture.h"
 #include "worlds/parts/mesh_store.h"
 
@@ -42,11 +46,11 @@ std::string digest_of(const WorldModel& world) {
     for (int k = 0; k < 3; ++k) hasher.add(instance.X_WM.p[k]);
     for (int k = 0; k < 4; ++k) hasher.add(instance.X_WM.q.coeffs()[k]);
   }
-  for (const PlantRow& row : world.rows.rows) {
+  for (const PlantRow& row : world.rows->rows) {
     for (const Eigen::Vector3d& p : row.line_W)
       hasher.add(p.x()), hasher.add(p.y()), hasher.add(p.z());
   }
-  for (const Alley& alley : world.rows.alleys) {
+  for (const Alley& alley : world.rows->alleys) {
     for (const Eigen::Vector3d& p : alley.line_W)
       hasher.add(p.x()), hasher.add(p.y()), hasher.add(p.z());
   }
@@ -128,15 +132,15 @@ TEST_P(WorldConformance, RowsAndAlleysStandOnTheGroundInsideTheTerrain) {
       EXPECT_NEAR(p.z(), ground_m(p.x(), p.y()), 1e-9);
     }
   };
-  for (const PlantRow& row : world_->rows.rows) check(row.line_W);
-  for (const Alley& alley : world_->rows.alleys) check(alley.line_W);
+  for (const PlantRow& row : world_->rows->rows) check(row.line_W);
+  for (const Alley& alley : world_->rows->alleys) check(alley.line_W);
   for (const SpawnPoint& point : world_->spawn_points) {
     EXPECT_TRUE(world_->terrain->contains(point.p_W.x(), point.p_W.y())) << point.name;
   }
 }
 
 TEST_P(WorldConformance, AlleysRunTheSameWayInOrderAcrossTheBlock) {
-  const auto& alleys = world_->rows.alleys;
+  const auto& alleys = world_->rows->alleys;
   for (std::size_t i = 0; i + 1 < alleys.size(); ++i) {
     const auto chord = [](const Alley& a) {
       return Eigen::Vector2d((a.line_W.back() - a.line_W.front()).head<2>().normalized());
@@ -162,7 +166,7 @@ double distance_to_line_m(const Eigen::Vector3d& p, const std::vector<Eigen::Vec
 TEST_P(WorldConformance, AlleysAreClearOfEverythingThatCollides) {
   // A rover of 1.2 m width with a hand's breadth to each side drives every alley.
   constexpr double kHalfWidth_m = 0.7;
-  for (const Alley& alley : world_->rows.alleys) {
+  for (const Alley& alley : world_->rows->alleys) {
     for (const MeshInstance& instance : world_->meshes) {
       if (!instance.collides || instance.surface == SurfaceClass::kTerrain) continue;
       for (const Eigen::Vector3f& v : instance.mesh->vertices) {
@@ -176,11 +180,11 @@ TEST_P(WorldConformance, AlleysAreClearOfEverythingThatCollides) {
 }
 
 TEST_P(WorldConformance, AlleysAreFreeOnTheMap) {
-  const OccupancyGrid& grid = world_->rows.occupancy;
-  if (world_->rows.rows.empty()) return;
+  const OccupancyGrid& grid = world_->rows->occupancy;
+  if (world_->rows->rows.empty()) return;
   ASSERT_FALSE(grid.empty());
   ASSERT_EQ(grid.cells.size(), static_cast<std::size_t>(grid.columns) * grid.rows);
-  for (const Alley& alley : world_->rows.alleys) {
+  for (const Alley& alley : world_->rows->alleys) {
     for (const Eigen::Vector3d& p : alley.line_W) {
       const Eigen::Vector2d cell = (p.head<2>() - grid.corner_W) / grid.cell_m;
       const int i = static_cast<int>(std::floor(cell.x()));

@@ -1,3 +1,6 @@
+#include "engine/api/map.h"
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "worlds/mesh/mesh.h"
 
 #include <gtest/gtest.h>
@@ -84,9 +87,9 @@ TEST(MeshWorld, SdfRowsStandWhereTheFileSays) {
   parameters.set("sdf_file", file.string());
   const auto world = test::make_world("mesh", parameters);
   // data/README.md: rows 3 m apart from y = -7.5, pieces 6 m apart at x = -6, 0, 6.
-  ASSERT_EQ(world->rows.rows.size(), 6u);
+  ASSERT_EQ(world->rows->rows.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
-    const auto& line = world->rows.rows[i].line_W;
+    const auto& line = world->rows->rows[i].line_W;
     EXPECT_NEAR(line.front().y(), -7.5 + 3.0 * static_cast<double>(i), 1e-9);
     EXPECT_NEAR(line.front().x(), -9.0, 1e-9);
     EXPECT_NEAR(line.back().x(), 9.0, 1e-9);

@@ -1,5 +1,7 @@
 /// Neighbouring fields: where they are laid, and that nothing but pictures knows of them.
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "worlds/parts/neighbours.h"
 
 #include <gtest/gtest.h>
@@ -114,7 +116,7 @@ TEST(Neighbours, NoRayNoClearanceNoMeshNoMapKnowsThem) {
     EXPECT_EQ(amid->meshes[i].mesh->vertices, alone->meshes[i].mesh->vertices);
   }
   EXPECT_EQ(amid->terrain->heights_m, alone->terrain->heights_m);
-  EXPECT_EQ(amid->rows.occupancy.cells, alone->rows.occupancy.cells);
+  EXPECT_EQ(amid->rows->occupancy.cells, alone->rows->occupancy.cells);
   // At the top of a neighbour's row there is nothing but the ground below.
   const physics::WorldScene scene(*amid);
   int looked_at = 0;

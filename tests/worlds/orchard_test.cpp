@@ -1,3 +1,6 @@
+#include "engine/api/map.h"
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "worlds/orchard/orchard.h"
 
 #include <gtest/gtest.h>
@@ -12,15 +15,15 @@ namespace {
 TEST(Orchard, PapersMapHasItsRowsAndFreeRows) {
   // Paper, section 2.2: n = 9, N = 10, P = 10 m, w = 2 m, l = 80 m, Ys = 10 m.
   const auto world = test::make_world("orchard", test::world_parameters("orchard"));
-  ASSERT_EQ(world->rows.rows.size(), 9u);
-  ASSERT_EQ(world->rows.alleys.size(), 10u);
+  ASSERT_EQ(world->rows->rows.size(), 9u);
+  ASSERT_EQ(world->rows->alleys.size(), 10u);
   for (int k = 0; k < 9; ++k) {
-    const auto& line = world->rows.rows[static_cast<std::size_t>(k)].line_W;
+    const auto& line = world->rows->rows[static_cast<std::size_t>(k)].line_W;
     EXPECT_EQ(line.front(), Eigen::Vector3d(10.0 * (k + 1), 10, 0));
     EXPECT_EQ(line.back(), Eigen::Vector3d(10.0 * (k + 1), 90, 0));
   }
   for (int k = 0; k < 10; ++k) {
-    const Alley& alley = world->rows.alleys[static_cast<std::size_t>(k)];
+    const Alley& alley = world->rows->alleys[static_cast<std::size_t>(k)];
     ASSERT_EQ(alley.line_W.size(), 2u);
     EXPECT_EQ(alley.line_W.front(), Eigen::Vector3d(5.0 + 10.0 * k, 10, 0));
     EXPECT_EQ(alley.line_W.back(), Eigen::Vector3d(5.0 + 10.0 * k, 90, 0));

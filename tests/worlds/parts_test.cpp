@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
 #include "engine/math/angles.h"
 #include "tests/worlds/world_fixture.h"
 #include "worlds/parts/canopy.h"

@@ -1,3 +1,6 @@
+#include "engine/api/map.h"
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "worlds/surveyed/surveyed.h"
 
 #include <gtest/gtest.h>
@@ -21,9 +24,9 @@ ParameterSet riseholme() {
 TEST(Surveyed, RiseholmeHasTheMeasuredFigures) {
   const auto world = test::make_world("surveyed", riseholme());
   EXPECT_TRUE(world->notes.empty());
-  ASSERT_EQ(world->rows.rows.size(), 10u);
-  ASSERT_EQ(world->rows.alleys.size(), 9u);
-  for (const Alley& alley : world->rows.alleys) {
+  ASSERT_EQ(world->rows->rows.size(), 10u);
+  ASSERT_EQ(world->rows->alleys.size(), 9u);
+  for (const Alley& alley : world->rows->alleys) {
     // data/README.md: pitch 2.48 to 2.53 m, bearing 171.6 deg.
     EXPECT_GT(alley.width_m, 2.475);
     EXPECT_LT(alley.width_m, 2.535);
@@ -38,7 +41,7 @@ TEST(Surveyed, SurroundingsAreGroundAndNoParcel) {
   ParameterSet parameters = riseholme();
   parameters.set("surroundings_m", 106.0).set("terrain_cell_m", 1.0);
   const auto wide = test::make_world("surveyed", parameters);
-  EXPECT_EQ(wide->rows.boundary_W, near->rows.boundary_W);
+  EXPECT_EQ(wide->rows->boundary_W, near->rows->boundary_W);
   // 100 m more on both sides; a grid ends on whole cells, of 0.5 m and of 1 m.
   EXPECT_NEAR(wide->terrain->width_m(), near->terrain->width_m() + 200.0, 1.0);
   EXPECT_NEAR(wide->terrain->depth_m(), near->terrain->depth_m() + 200.0, 1.0);
@@ -54,7 +57,7 @@ TEST(Surveyed, MiddleLinesAgreeWithTheAuthorsMidRowLines) {
     double best_m = 1e9;
     const Eigen::Vector2d middle = 0.5 * (frame.to_local(line.points.front()).head<2>() +
                                           frame.to_local(line.points.back()).head<2>());
-    for (const Alley& alley : world->rows.alleys) {
+    for (const Alley& alley : world->rows->alleys) {
       const Eigen::Vector2d a = alley.line_W.front().head<2>();
       const Eigen::Vector2d d = (alley.line_W.back().head<2>() - a).normalized();
       const Eigen::Vector2d r = middle - a;
@@ -96,7 +99,7 @@ TEST(Surveyed, AuthorsOwnFileLoadsAsWell) {
   ParameterSet parameters = riseholme();
   parameters.set("survey_file", file.string());
   const auto world = test::make_world("surveyed", parameters);
-  EXPECT_EQ(world->rows.rows.size(), 10u);
+  EXPECT_EQ(world->rows->rows.size(), 10u);
 }
 
 TEST(Surveyed, RefusesBadInputInOneSentence) {

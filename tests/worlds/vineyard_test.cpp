@@ -1,3 +1,6 @@
+#include "engine/api/height_field.h"
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "worlds/vineyard/vineyard.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +42,7 @@ TEST(Vineyard, BentRowsAreArcsAboutOneCentre) {
     const double radius_m = 60.0 / rad_from_deg(bend_deg);
     const Eigen::Vector2d centre(71.4 - radius_m, 38.9);
     for (std::size_t i = 0; i < 5; ++i) {
-      const auto& line = world->rows.rows[i].line_W;
+      const auto& line = world->rows->rows[i].line_W;
       const double offset_m = 2.5 * (static_cast<double>(i) - 2.0);  // to the left, west
       const double own_m = radius_m - offset_m;
       for (const Eigen::Vector3d& p : line) {
@@ -50,7 +53,7 @@ TEST(Vineyard, BentRowsAreArcsAboutOneCentre) {
       EXPECT_NEAR(chord.y(), 2.0 * std::abs(own_m * std::sin(rad_from_deg(0.5 * bend_deg))), 1e-9);
     }
     // Chords of 1 m lie up to 1 / (8 * 81 m) = 1.5 mm inside their arcs.
-    for (const Alley& alley : world->rows.alleys) EXPECT_NEAR(alley.width_m, 2.5, 1.6e-3);
+    for (const Alley& alley : world->rows->alleys) EXPECT_NEAR(alley.width_m, 2.5, 1.6e-3);
   }
   ParameterSet parameters = test::world_parameters("vineyard");
   parameters.set("row_bend_deg", 180.0).set("row_length_m", 50.0);
@@ -66,7 +69,7 @@ TEST(Vineyard, BentRowsAreArcsAboutOneCentre) {
 
 TEST(Vineyard, ReliefUnderTheRowsIsThirtyMetres) {
   double low = 1e9, high = -1e9;
-  for (const PlantRow& row : parcel_f().rows.rows) {
+  for (const PlantRow& row : parcel_f().rows->rows) {
     for (int i = 0; i <= 1000; ++i) {
       const Eigen::Vector3d p = row.line_W[0] + (row.line_W[1] - row.line_W[0]) * (i / 1000.0);
       const double h = parcel_f().terrain->height_m(p.x(), p.y());
@@ -80,7 +83,7 @@ TEST(Vineyard, ReliefUnderTheRowsIsThirtyMetres) {
 
 TEST(Vineyard, ParcelLiesInsideThePapersCoordinates) {
   const io::LocalFrame frame(parcel_f().origin);
-  for (const PlantRow& row : parcel_f().rows.rows) {
+  for (const PlantRow& row : parcel_f().rows->rows) {
     for (const Eigen::Vector3d& p : row.line_W) {
       const io::Geodetic g = frame.to_geodetic(p);
       EXPECT_GT(deg_from_rad(g.latitude_rad), 44.6150);
@@ -187,8 +190,8 @@ TEST(Vineyard, SurroundingsChangeNothingInTheParcel) {
     }
   }
   EXPECT_LT(difference, 1e-5f);
-  ASSERT_EQ(wide->rows.rows.size(), narrow->rows.rows.size());
-  EXPECT_LT((wide->rows.rows[1].line_W[0] - narrow->rows.rows[1].line_W[0]).norm(), 1e-5);
+  ASSERT_EQ(wide->rows->rows.size(), narrow->rows->rows.size());
+  EXPECT_LT((wide->rows->rows[1].line_W[0] - narrow->rows->rows[1].line_W[0]).norm(), 1e-5);
 }
 
 TEST(Vineyard, TheHillsideEndsInARidgeAndAValley) {

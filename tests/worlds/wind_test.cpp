@@ -1,5 +1,6 @@
 /// The group `wind` of every built-in world: what becomes of its values, and what is refused.
 
+#include "engine/api/world_model.h"
 #include "worlds/parts/wind.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
+#include "engine/api/messages/sensors.h"
 #include "vinerow/testing.h"
 
 #include <fmt/format.h>

@@ -4,6 +4,7 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/physics/check_world.h"

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "engine/api/map.h"
 #include "tools/vinerow/canvas.h"
 #include "tools/vinerow/colour_scale.h"
 #include "tools/vinerow/picture_style.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/io/ros_map.h"
 #include "engine/sim/simulation.h"
@@ -14,9 +16,9 @@ namespace vinerow::tools {
 namespace {
 
 void print_grid(const WorldModel& world, const worlds::OccupancyReport& report) {
-  const OccupancyGrid& grid = world.rows.occupancy;
-  fmt::print("rows           {}\n", world.rows.rows.size());
-  fmt::print("alleys         {}\n", world.rows.alleys.size());
+  const OccupancyGrid& grid = world.rows->occupancy;
+  fmt::print("rows           {}\n", world.rows->rows.size());
+  fmt::print("alleys         {}\n", world.rows->alleys.size());
   fmt::print("cells          {} x {} of {:g} m, {:.2f} million, {:.1f} % free\n", grid.columns,
              grid.rows, grid.cell_m, 1e-6 * static_cast<double>(grid.cells.size()),
              100.0 * worlds::free_share(grid));
@@ -50,7 +52,7 @@ void add_grid_command(CLI::App& app, int& exit_status) {
     const io::Scenario scenario = load(arguments->scenario, registry);
     const auto world = build_world(scenario, registry);
     for (const std::string& note : world->notes) fmt::print("note: {}\n", note);
-    if (world->rows.occupancy.empty()) {
+    if (world->rows->occupancy.empty()) {
       throw ConfigError(
           fmt::format("{}: world '{}' has no occupancy grid (no rows, or occupancy_cell_m = 0)",
                       arguments->scenario.file.string(), scenario.world.type));
@@ -69,7 +71,7 @@ void add_grid_command(CLI::App& app, int& exit_status) {
       throw ConfigError(
           fmt::format("--out: folder '{}' cannot be made: {}", out.string(), error.message()));
     }
-    io::save_ros_map(world->rows.occupancy, out / "map.yaml");
+    io::save_ros_map(world->rows->occupancy, out / "map.yaml");
     render::write_png((out / "grid.png").string(), draw_grid(*world, report, scenario.name));
     print_grid(*world, report);
     fmt::print("map            {}\npicture        {}\n", (out / "map.yaml").string(),

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "tools/vinerow/legend.h"
 #include "tools/vinerow/picture_style.h"
 #include "tools/vinerow/plan_view.h"
@@ -37,8 +40,8 @@ void draw_free_ground(Canvas& canvas, const PlanView& view, const OccupancyGrid&
 /// Taken cells as they are, 3 x 3 samples a pixel.
 void draw_taken_cells(Canvas& canvas, const PlanView& view, const WorldModel& world) {
   constexpr int kSamples = 3;
-  const OccupancyGrid& grid = world.rows.occupancy;
-  const std::vector<Vector2d>& boundary = world.rows.boundary_W;
+  const OccupancyGrid& grid = world.rows->occupancy;
+  const std::vector<Vector2d>& boundary = world.rows->boundary_W;
   // What of the taken cells is a row.
   OccupancyGrid rows;
   if (boundary.size() >= 3) {
@@ -81,7 +84,7 @@ int draw_obstacles(Canvas& canvas, const PlanView& view, const WorldModel& world
           Eigen::AlignedBox3d::TopRightFloor, Eigen::AlignedBox3d::TopLeftFloor}) {
       plan.push_back((instance.X_WM * Eigen::Vector3d(box.corner(corner))).head<2>());
     }
-    const bool known = state_at(world.rows.occupancy, instance.X_WM.p.head<2>()) == 1;
+    const bool known = state_at(world.rows->occupancy, instance.X_WM.p.head<2>()) == 1;
     unknown += !known;
     if (!known) canvas.fill(view(plan), kObstacle, 0.85);
     canvas.outline(view(plan), 2.0, known ? kTaken : kObstacle);
@@ -106,7 +109,7 @@ void draw_alley_numbers(Canvas& canvas, const PlanView& view, const RowMap& map)
 
 render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& report,
                         const std::string& title) {
-  const OccupancyGrid& grid = world.rows.occupancy;
+  const OccupancyGrid& grid = world.rows->occupancy;
   const PlanView view(grid.corner_W, grid.cell_m * Vector2d(grid.columns, grid.rows), kNarrowMargin,
                       kTallestPlan, 104);
   Canvas canvas(kPictureWidth, view.height, kPaper);
@@ -116,7 +119,7 @@ render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& 
     canvas.outline(view(area.polygon_W), 1.0, {196, 146, 10}, 0.7);
   }
   draw_taken_cells(canvas, view, world);
-  canvas.outline(view(world.rows.boundary_W), 2.5, kBoundary);
+  canvas.outline(view(world.rows->boundary_W), 2.5, kBoundary);
   for (const worlds::VirtualWall& wall : report.walls) {
     canvas.line(view(wall.from_W), view(wall.to_W), 3.5, kWall);
   }
@@ -126,7 +129,7 @@ render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& 
   const double top = view.map_height + 14.0;
   canvas.text(title, 22, {static_cast<double>(view.margin), top + 14.0}, kInk);
   canvas.text(fmt::format("{} rows, {} alleys, {} x {} cells of {:g} m, {:.1f} % free",
-                          world.rows.rows.size(), world.rows.alleys.size(), grid.columns, grid.rows,
+                          world.rows->rows.size(), world.rows->alleys.size(), grid.columns, grid.rows,
                           grid.cell_m, 100.0 * worlds::free_share(grid)),
               16, {static_cast<double>(view.margin), top + 40.0}, kFaint);
   double x = view.margin;
@@ -136,7 +139,7 @@ render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& 
     x += 58.0 + 8.6 * static_cast<double>(words.size());
   };
   legend(kFree, "free", true);
-  legend(kPlants, "plant row", !world.rows.rows.empty());
+  legend(kPlants, "plant row", !world.rows->rows.empty());
   legend(kWall, "virtual wall", !report.walls.empty());
   legend({246, 219, 139}, "turning area", !report.turning_areas.empty());
   legend(kOutside, "outside the parcel", true);

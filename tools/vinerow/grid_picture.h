@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 #include "engine/render/scene.h"
 #include "worlds/mapping/occupancy.h"
 

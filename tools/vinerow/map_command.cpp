@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "controllers/planning/survey_area.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/io/mesh_scene_writer.h"
 #include "engine/io/mesh_writer.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/render/png.h"
 #include "tools/vinerow/map_pictures.h"

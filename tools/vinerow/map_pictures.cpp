@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/api/world_model.h"
 #include "engine/render/caption.h"
 #include "tools/vinerow/cloud_view.h"
 #include "tools/vinerow/grid_picture.h"

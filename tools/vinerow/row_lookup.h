@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/api/map.h"
+#include "engine/api/plant_row.h"
 
 namespace vinerow::tools {
 

@@ -8,7 +8,6 @@
 
 #include "controllers/planning/survey_heights.h"
 #include "controllers/planning/survey_request.h"
-#include "engine/api/world_model.h"
 #include "engine/sim/simulation.h"
 #include "tools/vinerow/commands.h"
 

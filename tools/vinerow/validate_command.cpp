@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "engine/api/world_model.h"
 #include "engine/sim/simulation.h"
 #include "tools/vinerow/commands.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 #include "vehicles/diff_drive_rover/rover_mesh.h"

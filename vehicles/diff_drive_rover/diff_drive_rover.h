@@ -8,6 +8,8 @@
 #include <memory>
 #include <optional>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/registry.h"
 #include "vehicles/diff_drive_rover/diff_drive_rover_params.h"
 #include "vehicles/parts/kinematic_platform.h"

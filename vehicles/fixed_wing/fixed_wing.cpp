@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "vehicles/fixed_wing/fixed_wing_mesh.h"

@@ -20,6 +20,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/registry.h"
 #include "engine/physics/physics_world.h"
 #include "vehicles/fixed_wing/fixed_wing_model.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/sensors.h"
 
 namespace vinerow::vehicles {
 

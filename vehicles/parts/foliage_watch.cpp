@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::vehicles {

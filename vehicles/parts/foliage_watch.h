@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/api/world_model.h"
 #include "engine/physics/physics_world.h"
 
 namespace vinerow::vehicles {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/api/messages/motion.h"
 #include "vehicles/parts/validation.h"
 
 namespace vinerow::vehicles {

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/messages.h"
 #include "engine/physics/physics_world.h"
 #include "vehicles/parts/planar_motion.h"
 

@@ -26,7 +26,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "engine/api/world_model.h"
+#include "engine/api/soil.h"
 
 namespace vinerow::vehicles {
 

@@ -16,7 +16,6 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "engine/api/world_model.h"
 #include "engine/math/pose.h"
 #include "vehicles/parts/motor.h"
 #include "vehicles/parts/suspension.h"

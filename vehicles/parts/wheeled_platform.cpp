@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "vehicles/parts/validation.h"

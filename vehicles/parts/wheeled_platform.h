@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
 #include "engine/api/vehicle.h"
 #include "engine/physics/physics_world.h"
 #include "vehicles/parts/air_drag.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/math/standard_atmosphere.h"
 
 namespace vinerow::vehicles {

@@ -16,9 +16,9 @@
 
 #include <Eigen/Core>
 
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 #include "engine/api/wind_field.h"
-#include "engine/api/world_model.h"
 #include "engine/core/random.h"
 #include "engine/core/time.h"
 #include "vehicles/parts/dryden.h"

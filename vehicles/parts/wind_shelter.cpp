@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/map.h"
+
 namespace vinerow::vehicles {
 namespace {
 

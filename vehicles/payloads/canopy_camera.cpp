@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/messages/commands.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "vehicles/payloads/canopy_cutting.h"
 
 namespace vinerow::vehicles {
@@ -32,7 +34,7 @@ std::vector<CanopyPoint> points_of(const RowLines& rows, const MeshInstance& ins
 CanopyPatches::CanopyPatches(const WorldModel& world, double step_m, double band_m)
     : step_m_(step_m),
       band_m_(band_m),
-      rows_(world.rows.rows, world.terrain ? &*world.terrain : nullptr) {
+      rows_(world.rows->rows, world.terrain ? &*world.terrain : nullptr) {
   if (rows_.count() == 0) return;
   for (int row = 0; row < rows_.count(); ++row) {
     const int steps =
@@ -73,7 +75,7 @@ CanopyPatches::CanopyPatches(const WorldModel& world, double step_m, double band
   }
   take_over(cells);
   for (CanopyPatch& patch : patches_) {
-    patch.row = world.rows.rows[static_cast<std::size_t>(patch.row)].id;
+    patch.row = world.rows->rows[static_cast<std::size_t>(patch.row)].id;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/height_field.h"
 #include "engine/core/check.h"
 #include "engine/math/planar.h"
 

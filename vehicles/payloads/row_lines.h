@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/api/height_field.h"
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
+#include "engine/api/plant_row.h"
 #include "engine/math/deviation.h"
 
 namespace vinerow::vehicles {

@@ -1,5 +1,7 @@
 #include "vehicles/payloads/section_switch.h"
 
+#include "engine/api/map.h"
+
 namespace vinerow::vehicles {
 
 bool LaggingValve::follow(bool command, Time now, Duration lag) {

@@ -10,6 +10,7 @@
 
 #include <optional>
 
+#include "engine/api/messages/motion.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/api/signal.h"
 #include "vehicles/payloads/row_lines.h"

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/map.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "vehicles/parts/wind_probe.h"

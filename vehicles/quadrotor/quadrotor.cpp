@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/height_field.h"
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "vehicles/quadrotor/crash_watch.h"
 #include "vehicles/quadrotor/quadrotor_shapes.h"

@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/registry.h"
 #include "engine/physics/physics_world.h"
 #include "vehicles/parts/foliage_watch.h"

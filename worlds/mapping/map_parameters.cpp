@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/io/ros_map.h"
 #include "worlds/parts/row_map.h"
 
@@ -15,12 +17,12 @@ constexpr std::int64_t kMostCells = 8'000'000;
 void give_boundary(WorldModel& world) {
   constexpr double kHeadland_m = 10.0, kBeside_m = 3.0;
   std::vector<RowCurve> rows;
-  for (const PlantRow& row : world.rows.rows) {
+  for (const PlantRow& row : world.rows->rows) {
     std::vector<Eigen::Vector2d> line;
     for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
     rows.emplace_back(std::move(line));
   }
-  world.rows.boundary_W = parcel_boundary(rows, kHeadland_m, kBeside_m);
+  world.rows->boundary_W = parcel_boundary(rows, kHeadland_m, kBeside_m);
   world.notes.push_back(fmt::format(
       "the parcel has no boundary; a box {:g} m beyond the row ends and {:g} m beside the outer "
       "rows stands in",
@@ -66,15 +68,15 @@ void fill_occupancy(const ParameterSet& parameters, WorldModel& world,
                     double row_end_margin_m) {
   if (parameters.has("occupancy_file")) {
     io::RosMap map = io::load_ros_map(parameters.text("occupancy_file"));
-    world.rows.occupancy = std::move(map.grid);
+    world.rows->occupancy = std::move(map.grid);
     for (std::string& note : map.notes) world.notes.push_back(std::move(note));
     return;
   }
   OccupancyOptions options = read_map_options(parameters);
-  if (options.cell_m == 0.0 || world.rows.rows.empty()) return;
-  if (world.rows.boundary_W.empty()) give_boundary(world);
+  if (options.cell_m == 0.0 || world.rows->rows.empty()) return;
+  if (world.rows->boundary_W.empty()) give_boundary(world);
   const double wanted_m = options.cell_m;
-  options.cell_m = cell_that_fits_m(world.rows.boundary_W, wanted_m, kMostCells);
+  options.cell_m = cell_that_fits_m(world.rows->boundary_W, wanted_m, kMostCells);
   if (options.cell_m != wanted_m) {
     world.notes.push_back(fmt::format(
         "occupancy_cell_m = {:g} m would make more than {} million cells; {:g} m is used", wanted_m,
@@ -83,7 +85,7 @@ void fill_occupancy(const ParameterSet& parameters, WorldModel& world,
   options.obstacles_W = obstacles_W;
   options.row_end_margin_m = row_end_margin_m;
   const OccupancyReport report = plan_occupancy(world.rows, options);
-  world.rows.occupancy = make_occupancy_grid(world.rows, options, report);
+  world.rows->occupancy = make_occupancy_grid(world.rows, options, report);
   for (const std::string& note : report.notes) world.notes.push_back(note);
 }
 

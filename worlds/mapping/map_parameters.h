@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/parameters.h"
-#include "engine/api/world_model.h"
 #include "worlds/mapping/occupancy.h"
 
 namespace vinerow::worlds {
@@ -20,7 +20,7 @@ bool has_map_parameters(const ParameterSet& parameters);
 /// Cell, walls and their order as the parameters say. @pre has_map_parameters(parameters)
 OccupancyOptions read_map_options(const ParameterSet& parameters);
 
-/// Fills `world.rows.occupancy` from the file, or from rows and boundary. A block without boundary
+/// Fills `world.rows->occupancy` from the file, or from rows and boundary. A block without boundary
 /// gets one around its rows; a grid of more than 8 million cells gets larger cells; both are noted.
 /// Nothing happens where there are neither rows nor file, or where the cell is 0.
 /// @param obstacles_W       areas that are on the map besides the rows

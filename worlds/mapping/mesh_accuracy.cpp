@@ -6,8 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/api/world_model.h"
-
 namespace vinerow::worlds {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "worlds/mapping/rasterise.h"

@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
+#include "engine/api/messages/grid.h"
 #include "worlds/mapping/virtual_walls.h"
 
 namespace vinerow::worlds {

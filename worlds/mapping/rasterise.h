@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/api/map.h"
+#include "engine/api/messages/grid.h"
 
 namespace vinerow::worlds {
 

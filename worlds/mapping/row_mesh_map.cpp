@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
@@ -106,7 +107,7 @@ std::int64_t count_true_triangles(const WorldModel& world) {
 class Surveyor {
  public:
   Surveyor(const ParameterSet& parameters, const MapContext& context)
-      : parameters_(parameters), context_(context), rows_(context.world->rows.rows) {
+      : parameters_(parameters), context_(context), rows_(context.world->rows->rows) {
     const auto& spacing = parameters.numbers("section_spacing_m");
     if (spacing[0] > spacing[1]) {
       throw ConfigError(
@@ -223,7 +224,7 @@ Eigen::Vector3d vector_of(const std::vector<double>& numbers) {
 std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const MapContext& context,
                                           RowMeshReport* report) {
   VINEROW_DEMAND(context.world != nullptr && context.scene != nullptr);
-  if (context.world->rows.rows.empty()) {
+  if (context.world->rows->rows.empty()) {
     throw ConfigError(
         fmt::format("map row_mesh: world '{}' has no plant rows to survey", context.world->name));
   }
@@ -246,7 +247,7 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
         context.vehicle, made.unseen_rows.size() == 1 ? "" : "s",
         fmt::join(made.unseen_rows, ", ")));
   }
-  made.accuracy = measure_accuracy(*context.scene, context.world->rows.rows, map->meshes);
+  made.accuracy = measure_accuracy(*context.scene, context.world->rows->rows, map->meshes);
   made.true_triangles = count_true_triangles(*context.world);
   for (const RowMesh& mesh : map->meshes) {
     made.triangles += static_cast<std::int64_t>(mesh.mesh_W.triangles.size());
@@ -265,7 +266,7 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
   accuracy.offset_std_m = vector_of(parameters.numbers("offset_std_m"));
 
   MapPlacement placement;
-  placement.middle_W = middle_of(context.world->rows.rows);
+  placement.middle_W = middle_of(context.world->rows->rows);
   RandomStream random = surveyor.stream("offset");
   const Eigen::Vector3d drawn(random.normal(), random.normal(), random.normal());
   placement.shift_m =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/map.h"
 #include "worlds/mapping/virtual_walls.h"
 
 namespace vinerow::worlds {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/map.h"
 #include "engine/math/planar.h"
 
 namespace vinerow::worlds {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/io/mesh_file.h"
 #include "engine/math/angles.h"

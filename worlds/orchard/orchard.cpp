@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "worlds/mapping/map_parameters.h"
@@ -127,7 +129,7 @@ std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
   const GroundHeight ground = ground_of(*world->terrain);
   const double spacing_m = parameters.number("tree_spacing_m");
   for (int k = 0; k < layout.plant_rows; ++k) {
-    const auto& line = world->rows.rows[static_cast<std::size_t>(k)].line_W;
+    const auto& line = world->rows->rows[static_cast<std::size_t>(k)].line_W;
     const RowCurve row({line.front().head<2>(), line.back().head<2>()});
     const int count = std::max(1, static_cast<int>(row.length_m() / spacing_m + 1e-9));
     std::vector<double> stations;
@@ -137,7 +139,7 @@ std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
   add_alley_spawn_points(*world);
   const auto on_map = place_obstacles(parameters, *world);
   if (parameters.has("refinement_per_m2") && !parameters.has("occupancy_file")) {
-    world->rows.occupancy = make_occupancy(layout);
+    world->rows->occupancy = make_occupancy(layout);
   } else {
     fill_occupancy(parameters, *world, on_map, 0.0);
   }

@@ -3,6 +3,7 @@
 /// for a Specialized Four-Wheel Differential-Drive Agricultural Rover", AgriEngineering 6 (2024),
 /// section 2.2, with fruit trees.
 
+#include "engine/api/messages/grid.h"
 #include "engine/api/registry.h"
 
 namespace vinerow::worlds {

@@ -1,5 +1,6 @@
 #include "worlds/parts/common.h"
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "worlds/parts/soil.h"
 #include "worlds/parts/wind.h"

@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/api/forward.h"
+#include "engine/api/geo_origin.h"
 #include "engine/api/parameters.h"
-#include "engine/api/world_model.h"
 
 namespace vinerow::worlds {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/parameters.h"
-#include "engine/api/world_model.h"
 
 namespace vinerow::worlds {
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/api/mesh.h"
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 

@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/api/mesh.h"
+#include "engine/api/forward.h"
+#include "engine/math/pose.h"
 
 namespace vinerow::worlds {
 

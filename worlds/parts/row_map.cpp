@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/math/planar.h"
 
@@ -109,7 +111,7 @@ RowMap make_row_map(const std::vector<RowCurve>& rows, const GroundHeight& groun
 }
 
 void add_alley_spawn_points(WorldModel& world) {
-  for (const Alley& alley : world.rows.alleys) {
+  for (const Alley& alley : world.rows->alleys) {
     const auto& line = alley.line_W;
     const auto add = [&](const char* end, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
       const Eigen::Vector2d d = (to - from).head<2>();

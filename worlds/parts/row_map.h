@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "engine/api/map.h"
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 #include "worlds/parts/canopy.h"
 #include "worlds/parts/row_curve.h"
 

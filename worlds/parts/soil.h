@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/api/parameters.h"
-#include "engine/api/world_model.h"
+#include "engine/api/soil.h"
 
 namespace vinerow::worlds {
 

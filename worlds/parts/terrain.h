@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/geo_origin.h"
+#include "engine/api/height_field.h"
 #include "engine/api/parameters.h"
-#include "engine/api/world_model.h"
 #include "engine/core/random.h"
 #include "worlds/parts/row_curve.h"
 

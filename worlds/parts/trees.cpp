@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "worlds/parts/foliage.h"
 #include "worlds/parts/primitives.h"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/parameters.h"
-#include "engine/api/world_model.h"
 #include "worlds/parts/mesh_store.h"
 #include "worlds/parts/row_curve.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/api/world_model.h"
 #include "worlds/parts/foliage.h"
 
 namespace vinerow::worlds {

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 #include "worlds/parts/canopy.h"
 #include "worlds/parts/mesh_store.h"
 #include "worlds/parts/trellis.h"

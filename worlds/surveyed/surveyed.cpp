@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/io/geojson.h"
 #include "engine/math/angles.h"

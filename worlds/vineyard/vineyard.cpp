@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "worlds/mapping/map_parameters.h"

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/math/angles.h"
 #include "engine/sim/metrics/spread.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/messages/commands.h"
+
 namespace vinerow {
 namespace {
 

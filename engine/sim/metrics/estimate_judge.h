@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/motion.h"
 #include "engine/api/signal.h"
 #include "engine/sim/metrics/batch_means.h"
 #include "engine/sim/metrics/spread.h"

@@ -3,7 +3,10 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/api/map.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/observer.h"
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
 #include "engine/sim/metrics/estimate_judge.h"
@@ -28,7 +31,7 @@ class Estimation final : public Metric {
                            EstimateJudge::Prefixes{observer + "_", observer + "_"}, nis, margin);
     }
     if (context.world == nullptr) return;
-    for (const PlantRow& row : context.world->rows.rows) {
+    for (const PlantRow& row : context.world->rows->rows) {
       std::vector<Eigen::Vector2d> line;
       for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
       if (line.size() >= 2) rows_.emplace_back(std::move(line));

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/math/angles.h"
 #include "engine/sim/metrics/spread.h"

@@ -5,7 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "engine/api/map.h"
 #include "engine/api/plan_stretch.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
@@ -36,7 +38,7 @@ class SurveyMetric final : public Metric {
                    context.vehicle_description->numbers.contains("wing_span_m")) {
     options_ = read_coverage_options(parameters);
     if (options_.parcel_W.empty() && context.world != nullptr) {
-      options_.parcel_W = context.world->rows.boundary_W;
+      options_.parcel_W = context.world->rows->boundary_W;
     }
     if (is_wanted_ && !options_.parcel_W.empty()) check_coverage_options(options_);
     if (is_wanted_) shots_.reserve(kUsualShots);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/sim/metrics/spread.h"
 
 namespace vinerow {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/sim/metrics/spread.h"
 

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "controllers/dwa/dwa.h"
+#include "engine/api/messages/sensors.h"
+#include "engine/api/world_model.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/support/no_alloc.h"

@@ -9,6 +9,9 @@
 #include <vector>
 
 #include "controllers/parts/path.h"
+#include "engine/api/map.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/stepped_parts.h"
 #include "engine/api/vehicle.h"
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
 #include "tests/controllers/estimation/localisation_lab.h"
 #include "tests/controllers/support/mission.h"

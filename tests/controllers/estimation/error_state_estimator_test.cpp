@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "controllers/estimation/navigation_start.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/estimation/imu_course.h"

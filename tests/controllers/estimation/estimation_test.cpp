@@ -3,7 +3,10 @@
 #include <cmath>
 
 #include "controllers/estimation/odometry_kalman.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/mission.h"
 

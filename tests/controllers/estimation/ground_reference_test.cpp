@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/estimation/localisation_bench.h"
 #include "tests/controllers/estimation/wall_map.h"

@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "controllers/estimation/range_prediction.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/registry.h"
 #include "tests/controllers/support/mission.h"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/estimation/localisation_bench.h"
 #include "tests/controllers/estimation/wall_map.h"

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/world_model.h"
+
 namespace vinerow::test {
 namespace {
 

@@ -8,6 +8,7 @@
 
 #include "controllers/estimation/distance_filter_law.h"
 #include "controllers/estimation/map_localisation_law.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/estimation/localisation_bench.h"
 #include "tests/controllers/estimation/wall_map.h"

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "controllers/estimation/range_prediction.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/physics/physics_world.h"

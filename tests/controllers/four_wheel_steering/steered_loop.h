@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "controllers/parts/path.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/parameters.h"
 #include "engine/api/stepped_parts.h"
 #include "tests/controllers/support/plant.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/messages/grid.h"
 #include "engine/core/random.h"
 
 namespace vinerow::distance_field_test {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/api/messages/grid.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/swept_check.h"

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "controllers/planning/alley_order.h"
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/mission.h"

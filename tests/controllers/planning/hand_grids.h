@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "controllers/parts/path_pieces.h"
-#include "engine/api/map.h"
+#include "engine/api/messages/grid.h"
 
 namespace vinerow::hand_grids {
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/block_map.h"
 #include "tests/controllers/support/swept_check.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "tests/controllers/support/mission.h"
 

@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/parameters.h"
 #include "engine/api/stepped_parts.h"
 #include "tests/controllers/quadrotor_mpc/mpc_path.h"

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "engine/api/messages/flight.h"
 #include "tests/controllers/support/quadrotor_sim.h"
 
 namespace vinerow::test {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "controllers/parts/flight_trim.h"
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"

@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/registry.h"
 #include "tests/controllers/support/aircraft_sim.h"
 #include "tests/controllers/support/mission.h"

@@ -10,7 +10,6 @@
 #include <memory>
 #include <vector>
 
-#include "engine/api/messages.h"
 #include "engine/api/vehicle.h"
 #include "tests/controllers/support/quadrotor_sim.h"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/world_model.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test {

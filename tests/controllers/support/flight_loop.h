@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/registry.h"
 #include "tests/controllers/support/mission.h"
 #include "tests/controllers/support/quadrotor_sim.h"

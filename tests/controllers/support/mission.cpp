@@ -5,8 +5,13 @@
 #include <cstdio>
 
 #include "controllers/register.h"
+#include "engine/api/map.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/sensors.h"
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/random.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test {
@@ -113,7 +118,7 @@ std::unique_ptr<Controller> make_controller(const MissionSetup& setup,
   context.part = "rover.controller";
   context.period = duration_from_s(setup.cycle_s);
   context.vehicle_description = &description;
-  context.map = &setup.map;
+  context.map = &*setup.map;
   const PartSpec& spec = parts().spec(PartKind::kController, setup.controller.type);
   return parts().make_controller(setup.controller.type,
                                  make_parameters(spec, setup.controller.values), context);
@@ -127,7 +132,7 @@ std::unique_ptr<Estimator> make_estimator(const MissionSetup& setup,
   context.part = "rover.estimator";
   context.period = duration_from_s(setup.cycle_s);
   context.vehicle_description = &description;
-  context.map = &setup.map;
+  context.map = &*setup.map;
   const PartSpec& spec = parts().spec(PartKind::kEstimator, setup.estimator.type);
   return parts().make_estimator(setup.estimator.type, make_parameters(spec, setup.estimator.values),
                                 context);

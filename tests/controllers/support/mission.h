@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "controllers/parts/pose2.h"
+#include "engine/api/forward.h"
 #include "engine/api/registry.h"
 #include "engine/api/vehicle.h"
+#include "engine/core/indirect.h"
 #include "engine/math/deviation.h"
 #include "tests/controllers/support/plant.h"
 
@@ -25,7 +27,7 @@ struct PartChoice {
 };
 
 struct MissionSetup {
-  RowMap map;
+  Indirect<RowMap> map;
   Pose2 start;
   PartChoice planner{"coverage", {}};
   PartChoice estimator{"", {}};  ///< "" = the truth

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "controllers/parts/pose2.h"
-#include "engine/api/messages.h"
 #include "engine/api/vehicle.h"
 
 namespace vinerow::test {

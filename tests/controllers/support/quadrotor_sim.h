@@ -8,7 +8,6 @@
 #include <functional>
 #include <vector>
 
-#include "engine/api/messages.h"
 #include "engine/api/vehicle.h"
 
 namespace vinerow::test {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/messages/grid.h"
+#include "engine/api/messages/path.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test {

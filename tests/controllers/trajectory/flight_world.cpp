@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test {

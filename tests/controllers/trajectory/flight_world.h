@@ -5,6 +5,8 @@
 #include <functional>
 #include <memory>
 
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/registry.h"
 #include "tests/controllers/support/block_map.h"
 #include "tests/controllers/support/mission.h"

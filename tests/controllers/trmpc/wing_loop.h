@@ -9,8 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/parameters.h"
 #include "engine/api/stepped_parts.h"
+#include "engine/core/random.h"
 #include "tests/controllers/support/aircraft_sim.h"
 
 namespace vinerow::test {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test {

@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/flight.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/registry.h"
 #include "tests/controllers/support/mission.h"
 

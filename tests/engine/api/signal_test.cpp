@@ -1,3 +1,6 @@
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/motion.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/signal.h"
 
 #include <gtest/gtest.h>

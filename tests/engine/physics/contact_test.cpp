@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "tests/engine/physics/small_worlds.h"
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/core/random.h"
 #include "engine/physics/triangle_box.h"
 #include "tests/engine/physics/small_worlds.h"

@@ -1,6 +1,7 @@
 /// The proof that a body of several shapes is clear of a static mesh, and what it must never hide:
 /// a contact. Spheres against an upright box: who touches is known in closed form.
 
+#include "engine/api/world_model.h"
 #include "engine/physics/mesh_gate.h"
 
 #include <gtest/gtest.h>

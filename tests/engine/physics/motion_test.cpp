@@ -7,6 +7,7 @@
 #include <functional>
 #include <sstream>
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "engine/physics/free_motion.h"
 #include "tests/engine/physics/small_worlds.h"

@@ -1,5 +1,6 @@
 /// The world's own promises: determinism, contacts by name, kinematic bodies, refusals.
 
+#include "engine/api/world_model.h"
 #include "engine/physics/physics_world.h"
 
 #include <gtest/gtest.h>

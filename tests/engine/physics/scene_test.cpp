@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/core/random.h"
 #include "engine/physics/height_field_ray.h"
 #include "engine/physics/static_geometry.h"

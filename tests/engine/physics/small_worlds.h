@@ -4,7 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "engine/api/world_model.h"
+#include "engine/api/height_field.h"
+#include "engine/api/mesh.h"
 #include "engine/physics/physics_world.h"
 
 namespace vinerow::physics::test {

@@ -1,5 +1,6 @@
 /// The proof that a body is clear of the terrain, and what it must never hide: a contact.
 
+#include "engine/api/world_model.h"
 #include "engine/physics/terrain_gate.h"
 
 #include <gtest/gtest.h>

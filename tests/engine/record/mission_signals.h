@@ -5,6 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/flight.h"
+#include "engine/api/messages/grid.h"
+#include "engine/api/messages/motion.h"
+#include "engine/api/messages/path.h"
+#include "engine/api/messages/sensors.h"
 #include "engine/api/signal.h"
 #include "engine/core/random.h"
 

@@ -1,3 +1,5 @@
+#include "engine/api/messages/grid.h"
+#include "engine/api/world_model.h"
 #include "engine/render/grid_overlay.h"
 
 #include <gtest/gtest.h>

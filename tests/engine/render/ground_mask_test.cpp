@@ -1,3 +1,4 @@
+#include "engine/api/map.h"
 #include "engine/render/ground_mask.h"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "engine/render/cameras.h"
 #include "engine/render/scene.h"

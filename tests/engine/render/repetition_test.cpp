@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "tests/engine/render/test_scenes.h"
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/render/land_use.h"
 #include "engine/render/scenery_meshes.h"
 #include "tests/engine/render/test_scenes.h"

@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "engine/api/height_field.h"
+#include "engine/api/mesh.h"
 #include "engine/render/cameras.h"
 #include "engine/render/scene.h"
 

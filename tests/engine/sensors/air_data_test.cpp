@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/sensors/air_data.h"
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sensors/sensor_parts.h"

@@ -1,5 +1,7 @@
 /// The inertial sensors' noise by its Allan deviation, against what data sheets say.
 
+#include "engine/api/messages/sensors.h"
+#include "engine/core/random.h"
 #include "tests/support/allan_deviation.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "engine/api/messages/sensors.h"
 #include "engine/sensors/camera_trigger.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 /// Which echoes the HC-SR04 of assets/sensors hears, against measurements of a real one.
 
+#include "engine/api/messages/sensors.h"
 #include "engine/sensors/echo.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "engine/api/messages/commands.h"
 #include "engine/sensors/encoders.h"
 
 #include <gtest/gtest.h>

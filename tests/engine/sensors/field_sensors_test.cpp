@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/io/yaml.h"
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/data_sheet.h"

@@ -3,6 +3,7 @@
 /// test says.
 
 #include "engine/api/stepped_parts.h"
+#include "engine/api/world_model.h"
 
 namespace vinerow::test {
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sensors/sensor_parts.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/api/map.h"
 #include "engine/physics/world_scene.h"
 #include "tests/engine/sensors/gnss_bench.h"
 #include "tests/worlds/world_fixture.h"
@@ -21,7 +22,7 @@ struct Quality {
 /// 40 s along an alley, at three times of day.
 Quality drive(const WorldModel& world, const SceneQuery& scene, double height_m,
               double leaves_dB_per_m) {
-  const auto& line = world.rows.alleys.at(world.rows.alleys.size() / 2).line_W;
+  const auto& line = world.rows->alleys.at(world.rows->alleys.size() / 2).line_W;
   const Eigen::Vector3d way = (line.back() - line.front()).normalized();
   Quality quality;
   for (const char* epoch : {"2024-06-15T02:00:00", "2024-06-15T10:00:00", "2024-06-15T18:00:00"}) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/data_sheet.h"
 #include "tests/engine/sensors/sensor_rig.h"

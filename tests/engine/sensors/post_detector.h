@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/api/messages.h"
+#include "engine/api/messages/sensors.h"
 
 namespace vinerow::test {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
 #include "engine/io/geo.h"
 #include "engine/io/geojson.h"
 #include "engine/math/angles.h"
@@ -39,7 +40,7 @@ const Riseholme& riseholme() {
 
 /// Level, heading along the alley, `share` of the way down it, `aside_m` left of its middle.
 Pose in_alley(std::size_t alley, double share, double height_m, double aside_m = 0.0) {
-  const auto& line = riseholme().world->rows.alleys.at(alley).line_W;
+  const auto& line = riseholme().world->rows->alleys.at(alley).line_W;
   const Eigen::Vector2d a = line.front().head<2>(), b = line.back().head<2>();
   const Eigen::Vector2d way = (b - a).normalized();
   const Eigen::Vector2d p = a + share * (b - a) + aside_m * Eigen::Vector2d(-way.y(), way.x());
@@ -115,7 +116,7 @@ std::vector<double> nearest_m(const std::vector<Eigen::Vector2d>& points,
 std::vector<Eigen::Vector2d> detect_posts(const std::string& name) {
   test::RangingBench<LaserScan> bench(test::data_sheet(name), *riseholme().scene);
   test::PostDetector detector;
-  for (std::size_t alley = 0; alley < riseholme().world->rows.alleys.size(); alley += 2) {
+  for (std::size_t alley = 0; alley < riseholme().world->rows->alleys.size(); alley += 2) {
     for (int i = 0; i <= 85; ++i) {
       bench.place(in_alley(alley, i / 85.0, 0.3));
       detector.add(bench.step());

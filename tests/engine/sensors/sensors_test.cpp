@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/fixed_scene.h"

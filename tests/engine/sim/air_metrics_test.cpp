@@ -5,6 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/api/map.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/sim/metrics/air_tracking.h"
@@ -38,7 +41,7 @@ class WingBench : public ::testing::Test {
     deviation_out_ = ports.write<NamedValues>("deviation");
     plan_out_ = ports.write<PlannedPath>("plan");
     shot_out_ = ports.write<CameraShot>("camera");
-    world_.rows.boundary_W = {{0, 0}, {100, 0}, {100, 60}, {0, 60}};
+    world_.rows->boundary_W = {{0, 0}, {100, 0}, {100, 60}, {0, 60}};
   }
   void start(Make make, const PartSpec& spec,
              const std::vector<std::pair<std::string, ParameterSet::Value>>& values = {}) {

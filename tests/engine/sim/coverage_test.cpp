@@ -1,5 +1,6 @@
 /// Coverage and overlap of pictures whose footprints are known in closed form.
 
+#include "engine/api/map.h"
 #include "engine/sim/coverage.h"
 
 #include <gtest/gtest.h>

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/api/map.h"
+#include "engine/api/messages/flight.h"
+#include "engine/api/world_model.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 #include "engine/sim/metrics/batch_means.h"
@@ -30,7 +33,7 @@ class Bench {
         const Eigen::Vector2d p = R * Eigen::Vector2d(along, across);
         row.line_W.push_back({p.x(), p.y(), 0.0});
       }
-      world_.rows.rows.push_back(row);
+      world_.rows->rows.push_back(row);
     }
     Ports ports(bus_, "rover", "test");
     truth_ = ports.write<Odometry>("truth");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
 #include "engine/math/angles.h"
 #include "engine/sim/metrics/flight.h"
 #include "engine/sim/metrics/path_deviation.h"

@@ -211,7 +211,7 @@ TEST_F(ComposedFrame, TheGridIsTheLogsOrElseTheWorlds) {
   io::CameraConfig camera = top_camera();
   camera.show_grid = true;
   EXPECT_EQ(compose(camera).grid, nullptr) << "there is none";
-  world_.rows.occupancy = grid_of(0.1);
+  world_.rows->occupancy = grid_of(0.1);
   ASSERT_NE(compose(camera).grid, nullptr);
   EXPECT_EQ(compose(camera).grid->cell_m, 0.1);
   trace_.map = grid_of(0.2);
@@ -221,7 +221,7 @@ TEST_F(ComposedFrame, TheGridIsTheLogsOrElseTheWorlds) {
 }
 
 TEST_F(ComposedFrame, AViewOfTheWholeGridShowsTheParcelsBoundary) {
-  world_.rows.boundary_W = {{-40, -30}, {40, -30}, {40, 30}, {-40, 30}};
+  world_.rows->boundary_W = {{-40, -30}, {40, -30}, {40, 30}, {-40, 30}};
   io::CameraConfig camera = top_camera();
   const double without_m = compose(camera).camera.ortho_height_m;
   camera.show_grid = true;

@@ -1,3 +1,5 @@
+#include "engine/api/map.h"
+#include "engine/api/mesh.h"
 #include "engine/sim/map_edges.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 /// The ground that planners are told where a map has its own.
 
+#include "engine/api/height_field.h"
 #include "engine/sim/map_ground.h"
 
 #include <gtest/gtest.h>

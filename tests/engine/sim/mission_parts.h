@@ -5,6 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "engine/api/map.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/sensors.h"
 #include "tests/engine/sim/small_parts.h"
 
 namespace vinerow::test {

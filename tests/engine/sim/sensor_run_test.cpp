@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/record/log_reader.h"
 #include "engine/sensors/register.h"
 #include "engine/sim/run.h"

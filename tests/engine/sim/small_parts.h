@@ -4,7 +4,12 @@
 
 #include <memory>
 
+#include "engine/api/height_field.h"
+#include "engine/api/map.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/registry.h"
+#include "engine/api/world_model.h"
 
 namespace vinerow::test {
 
@@ -18,7 +23,7 @@ inline std::unique_ptr<WorldModel> make_plain(const ParameterSet& parameters, co
   ground.heights_m.assign(9, 0.0f);
   world->terrain = ground;
   if (parameters.boolean("has_map")) {
-    OccupancyGrid& grid = world->rows.occupancy;
+    OccupancyGrid& grid = world->rows->occupancy;
     grid.columns = 3;
     grid.rows = 2;
     grid.cell_m = 0.5;

@@ -1,5 +1,6 @@
 /// The window of weak wind, against closed forms of the mean of a 1-cosine gust.
 
+#include "engine/api/world_model.h"
 #include "engine/sim/weather_watch.h"
 
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/api/messages/commands.h"
 #include "engine/api/plugin.h"
 
 namespace {

@@ -63,7 +63,7 @@ WorldModel make_curved_wall(double radius_m) {
       const double angle = rad_from_deg(1.0 * k), r = 30.0 + 2.5 * i;
       row.line_W.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.0);
     }
-    world.rows.rows.push_back(row);
+    world.rows->rows.push_back(row);
   }
   std::vector<std::pair<Vector3d, Vector3d>> edges;
   for (int k = 0; k <= 240; ++k) {
@@ -139,7 +139,7 @@ TEST(CanopyPatches, StandAsHighAboveHollowsAndHumps) {
   world.terrain = ground;
   PlantRow row;
   row.line_W = {{0.0, 0.0, 0.0}, {20.0, 0.0, 0.3}};
-  world.rows.rows.push_back(row);
+  world.rows->rows.push_back(row);
   std::vector<std::pair<Vector3d, Vector3d>> edges;
   for (int k = 0; k <= 20; ++k) {
     const Vector3d foot(k, 0.3, ground.height_m(k, 0.0));
@@ -221,7 +221,7 @@ TEST(CanopyPatches, OfAVineyardAddUpToItsTriangles) {
 
 TEST(CanopyPatches, AMeshWithoutRowsHasNone) {
   WorldModel world = make_box_rows({{.y_m = 0.0}});
-  world.rows.rows.clear();
+  world.rows->rows.clear();
   const CanopyPatches patches(world, 0.25, 0.25);
   EXPECT_TRUE(patches.patches().empty());
   EXPECT_EQ(patches.find({1.0, 0.2, 1.0}), -1);

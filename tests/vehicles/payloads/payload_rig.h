@@ -8,6 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "engine/api/map.h"
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/physics/world_scene.h"
@@ -33,8 +36,8 @@ struct BoxRow {
 inline WorldModel make_box_rows(const std::vector<BoxRow>& boxes) {
   WorldModel world = make_flat_world();
   for (const BoxRow& box : boxes) {
-    const int id = 10 + static_cast<int>(world.rows.rows.size());
-    world.rows.rows.push_back({id,
+    const int id = 10 + static_cast<int>(world.rows->rows.size());
+    world.rows->rows.push_back({id,
                                {{box.from_x_m, box.y_m, 0.0}, {box.to_x_m, box.y_m, 0.0}},
                                2.0 * box.half_width_m,
                                box.base_m,
@@ -89,7 +92,7 @@ struct PayloadRig {
     context.vehicle_truth = &vehicle;
     vehicle.description_.height_above_ground_m = 0.4;
     context.vehicle_description = &vehicle.description();
-    context.map = map != nullptr ? map : &world.rows;
+    context.map = map != nullptr ? map : &*world.rows;
     payload = vehicle_registry().make_payload(type, parameters, context);
     Ports ports(bus, "rover", "rover.p");
     payload->connect(ports);

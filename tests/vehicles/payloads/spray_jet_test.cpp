@@ -1,5 +1,6 @@
 /// The jet's way against integrated equations of motion; leaves against Beer's law.
 
+#include "engine/core/random.h"
 #include "vehicles/payloads/spray_jet.h"
 
 #include <gtest/gtest.h>

@@ -116,8 +116,8 @@ TEST(Sprayer, KeepsTheMassInARealVineyard) {
   world->wind.mean_speed_mps = 4.0;
   world->wind.turbulence = 1.0;
   world->wind.shelter_attenuation = 1.2;
-  const Vector3d from = world->rows.alleys[2].line_W.front(),
-                 to = world->rows.alleys[2].line_W.back();
+  const Vector3d from = world->rows->alleys[2].line_W.front(),
+                 to = world->rows->alleys[2].line_W.back();
   PayloadRig rig("sprayer", *world);
   rig.z_m = from.z() + 0.4;
   rig.pass(std::min(from.x(), to.x()) - 2.0, std::max(from.x(), to.x()) + 2.0, from.y(), 1.0);

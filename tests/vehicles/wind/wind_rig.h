@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "vehicles/parts/wind_probe.h"
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/math/polygon.h"
 #include "tests/worlds/mapping/cloud_map_fixture.h"
 
@@ -51,8 +52,8 @@ TEST_P(MapConformance, MeshesAreClosedAndLookOutward) {
 
 TEST_P(MapConformance, EveryRowHasMeshesOfItsOwnInsideTheParcel) {
   const auto map = make();
-  ASSERT_EQ(map->rows.size(), world().model->rows.rows.size());
-  EXPECT_EQ(map->alleys.size(), world().model->rows.alleys.size());
+  ASSERT_EQ(map->rows.size(), world().model->rows->rows.size());
+  EXPECT_EQ(map->alleys.size(), world().model->rows->alleys.size());
   EXPECT_FALSE(map->occupancy.empty());
   std::set<int> seen;
   for (const RowMesh& mesh : map->meshes) {

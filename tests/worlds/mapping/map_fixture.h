@@ -6,6 +6,10 @@
 #include <set>
 #include <utility>
 
+#include "engine/api/forward.h"
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
+#include "engine/core/random.h"
 #include "engine/physics/physics_world.h"
 #include "tests/worlds/world_fixture.h"
 

@@ -1,3 +1,4 @@
+#include "engine/api/world_model.h"
 #include "worlds/parts/obstacles.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +60,7 @@ TEST(Obstacles, StandInTheAlleyOnTheGroundInEveryWorldWithRows) {
     ASSERT_TRUE(box && crate);
     EXPECT_EQ(box->surface, SurfaceClass::kObstacle);
     EXPECT_TRUE(box->collides && !box->visible && crate->visible && !crate->collides);
-    const auto& line = world->rows.alleys[1].line_W;
+    const auto& line = world->rows->alleys[1].line_W;
     const Vector2d a = line[0].head<2>(), along = (line[1].head<2>() - a).normalized();
     const Vector2d expected = a + 7.0 * along + 0.3 * Vector2d(-along.y(), along.x());
     EXPECT_LT((box->X_WM.p.head<2>() - expected).norm(), 1e-9);
@@ -101,7 +102,7 @@ TEST(Obstacles, AreOnTheMapOnlyIfMapped) {
   const Wanted unknown{"a", {{"alley", 0}, {"distance_m", 5}}, {0.6, 0.4, 0.5}, false};
   const Wanted known{"b", {{"alley", 0}, {"distance_m", 12}}, {0.6, 0.4, 0.5}, true};
   const auto world = test::make_world("vineyard", with_obstacles(block(), {unknown, known}));
-  const OccupancyGrid& grid = world->rows.occupancy;
+  const OccupancyGrid& grid = world->rows->occupancy;
   EXPECT_FALSE(test::taken_at(grid, find(*world, "obstacle/a")->X_WM.p.head<2>()));
   EXPECT_TRUE(test::taken_at(grid, find(*world, "obstacle/b")->X_WM.p.head<2>()));
 }

@@ -1,5 +1,6 @@
 /// The map row_mesh: its errors come out as stated.
 
+#include "engine/api/world_model.h"
 #include "worlds/mapping/row_mesh_map.h"
 
 #include <gtest/gtest.h>
@@ -336,7 +337,7 @@ TEST(RowMeshMap, RowsWithoutCanopyAreAsWideAndHighAsTheySay) {
   world.terrain = HeightField{2, 2, 100.0, {-50.0, -50.0}, {1.0f, 1.0f, 1.0f, 1.0f}};
   PlantRow row;
   row.line_W = {{0, 0, 1}, {20, 0, 1}};
-  world.rows.rows = {row};
+  world.rows->rows = {row};
   const physics::PhysicsWorld physics({}, world);
   MapContext context;
   context.vehicle = "rover";
@@ -359,7 +360,7 @@ TEST(RowMeshMap, RowsWithoutCanopyAreAsWideAndHighAsTheySay) {
   EXPECT_NEAR(test::closed_volume_m3(map->meshes[0].mesh_W), 20.0 * 0.6 * 1.5, 1e-4);
   EXPECT_EQ(map->accuracy.surface_std_m, MapAccuracy{}.surface_std_m) << "nothing was measured";
 
-  world.rows.rows.clear();
+  world.rows->rows.clear();
   EXPECT_EQ(test::config_error_of([&] { make_row_mesh_map(parameters(), context); }),
             "map row_mesh: world 'bare' has no plant rows to survey");
 }

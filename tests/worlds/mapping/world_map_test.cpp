@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "engine/api/world_model.h"
 #include "engine/io/ros_map.h"
 #include "tests/worlds/mapping/grid_search.h"
 #include "tests/worlds/world_fixture.h"
@@ -30,13 +31,13 @@ TEST(WorldMap, ParcelFHasTurningAreasOfTwoSpacings) {
   ASSERT_EQ(report.turning_areas.size(), 14u);
   for (const TurningArea& area : report.turning_areas) EXPECT_NEAR(area.width_m, 5.0, 1e-9);
 
-  EXPECT_EQ(world->rows.occupancy.cell_m, 0.05);
+  EXPECT_EQ(world->rows->occupancy.cell_m, 0.05);
   OccupancyOptions coarse;
   coarse.cell_m = 0.1;  // a quarter of the cells to search
   const OccupancyGrid grid = make_occupancy_grid(world->rows, coarse);
   // At the grid's angle steps to eight neighbours are up to 8 % longer than the way.
-  const auto& first = world->rows.alleys.front().line_W;
-  const auto& last = world->rows.alleys.back().line_W;
+  const auto& first = world->rows->alleys.front().line_W;
+  const auto& last = world->rows->alleys.back().line_W;
   const double way_m = test::way_m(grid, first.front().head<2>(), last.back().head<2>());
   EXPECT_GT(way_m, 15 * 118.0);
   EXPECT_LT(way_m, 1.083 * (15 * 118.0 + 14 * 2.5));
@@ -49,9 +50,9 @@ TEST(WorldMap, EveryAlleyOfEveryWorldIsFreeAndEveryRowTaken) {
     if (type == "surveyed") parameters.set("survey_file", test::riseholme_file());
     parameters.set("occupancy_cell_m", 0.1);
     const auto world = test::make_world(type, parameters);
-    const OccupancyGrid& grid = world->rows.occupancy;
+    const OccupancyGrid& grid = world->rows->occupancy;
     ASSERT_FALSE(grid.empty());
-    for (const Alley& alley : world->rows.alleys) {
+    for (const Alley& alley : world->rows->alleys) {
       for (std::size_t k = 0; k + 1 < alley.line_W.size(); ++k) {
         for (int i = 0; i <= 50; ++i) {
           const Vector2d p =
@@ -60,7 +61,7 @@ TEST(WorldMap, EveryAlleyOfEveryWorldIsFreeAndEveryRowTaken) {
         }
       }
     }
-    for (const PlantRow& row : world->rows.rows) {
+    for (const PlantRow& row : world->rows->rows) {
       for (std::size_t k = 0; k + 1 < row.line_W.size(); ++k) {
         for (int i = 1; i < 50; ++i) {
           const Vector2d p =
@@ -70,7 +71,7 @@ TEST(WorldMap, EveryAlleyOfEveryWorldIsFreeAndEveryRowTaken) {
       }
     }
     // The serpentine that begins at alley 0's first point is open to the end.
-    const auto& alleys = world->rows.alleys;
+    const auto& alleys = world->rows->alleys;
     const bool forward = alleys.size() % 2 == 1;
     const auto& last = alleys.back().line_W;
     double centre_lines_m = 0.0;
@@ -99,30 +100,30 @@ TEST(WorldMap, SdfRowsHaveOneToo) {
   ParameterSet parameters = test::world_parameters("mesh");
   parameters.set("sdf_file", sdf).set("leaf_cards_per_m", 10.0);
   const auto world = test::make_world("mesh", parameters);
-  ASSERT_EQ(world->rows.rows.size(), 3u);
-  EXPECT_FALSE(world->rows.occupancy.empty());
-  EXPECT_TRUE(test::taken_at(world->rows.occupancy, {5.0, 3.0}));
-  EXPECT_FALSE(test::taken_at(world->rows.occupancy, {5.0, 1.5}));
+  ASSERT_EQ(world->rows->rows.size(), 3u);
+  EXPECT_FALSE(world->rows->occupancy.empty());
+  EXPECT_TRUE(test::taken_at(world->rows->occupancy, {5.0, 3.0}));
+  EXPECT_FALSE(test::taken_at(world->rows->occupancy, {5.0, 1.5}));
 }
 
 TEST(WorldMap, CanBeLeftOutOrBeWithoutWalls) {
   ParameterSet parameters = small_vineyard();
   EXPECT_TRUE(test::make_world("vineyard", parameters.set("occupancy_cell_m", 0.0))
-                  ->rows.occupancy.empty());
+                  ->rows->occupancy.empty());
   parameters.set("occupancy_cell_m", 0.1).set("virtual_walls", false);
   const auto world = test::make_world("vineyard", parameters);
-  const auto& alleys = world->rows.alleys;
-  const double across_m = test::way_m(world->rows.occupancy, alleys[0].line_W[0].head<2>(),
+  const auto& alleys = world->rows->alleys;
+  const double across_m = test::way_m(world->rows->occupancy, alleys[0].line_W[0].head<2>(),
                                       alleys[2].line_W[0].head<2>());
   EXPECT_LT(across_m, 8.0);
   parameters.set("virtual_walls", true);
   const auto walled = test::make_world("vineyard", parameters);
-  EXPECT_GT(test::way_m(walled->rows.occupancy, alleys[0].line_W[0].head<2>(),
+  EXPECT_GT(test::way_m(walled->rows->occupancy, alleys[0].line_W[0].head<2>(),
                         alleys[2].line_W[0].head<2>()),
             40.0);
   parameters.set("first_wall", std::string("first"));
   const auto flipped = test::make_world("vineyard", parameters);
-  EXPECT_LT(test::way_m(flipped->rows.occupancy, alleys[0].line_W[0].head<2>(),
+  EXPECT_LT(test::way_m(flipped->rows->occupancy, alleys[0].line_W[0].head<2>(),
                         alleys[1].line_W[0].head<2>()),
             5.0);
 }
@@ -132,8 +133,8 @@ TEST(WorldMap, HugeBlocksGetLargerCellsAndANote) {
   parameters.set("plant_rows", 1.0).set("row_length_m", 10.0);
   parameters.set("field_width_m", 400.0).set("field_length_m", 300.0);
   const auto world = test::make_world("orchard", parameters);
-  EXPECT_LE(world->rows.occupancy.cells.size(), 8'000'000u);
-  EXPECT_GT(world->rows.occupancy.cells.size(), 7'500'000u);
+  EXPECT_LE(world->rows->occupancy.cells.size(), 8'000'000u);
+  EXPECT_GT(world->rows->occupancy.cells.size(), 7'500'000u);
   ASSERT_EQ(world->notes.size(), 1u);
   EXPECT_EQ(world->notes[0],
             "occupancy_cell_m = 0.05 m would make more than 8 million cells; 0.123 m is used");
@@ -143,9 +144,9 @@ TEST(WorldMap, TheOrchardsMatrixIsThePapersWhereARefinementIsGiven) {
   ParameterSet parameters = test::world_parameters("orchard");
   parameters.set("refinement_per_m2", 4.0);
   const auto world = test::make_world("orchard", parameters);
-  EXPECT_EQ(world->rows.occupancy.columns, 200);
+  EXPECT_EQ(world->rows->occupancy.columns, 200);
   // n w l = 1440 m2 at 4 elements per square metre.
-  EXPECT_NEAR(free_share(world->rows.occupancy), 1.0 - 5760.0 / 40000.0, 1e-12);
+  EXPECT_NEAR(free_share(world->rows->occupancy), 1.0 - 5760.0 / 40000.0, 1e-12);
 }
 
 TEST(WorldMap, AFileReplacesTheTruth) {
@@ -160,7 +161,7 @@ TEST(WorldMap, AFileReplacesTheTruth) {
   ParameterSet parameters = small_vineyard();
   parameters.set("occupancy_file", file);
   const auto world = test::make_world("vineyard", parameters);
-  const OccupancyGrid& got = world->rows.occupancy;
+  const OccupancyGrid& got = world->rows->occupancy;
   EXPECT_EQ(got.cells, grid.cells);
   EXPECT_EQ(got.corner_W, grid.corner_W);
   EXPECT_EQ(got.cell_m, 0.25);
@@ -187,7 +188,7 @@ TEST(WorldMap, MapAndObstaclesChangeNoMeshFile) {
 TEST(WorldMap, ReliefKeepsTheSteepnessOfParcelFUnlessGiven) {
   const auto slope_of = [](const ParameterSet& parameters) {
     const auto world = test::make_world("vineyard", parameters);
-    const auto& line = world->rows.rows[1].line_W;
+    const auto& line = world->rows->rows[1].line_W;
     return (line[1] - line[0]).z() / (line[1] - line[0]).head<2>().norm();
   };
   ParameterSet parameters = small_vineyard();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/math/deviation.h"
 
 namespace vinerow::tools::report {
@@ -17,7 +19,7 @@ constexpr std::size_t kMostBands = 2;
 std::vector<PolylineDistance> rows_of(const WorldModel* world) {
   std::vector<PolylineDistance> rows;
   if (world == nullptr) return rows;
-  for (const PlantRow& row : world->rows.rows) {
+  for (const PlantRow& row : world->rows->rows) {
     std::vector<Eigen::Vector2d> line;
     for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
     if (line.size() >= 2) rows.emplace_back(std::move(line));

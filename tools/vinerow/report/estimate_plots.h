@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 #include "tools/vinerow/report/line_plot.h"
 #include "tools/vinerow/report/vehicle_log.h"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "tools/vinerow/report/html.h"
 #include "tools/vinerow/report/svg.h"
@@ -102,8 +103,8 @@ std::vector<Eigen::Vector2d> plan_line(const PlannedPath& plan) {
 
 void draw_rows(const RunFolder& run, const Projection& at, const MapStyle& style, Svg& svg) {
   if (!run.world) return;
-  svg.polygon(projected(run.world->rows.boundary_W, at), "parcel");
-  for (const PlantRow& row : run.world->rows.rows) {
+  svg.polygon(projected(run.world->rows->boundary_W, at), "parcel");
+  for (const PlantRow& row : run.world->rows->rows) {
     const double width = style.with_canopy ? at.scale() * row.canopy_width_m : 0.0;
     svg.open_group(fmt::format("class=\"row\" stroke-width=\"{}\"", px(std::max(1.2, width))));
     svg.polyline(projected(plane_line(row.line_W), at), "");
@@ -215,8 +216,8 @@ std::vector<Eigen::Vector2d> simplified(const std::vector<Eigen::Vector2d>& line
 std::optional<MapView> whole_view(const RunFolder& run, const std::vector<VehicleLog>& vehicles) {
   MapView view;
   if (run.world) {
-    include(run.world->rows.boundary_W, view);
-    for (const PlantRow& row : run.world->rows.rows) include(plane_line(row.line_W), view);
+    include(run.world->rows->boundary_W, view);
+    for (const PlantRow& row : run.world->rows->rows) include(plane_line(row.line_W), view);
   }
   for (const VehicleLog& vehicle : vehicles) include(vehicle, view);
   return with_margin(view);
@@ -229,8 +230,8 @@ std::optional<MapView> parcel_view(const RunFolder& run, const std::vector<Vehic
   });
   if (!run.world || !whole || !anybody) return std::nullopt;
   MapView view;
-  include(run.world->rows.boundary_W, view);
-  for (const PlantRow& row : run.world->rows.rows) include(plane_line(row.line_W), view);
+  include(run.world->rows->boundary_W, view);
+  for (const PlantRow& row : run.world->rows->rows) include(plane_line(row.line_W), view);
   for (const VehicleLog& vehicle : vehicles) {
     if (!vehicle.has_wings) include(vehicle, view);
   }
@@ -289,7 +290,7 @@ std::string map_legend(const RunFolder& run, const std::vector<VehicleLog>& vehi
     planned = planned || !vehicle.plan.empty();
   }
   if (planned && style.with_plans) key("ref", "planned");
-  if (run.world && !run.world->rows.rows.empty()) key("area row", "plant rows");
+  if (run.world && !run.world->rows->rows.empty()) key("area row", "plant rows");
   if (!vehicles.empty() && style.with_ends) keys += "<span>● start</span><span>■ end</span>";
   return "<p class=\"legend\">" + keys + "</p>\n";
 }

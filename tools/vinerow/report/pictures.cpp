@@ -6,6 +6,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/deviation.h"
 #include "engine/render/png.h"
@@ -76,7 +78,7 @@ std::string frame_caption(const RunFolder& run, const fs::path& file) {
 bool is_at_a_row(const RunFolder& run, const Eigen::Vector3d& p_W) {
   constexpr double kBeside_m = 2.0;
   if (!run.world) return false;
-  for (const PlantRow& row : run.world->rows.rows) {
+  for (const PlantRow& row : run.world->rows->rows) {
     std::vector<Eigen::Vector2d> line;
     for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
     if (line.size() < 2) continue;

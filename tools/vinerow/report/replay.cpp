@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/api/map.h"
 #include "engine/core/check.h"
 #include "tools/vinerow/report/base64.h"
 #include "tools/vinerow/report/replay_assets.h"
@@ -49,14 +50,14 @@ json ground_index(const WorldModel& world) {
   json rows = json::array(), alleys = json::array();
   Eigen::AlignedBox3d box;
   double top_m = 0.0;
-  for (const PlantRow& row : world.rows.rows) {
+  for (const PlantRow& row : world.rows->rows) {
     top_m = std::max(top_m, row.canopy_top_m);
     rows.push_back(lines_of(row.line_W));
     for (const Eigen::Vector3d& p : row.line_W) {
       box.extend(p).extend(p + Eigen::Vector3d(0, 0, row.canopy_top_m));
     }
   }
-  for (const Alley& alley : world.rows.alleys) alleys.push_back(lines_of(alley.line_W));
+  for (const Alley& alley : world.rows->alleys) alleys.push_back(lines_of(alley.line_W));
   json index = {{"rows", rows}, {"alleys", alleys}, {"canopy_top_m", top_m}};
   if (!box.isEmpty()) index["row_box"] = {lines_of({box.min()}), lines_of({box.max()})};
   if (world.terrain) {

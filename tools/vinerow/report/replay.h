@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/vehicle.h"
-#include "engine/api/world_model.h"
 #include "engine/io/scenario.h"
 #include "engine/sim/log_trace.h"
 

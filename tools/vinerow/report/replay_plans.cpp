@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/api/world_model.h"
+
 namespace vinerow::tools {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/api/world_model.h"
 #include "tools/vinerow/report/replay.h"
 
 namespace vinerow::tools {

@@ -7,6 +7,8 @@
 #include <map>
 #include <tuple>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/render/builtin_textures.h"
 #include "engine/render/culling.h"
 #include "tools/vinerow/report/replay_decimate.h"
@@ -136,7 +138,7 @@ class SceneMaker {
   Eigen::AlignedBox2d focus() const {
     constexpr double kHeadland_m = 14.0;
     Eigen::AlignedBox2d box;
-    for (const PlantRow& row : input_.world->rows.rows) {
+    for (const PlantRow& row : input_.world->rows->rows) {
       for (const Eigen::Vector3d& p : row.line_W) box.extend(p.head<2>());
     }
     if (box.isEmpty()) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/api/world_model.h"
 #include "tools/vinerow/report/replay_plans.h"
 
 namespace vinerow::tools {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/api/world_model.h"
 #include "engine/io/scenario.h"
 #include "engine/record/log_reader.h"
 

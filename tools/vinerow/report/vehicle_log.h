@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/flight.h"
 #include "engine/api/vehicle.h"
 #include "engine/sim/log_trace.h"
 #include "tools/vinerow/report/run_folder.h"

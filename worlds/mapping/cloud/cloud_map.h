@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/api/geo_origin.h"
 #include "engine/api/map.h"
-#include "engine/api/world_model.h"
 
 namespace vinerow::worlds {
 

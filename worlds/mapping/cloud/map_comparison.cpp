@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "worlds/mapping/cloud/folder/map_frame.h"
 #include "worlds/parts/row_curve.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "worlds/mapping/cloud/folder/cloud_map_type.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
@@ -85,7 +86,7 @@ CloudMapOptions read_cloud_map_options(const ParameterSet& parameters) {
 
 /// Counter-clockwise. @throws ConfigError where the world has none
 Polygon parcel_of(const WorldModel& world) {
-  Polygon parcel = world.rows.boundary_W;
+  Polygon parcel = world.rows->boundary_W;
   if (parcel.size() < 3) {
     throw ConfigError(fmt::format("boundary: world '{}' has no parcel, must be none", world.name));
   }

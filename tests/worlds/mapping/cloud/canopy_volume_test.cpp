@@ -1,3 +1,4 @@
+#include "engine/api/map.h"
 #include "worlds/mapping/cloud/sampling/canopy_volume.h"
 
 #include <gtest/gtest.h>
@@ -106,7 +107,7 @@ TEST(CanopyByRow, GivesEachPieceToTheNearestRow) {
   for (const double y : {0.0, 2.5}) {
     PlantRow row;
     row.line_W = {{-10, y, 0}, {10, y, 0}};
-    world.rows.rows.push_back(row);
+    world.rows->rows.push_back(row);
   }
   const auto canopy = canopy_by_row(world);
   ASSERT_EQ(canopy.size(), 2u);

@@ -1,5 +1,6 @@
 /// The map `cloud_map`, and how a map comes into another frame.
 
+#include "engine/api/world_model.h"
 #include "worlds/mapping/cloud/folder/cloud_map_type.h"
 
 #include <gtest/gtest.h>

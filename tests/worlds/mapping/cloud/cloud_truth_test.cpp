@@ -1,3 +1,4 @@
+#include "engine/api/map.h"
 #include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
 #include <gtest/gtest.h>
@@ -24,9 +25,9 @@ WorldModel two_rows() {
     PlantRow row;
     row.id = y > 0.0 ? 1 : 0;
     row.line_W = {{-10, y, 0}, {10, y, 0}};
-    world.rows.rows.push_back(row);
+    world.rows->rows.push_back(row);
   }
-  world.rows.boundary_W = test::square(20.0);
+  world.rows->boundary_W = test::square(20.0);
   return world;
 }
 

@@ -1,3 +1,4 @@
+#include "engine/api/map.h"
 #include "worlds/mapping/cloud/sampling/uniform_cloud.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,7 @@ TEST(UniformCloud, WeedsGrowBetweenRowsUpToTheirHeight) {
   WorldModel world = test::level_world(50.0, {});
   PlantRow row;
   row.line_W = {{-20, 0, 0}, {20, 0, 0}};
-  world.rows.rows.push_back(row);
+  world.rows->rows.push_back(row);
   UniformCloudOptions options;
   options.weeds.height_m = 0.5;
   const Made made = sample(world, 15.0, options);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/api/world_model.h"
 #include "tests/scenarios/command.h"
 #include "tests/worlds/mapping/map_fixture.h"
 #include "tools/parts/register_all.h"
@@ -38,8 +39,8 @@ inline std::shared_ptr<const PictureSet> pictures_of(const WorldModel& world,
   pictures->camera.sensor_width_mm = pictures->camera.sensor_height_mm = 12.0;
   pictures->camera.columns = pictures->camera.rows = 4000;
   Eigen::Vector2d middle(0, 0);
-  for (const Eigen::Vector2d& p : world.rows.boundary_W) middle += p;
-  middle = middle / static_cast<double>(world.rows.boundary_W.size());
+  for (const Eigen::Vector2d& p : world.rows->boundary_W) middle += p;
+  middle = middle / static_cast<double>(world.rows->boundary_W.size());
   for (int k = 0; k < 25; ++k) {
     const double x = middle.x() + aside_m + 8.0 * (k % 5 - 2), y = middle.y() + 8.0 * (k / 5 - 2);
     const double ground_m = world.terrain->height_m(x, y);

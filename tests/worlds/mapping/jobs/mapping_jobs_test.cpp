@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/io/point_cloud.h"
 #include "engine/io/scenario.h"
 #include "engine/physics/world_scene.h"
@@ -69,7 +70,7 @@ class FlownSurvey : public ::testing::Test {
   }
   std::string parcel_csv() const {
     std::string text;
-    for (const Eigen::Vector2d& p : world_->rows.boundary_W) {
+    for (const Eigen::Vector2d& p : world_->rows->boundary_W) {
       text += fmt::format("{},{}\n", p.x(), p.y());
     }
     return folder_.file("parcel.csv", text);
@@ -176,7 +177,7 @@ TEST(CloudMapJob, GivesTheMapThatItsFolderHoldsForVehicles) {
     EXPECT_EQ(map.meshes[m].mesh_W.vertices, told->meshes[m].mesh_W.vertices);
   }
   // Alleys as the world counts them, so that a mission may name them before the map is there.
-  const std::vector<Alley>& alleys = test::surveyed_world("vineyard").model->rows.alleys;
+  const std::vector<Alley>& alleys = test::surveyed_world("vineyard").model->rows->alleys;
   ASSERT_EQ(map.alleys.size(), alleys.size());
   for (std::size_t a = 0; a < alleys.size(); ++a) {
     EXPECT_LT((map.alleys[a].line_W.front() - alleys[a].line_W.front()).head<2>().norm(), 1.0);
@@ -191,7 +192,7 @@ TEST(PhotogrammetryJob, MissingRowsLackTheirCanopyAndNothingElseChanges) {
   parameters.set("missing_rows", std::vector<double>{2, 0});
   const auto left = read_points(test::make_cloud(folder.path() / "left", parameters).file);
 
-  const std::vector<PlantRow>& rows = test::surveyed_world("vineyard").model->rows.rows;
+  const std::vector<PlantRow>& rows = test::surveyed_world("vineyard").model->rows->rows;
   const auto row_of = [&](const Eigen::Vector3d& p) {
     std::size_t nearest = 0;
     double nearest_m = 1e9;

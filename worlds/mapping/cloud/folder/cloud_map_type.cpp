@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
@@ -58,7 +59,7 @@ bool has_place(const WorldModel& world) {
 
 /// To the world's rows; to its terrain where it has no rows.
 double way_to_m(const RowMap& map, const WorldModel& world) {
-  if (!world.rows.rows.empty()) return distance_between_m(map.rows, world.rows.rows);
+  if (!world.rows->rows.empty()) return distance_between_m(map.rows, world.rows->rows);
   if (!world.terrain) return 0.0;
   const HeightField& t = *world.terrain;
   const Eigen::Vector2d end = t.corner_W + Eigen::Vector2d(t.width_m(), t.depth_m());
@@ -125,7 +126,7 @@ RowMap map_in_world(CloudMap map, bool like_world, const MapContext& context,
                                    : fmt::format("map '{}'", folder)));
   }
   refuse_elsewhere(map, moves, *context.world, folder);
-  if (like_world && !context.world->rows.rows.empty()) number_like(context.world->rows, map.map);
+  if (like_world && !context.world->rows->rows.empty()) number_like(context.world->rows, map.map);
   note_heights(map.map, context, folder);
   return std::move(map.map);
 }

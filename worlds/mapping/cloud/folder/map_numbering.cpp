@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/api/map.h"
 #include "worlds/mapping/occupancy.h"
 
 namespace vinerow::worlds {

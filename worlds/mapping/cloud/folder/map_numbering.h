@@ -1,7 +1,7 @@
 #pragma once
 /// Numbers a map's rows and alleys as another block counts them.
 
-#include "engine/api/map.h"
+#include "engine/api/forward.h"
 
 namespace vinerow::worlds {
 

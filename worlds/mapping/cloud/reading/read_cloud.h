@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/geo_origin.h"
 #include "worlds/mapping/cloud/parcel_cloud.h"
 
 namespace vinerow::worlds {

@@ -6,6 +6,10 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/api/map.h"
+#include "engine/api/mesh.h"
+#include "engine/api/surface.h"
+#include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "worlds/parts/row_curve.h"
 
@@ -60,7 +64,7 @@ Vector2d edge_at(const Corner& a, const Corner& b, double z) {
 
 std::vector<std::vector<CanopyTriangle>> canopy_by_row(const WorldModel& world, double reach_m) {
   std::vector<RowCurve> lines;
-  for (const PlantRow& row : world.rows.rows) {
+  for (const PlantRow& row : world.rows->rows) {
     std::vector<Vector2d> points;
     for (const Vector3d& p : row.line_W) points.push_back(p.head<2>());
     lines.emplace_back(std::move(points));

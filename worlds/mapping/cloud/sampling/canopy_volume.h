@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 
 namespace vinerow::worlds {
 

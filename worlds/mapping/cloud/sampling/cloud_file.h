@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/world_model.h"
 #include "engine/io/local_to_crs.h"
 #include "engine/io/point_cloud_writer.h"
 #include "worlds/mapping/cloud/sampling/sampled_point.h"

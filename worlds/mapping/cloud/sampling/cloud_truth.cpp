@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/parallel.h"
 #include "engine/math/angles.h"
 #include "worlds/mapping/cloud/sampling/canopy_volume.h"
@@ -189,8 +191,8 @@ CloudTruth measure_truth(const SceneQuery& scene, const WorldModel& world) {
   CloudTruth truth;
   truth.world = world.name;
   truth.origin = world.origin;
-  truth.boundary_W = world.rows.boundary_W;
-  const std::vector<PlantRow>& rows = world.rows.rows;
+  truth.boundary_W = world.rows->boundary_W;
+  const std::vector<PlantRow>& rows = world.rows->rows;
   const std::vector<std::vector<CanopyTriangle>> canopy = canopy_by_row(world);
   truth.rows.resize(rows.size());
   for_chunks(rows.size(), 1, [&](std::size_t k, std::size_t, std::size_t) {

@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/api/forward.h"
+#include "engine/api/geo_origin.h"
 #include "engine/api/scene_query.h"
-#include "engine/api/world_model.h"
 #include "engine/math/polygon.h"
 
 namespace vinerow::worlds {

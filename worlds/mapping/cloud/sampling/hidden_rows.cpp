@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 
 namespace vinerow::worlds {
 namespace {
 
 void check_row(const WorldModel& world, int row) {
-  const std::vector<PlantRow>& rows = world.rows.rows;
+  const std::vector<PlantRow>& rows = world.rows->rows;
   const auto is_it = [row](const PlantRow& plants) { return plants.id == row; };
   if (std::any_of(rows.begin(), rows.end(), is_it)) return;
   if (rows.empty()) throw ConfigError(fmt::format("world '{}' has no rows", world.name));
@@ -26,7 +28,7 @@ void check_row(const WorldModel& world, int row) {
 HiddenRows::HiddenRows(const WorldModel& world, const std::vector<int>& hidden) {
   for (const int row : hidden) check_row(world, row);
   if (hidden.empty()) return;
-  for (const PlantRow& row : world.rows.rows) {
+  for (const PlantRow& row : world.rows->rows) {
     std::vector<Eigen::Vector2d> points;
     for (const Eigen::Vector3d& p : row.line_W) points.push_back(p.head<2>());
     lines_.emplace_back(std::move(points));

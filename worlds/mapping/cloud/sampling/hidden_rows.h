@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 #include "worlds/mapping/cloud/parcel_cloud.h"
 #include "worlds/parts/row_curve.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/core/random.h"
 #include "worlds/mapping/cloud/sampling/cloud_tiles.h"

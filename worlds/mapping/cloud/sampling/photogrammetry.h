@@ -28,9 +28,9 @@
 #include <optional>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 #include "engine/api/survey_camera.h"
-#include "engine/api/world_model.h"
 #include "worlds/mapping/cloud/sampling/sampled_point.h"
 #include "worlds/mapping/cloud/sampling/survey_area.h"
 

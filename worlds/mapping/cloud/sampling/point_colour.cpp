@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/mesh.h"
+#include "engine/api/world_model.h"
+
 namespace vinerow::worlds {
 namespace {
 

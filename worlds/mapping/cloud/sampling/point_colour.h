@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/api/world_model.h"
 
 namespace vinerow::worlds {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-#include "engine/api/mesh.h"
+#include "engine/api/surface.h"
 #include "worlds/mapping/cloud/parcel_cloud.h"
 
 namespace vinerow::worlds {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/core/random.h"
 #include "worlds/mapping/cloud/sampling/cloud_tiles.h"
@@ -153,7 +155,7 @@ CloudTally sample_uniformly(const WorldModel& world, const SurveyArea& area,
   check_uniform_options(options);
   const CloudTiles tiles(area, 0.0, options.density_per_m2);
   const std::vector<Piece> pieces = cut_meshes(world);
-  const Weeds weeds(options.weeds, world.rows.rows, area,
+  const Weeds weeds(options.weeds, world.rows->rows, area,
                     RandomStream(options.seed, "cloud", "weeds"));
   const PointColour colour(world);
   const std::int64_t ground_tiles = world.terrain ? tiles.count() : 0;

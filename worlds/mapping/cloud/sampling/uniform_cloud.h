@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "engine/api/world_model.h"
+#include "engine/api/forward.h"
 #include "worlds/mapping/cloud/sampling/photogrammetry.h"
 #include "worlds/mapping/cloud/sampling/weeds.h"
 

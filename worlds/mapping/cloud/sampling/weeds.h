@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/api/map.h"
+#include "engine/api/plant_row.h"
 #include "engine/core/random.h"
 #include "worlds/mapping/cloud/sampling/survey_area.h"
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 
 namespace vinerow::worlds {
@@ -65,7 +67,7 @@ Result<WrittenCloud> write(const SceneQuery& scene, const WorldModel& world, con
 
 SurveyArea make_survey_area(const std::vector<double>& corners_m, double margin_m,
                             const WorldModel& world, const std::string& key) {
-  Polygon polygon = world.rows.boundary_W;
+  Polygon polygon = world.rows->boundary_W;
   if (!corners_m.empty()) {
     if (corners_m.size() % 2 != 0) {
       throw ConfigError(

@@ -1,6 +1,7 @@
 #pragma once
-/// The types of signals. Plain structs in SI units; each lists its fields once (`fields`), which
-/// serves the digest, saving and restoring. engine/record maps each to a ROS 2 message.
+/// The types of signals. Plain structs in SI units; each lists its fields once, with name and unit
+/// (field.h): digest, logs, viewers and scripts take them from there. engine/record maps each to a
+/// ROS 2 message.
 ///
 /// Frames: W world (East-North-Up at the scenario's origin), B body (x forward, y left, z up), S
 /// sensor.
@@ -17,8 +18,7 @@
 
 namespace vinerow {
 
-/// Calls `f` once per message type with a null pointer of that type: the closed list of signal
-/// types.
+/// Calls `f` once per message type of ours with a null pointer of that type. Plug-ins bring others.
 template <class F>
 void for_each_message_type(F&& f) {
   f(static_cast<Odometry*>(nullptr));

@@ -7,12 +7,18 @@
 
 namespace vinerow {
 
-SignalBase& SignalBus::slot(const std::string& name, const char* type, const std::string& who,
+SignalBase& SignalBus::slot(const std::string& name, const MessageType& type,
+                            const std::string& who,
                             std::unique_ptr<SignalBase> (*make)(const std::string&)) {
   if (SignalBase* existing = find(name)) {
-    if (std::string_view(existing->type()) != type) {
-      throw ConfigError(fmt::format("{} takes signal '{}' as {}, but it is {}", who, name, type,
-                                    existing->type()));
+    if (std::string_view(existing->type()) != type.name) {
+      throw ConfigError(fmt::format("{} takes signal '{}' as {}, but it is {}", who, name,
+                                    type.name, existing->type()));
+    }
+    if (existing->message_type().layout != type.layout) {
+      throw ConfigError(fmt::format(
+          "{} takes signal '{}' as {}, but it is another message of that name, with other fields",
+          who, name, type.name));
     }
     return *existing;
   }

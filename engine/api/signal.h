@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/api/message_fields.h"
+#include "engine/api/message.h"
 #include "engine/core/check.h"
 #include "engine/core/hash.h"
 #include "engine/core/time.h"
@@ -21,13 +21,15 @@ namespace vinerow {
 
 class SignalBase {
  public:
-  SignalBase(std::string name, const char* type) : name_(std::move(name)), type_(type) {}
+  SignalBase(std::string name, const MessageType& type) : name_(std::move(name)), type_(type) {}
   virtual ~SignalBase() = default;
   SignalBase(const SignalBase&) = delete;
   SignalBase& operator=(const SignalBase&) = delete;
 
   const std::string& name() const { return name_; }
-  const char* type() const { return type_; }
+  /// kType of its message.
+  const char* type() const { return type_.name; }
+  const MessageType& message_type() const { return type_; }
   Time stamp() const { return stamp_; }
   /// Number of writes so far; 0 = never written.
   std::uint64_t sequence() const { return sequence_; }
@@ -37,14 +39,17 @@ class SignalBase {
   const std::string& first_reader() const { return first_reader_; }
 
   /// Adds name, time and value to the digest of the run.
-  virtual void hash_into(Hasher& hasher) = 0;
+  virtual void hash_into(Hasher& hasher) const = 0;
   /// True if any field is NaN. Infinity is allowed: it says "nothing seen".
-  virtual bool has_nan() = 0;
+  virtual bool has_nan() const = 0;
+  /// Shows every field of the value by name, with unit, type and place: nothing is copied. Views
+  /// hold until the next write. No heap.
+  virtual void describe(FieldVisitor& visitor) const = 0;
 
  protected:
   friend class SignalBus;
   std::string name_;
-  const char* type_;
+  MessageType type_;
   Time stamp_;
   std::uint64_t sequence_ = 0;
   std::uint64_t forgotten_ = 0;
@@ -52,11 +57,11 @@ class SignalBase {
   std::string first_reader_;
 };
 
-/// @tparam T  a message: default constructible, copyable, with `kType` and `fields`
+/// @tparam T  a message (field.h): one of ours, or one that a plug-in brings
 template <class T>
 class Signal final : public SignalBase {
  public:
-  explicit Signal(std::string name) : SignalBase(std::move(name), T::kType) {}
+  explicit Signal(std::string name) : SignalBase(std::move(name), vinerow::message_type<T>()) {}
 
   const T& value() const { return value_; }
   /// Writes in place: no allocation when vectors keep their size.
@@ -65,20 +70,25 @@ class Signal final : public SignalBase {
     stamp_ = stamp;
     ++sequence_;
   }
-  void hash_into(Hasher& hasher) override {
+  void hash_into(Hasher& hasher) const override {
     hasher.add(std::string_view(name_));
     hasher.add(stamp_.ns);
-    value_.fields(HashField{hasher});
+    hash_fields(value_, hasher);
   }
-  bool has_nan() override {
-    NanField check;
-    value_.fields(check);
-    return check.found;
-  }
+  bool has_nan() const override { return has_nan_field(value_); }
+  void describe(FieldVisitor& visitor) const override { visit_fields(value_, visitor); }
 
  private:
   T value_{};
 };
+
+/// Whether a signal's message is T: the same name and the same layout.
+template <class T>
+bool is_message(const SignalBase& signal) {
+  const MessageType& type = message_type<T>();
+  return std::string_view(signal.type()) == type.name &&
+         signal.message_type().layout == type.layout;
+}
 
 /// A part's end of a signal it reads. Cheap to copy; valid as long as the bus.
 template <class T>
@@ -153,7 +163,7 @@ class SignalBus {
   SignalBase* find(std::string_view name) const;
 
  private:
-  SignalBase& slot(const std::string& name, const char* type, const std::string& who,
+  SignalBase& slot(const std::string& name, const MessageType& type, const std::string& who,
                    std::unique_ptr<SignalBase> (*make)(const std::string&));
   void set_writer(SignalBase& signal, const std::string& writer);
   void set_reader(SignalBase& signal, const std::string& reader);
@@ -164,7 +174,7 @@ class SignalBus {
 
 template <class T>
 SignalWriter<T> SignalBus::advertise(const std::string& name, const std::string& writer) {
-  SignalBase& signal = slot(name, T::kType, writer, [](const std::string& n) {
+  SignalBase& signal = slot(name, message_type<T>(), writer, [](const std::string& n) {
     return std::unique_ptr<SignalBase>(std::make_unique<Signal<T>>(n));
   });
   set_writer(signal, writer);
@@ -173,7 +183,7 @@ SignalWriter<T> SignalBus::advertise(const std::string& name, const std::string&
 
 template <class T>
 SignalReader<T> SignalBus::subscribe(const std::string& name, const std::string& reader) {
-  SignalBase& signal = slot(name, T::kType, reader, [](const std::string& n) {
+  SignalBase& signal = slot(name, message_type<T>(), reader, [](const std::string& n) {
     return std::unique_ptr<SignalBase>(std::make_unique<Signal<T>>(n));
   });
   set_reader(signal, reader);
@@ -182,7 +192,7 @@ SignalReader<T> SignalBus::subscribe(const std::string& name, const std::string&
 
 template <class T>
 SignalReader<T> SignalBus::subscribe_optional(const std::string& name, const std::string& reader) {
-  SignalBase& signal = slot(name, T::kType, reader, [](const std::string& n) {
+  SignalBase& signal = slot(name, message_type<T>(), reader, [](const std::string& n) {
     return std::unique_ptr<SignalBase>(std::make_unique<Signal<T>>(n));
   });
   return SignalReader<T>(static_cast<const Signal<T>*>(&signal));

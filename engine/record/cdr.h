@@ -54,6 +54,13 @@ class CdrWriter {
     align(8);
     out_.add_bytes(values, count * sizeof(double));
   }
+  /// Numbers of `size` bytes each, as they lie in memory: of an array, or of a sequence after its
+  /// count.
+  void add_numbers(const void* values, std::size_t count, std::size_t size) {
+    if (count == 0) return;
+    align(size);
+    out_.add_bytes(values, count * size);
+  }
   void add_zero_doubles(std::size_t count) {
     align(8);
     out_.add_zeros(count * sizeof(double));

@@ -7,7 +7,6 @@
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/record/mcap_reader.h"
-#include "engine/record/ros_mapping.h"
 
 namespace vinerow::record {
 namespace {
@@ -52,18 +51,16 @@ struct LogReader::Impl {
                                   did_you_mean(topic, topics), join(topics)));
   }
 
-  /// The channel to decode T from.
-  template <class T>
-  const ChannelInfo& channel_of(const std::string& topic) const {
+  /// The channel to decode a message from.
+  const ChannelInfo& channel_of(const std::string& topic, const MessageNames& names) const {
     const ChannelInfo* channel = &get(topic);
-    const char* type = RosMapping<T>::kType;
-    if constexpr (RosMapping<T>::kExactType != nullptr) {
-      type = RosMapping<T>::kExactType;
-      if (channel->schema == RosMapping<T>::kType) channel = &get(topic + "/exact");
+    const std::string& type = names.exact_type.empty() ? names.type : names.exact_type;
+    if (!names.exact_type.empty() && channel->schema == names.type) {
+      channel = &get(topic + "/exact");
     }
     if (channel->schema != type) {
       throw ConfigError(fmt::format("{}: topic '{}' holds {}, which is no {} ({})", name,
-                                    channel->topic, channel->schema, T::kType, type));
+                                    channel->topic, channel->schema, names.message, type));
     }
     return *channel;
   }
@@ -95,23 +92,19 @@ bool LogReader::has_topic(const std::string& topic) const {
   return impl_->find(topic) != nullptr;
 }
 
-template <class T>
-void LogReader::read(const std::string& topic,
-                     const std::function<void(Time, const T&)>& callback) const {
-  const ChannelInfo& channel = impl_->channel_of<T>(topic);
+void LogReader::read_messages(const std::string& topic, const MessageNames& names,
+                              const std::function<bool(CdrReader&, const FrameNames&, Time)>& take)
+    const {
+  const ChannelInfo& channel = impl_->channel_of(topic, names);
   const auto signal = channel.metadata.find("signal");
   const FrameNames frames = FrameNames::of_signal(
       signal != channel.metadata.end() ? signal->second : topic.substr(topic.find('/') + 1));
-  T value;
   std::uint64_t index = 0;
   impl_->mcap.for_each_message(
       {static_cast<std::uint16_t>(channel.id)}, [&](const McapMessage& message) {
         CdrReader in(message.data);
         ++index;
-        if (RosMapping<T>::read(in, frames, value)) {
-          callback(time_of(message.publish_time), value);
-          return;
-        }
+        if (take(in, frames, time_of(message.publish_time))) return;
         if (!impl_->undecoded.insert({channel.id, index}).second) return;
         impl_->info.warnings.push_back(
             fmt::format("{}: message {} of topic '{}' does not hold {} and was left out",
@@ -136,33 +129,5 @@ void LogReader::read_raw(
   });
   impl_->note_damage();
 }
-
-#define VINEROW_READ(T)                                                                            \
-  template void LogReader::read<T>(const std::string&, const std::function<void(Time, const T&)>&) \
-      const;
-VINEROW_READ(Odometry)
-VINEROW_READ(ImuSample)
-VINEROW_READ(GnssFix)
-VINEROW_READ(RangeSample)
-VINEROW_READ(PressureSample)
-VINEROW_READ(MagneticSample)
-VINEROW_READ(LaserScan)
-VINEROW_READ(PositionEllipsoid)
-VINEROW_READ(VelocityCommand)
-VINEROW_READ(LocalCommand)
-VINEROW_READ(LineList)
-VINEROW_READ(OccupancyGrid)
-VINEROW_READ(NamedValues)
-VINEROW_READ(LinkPoses)
-VINEROW_READ(PlannedPath)
-VINEROW_READ(FollowerState)
-VINEROW_READ(MovementAuthority)
-VINEROW_READ(ReferenceTrajectory)
-VINEROW_READ(AirReference)
-VINEROW_READ(AirData)
-VINEROW_READ(CameraShot)
-VINEROW_READ(BatteryState)
-VINEROW_READ(Event)
-#undef VINEROW_READ
 
 }  // namespace vinerow::record

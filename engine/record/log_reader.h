@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/time.h"
+#include "engine/record/ros_mapping.h"
 
 namespace vinerow::record {
 
@@ -51,15 +52,35 @@ class LogReader {
 
   /// Calls back for every message of a topic in log order, decoded, with the stamp it was written
   /// with. Where a topic has an exact channel, that is read.
+  /// @tparam T  a message (engine/api/field.h), also one that a plug-in brought
   /// @throws ConfigError if there is no such topic, or it has another type
   template <class T>
-  void read(const std::string& topic, const std::function<void(Time, const T&)>& callback) const;
+  void read(const std::string& topic, const std::function<void(Time, const T&)>& callback) const {
+    using Mapping = RosMapping<T>;
+    T value;
+    read_messages(topic, {T::kType, Mapping::type(), Mapping::exact_type()},
+                  [&](CdrReader& in, const FrameNames& frames, Time stamp) {
+                    if (!Mapping::read(in, frames, value)) return false;
+                    callback(stamp, value);
+                    return true;
+                  });
+  }
 
   /// Raw messages of every topic in log order, with their log time.
   void read_raw(const std::function<void(Time, const ChannelInfo&,
                                          const std::vector<std::uint8_t>&)>& callback) const;
 
  private:
+  /// What a message is called: by us, and in the log.
+  struct MessageNames {
+    std::string message;
+    std::string type;
+    std::string exact_type;  ///< "": none
+  };
+  /// @param take  false where the bytes hold no such message
+  void read_messages(const std::string& topic, const MessageNames& names,
+                     const std::function<bool(CdrReader&, const FrameNames&, Time)>& take) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

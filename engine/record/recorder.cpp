@@ -1,12 +1,12 @@
 #include "engine/record/recorder.h"
 
 #include <chrono>
+#include <utility>
 #include <vector>
 
 #include "engine/api/messages.h"
 #include "engine/core/error.h"
 #include "engine/record/mcap_writer.h"
-#include "engine/record/ros_definitions.h"
 #include "engine/record/ros_mapping.h"
 
 namespace vinerow::record {
@@ -28,14 +28,18 @@ struct RecordedSignal {
 
 namespace {
 
+WriteContext context_of(const RecordedSignal& entry) {
+  const Time stamp = entry.signal->stamp();
+  const bool is_body_known =
+      entry.truth != nullptr && entry.truth->sequence() > 0 && entry.truth->stamp() == stamp;
+  return {entry.frames, stamp, is_body_known ? &entry.truth->value().X_WB : nullptr};
+}
+
 template <class T>
 void write_messages(McapWriter& writer, const RecordedSignal& entry, Time now) {
   const T& value = static_cast<const Signal<T>&>(*entry.signal).value();
   const Time stamp = entry.signal->stamp();
-  const bool is_body_known =
-      entry.truth != nullptr && entry.truth->sequence() > 0 && entry.truth->stamp() == stamp;
-  const WriteContext context{entry.frames, stamp,
-                             is_body_known ? &entry.truth->value().X_WB : nullptr};
+  const WriteContext context = context_of(entry);
   const auto log_time = static_cast<std::uint64_t>(now.ns);
   const auto publish_time = static_cast<std::uint64_t>(stamp.ns);
   {
@@ -43,11 +47,29 @@ void write_messages(McapWriter& writer, const RecordedSignal& entry, Time now) {
     RosMapping<T>::write(out, context, value);
     writer.end_message();
   }
-  if constexpr (RosMapping<T>::kExactType != nullptr) {
+  if constexpr (requires { &RosMapping<T>::write_exact; }) {
     CdrWriter out(writer.begin_message(entry.exact_channel, log_time, publish_time));
     RosMapping<T>::write_exact(out, context, value);
     writer.end_message();
   }
+}
+
+/// The fields of a signal whose type only its maker knows.
+class FieldsOfSignal final : public MessageFields {
+ public:
+  explicit FieldsOfSignal(const SignalBase& signal) : signal_(signal) {}
+  void visit(FieldVisitor& visitor) const override { signal_.describe(visitor); }
+
+ private:
+  const SignalBase& signal_;
+};
+
+void write_described_signal(McapWriter& writer, const RecordedSignal& entry, Time now) {
+  const SignalBase& signal = *entry.signal;
+  CdrWriter out(writer.begin_message(entry.channel, static_cast<std::uint64_t>(now.ns),
+                                     static_cast<std::uint64_t>(signal.stamp().ns)));
+  write_described(out, context_of(entry), signal.message_type().frame, {}, FieldsOfSignal(signal));
+  writer.end_message();
 }
 
 }  // namespace
@@ -62,15 +84,18 @@ struct Recorder::Impl {
         writer(file, options.compression, options.chunk_bytes, "ros2",
                std::string("vinerow ") + VINEROW_VERSION) {}
 
-  std::uint16_t schema_id(const char* type) {
-    const auto found = schema_ids.find(type);
+  std::uint16_t schema_id(const std::string& type, const std::string& definition) {
+    // Two plug-ins may mean different things by one name.
+    const std::pair key(type, definition);
+    const auto found = schema_ids.find(key);
     if (found != schema_ids.end()) return found->second;
-    const std::uint16_t id = writer.add_schema(type, "ros2msg", full_ros_definition(type));
-    schema_ids.emplace(type, id);
+    const std::uint16_t id = writer.add_schema(type, "ros2msg", definition);
+    schema_ids.emplace(key, id);
     return id;
   }
 
-  std::uint16_t add_channel(const SignalBase& signal, const char* type, const std::string& suffix) {
+  std::uint16_t add_channel(const SignalBase& signal, const std::string& type,
+                            const std::string& definition, const std::string& suffix) {
     // offered_qos_profiles: asked for by the ros2 profile; an empty list: nothing was published.
     TextMap metadata = {{"signal", signal.name()}, {"offered_qos_profiles", "[]"}};
     if (suffix.empty()) {
@@ -78,24 +103,36 @@ struct Recorder::Impl {
     } else {
       metadata["exact_of"] = "/" + signal.name();
     }
-    return writer.add_channel(schema_id(type), "/" + signal.name() + suffix, "cdr", metadata);
+    return writer.add_channel(schema_id(type, definition), "/" + signal.name() + suffix, "cdr",
+                              metadata);
   }
 
   template <class T>
   void set_type(RecordedSignal& entry) {
-    if (std::string_view(entry.signal->type()) != T::kType) return;
+    if (!is_message<T>(*entry.signal)) return;
+    using Mapping = RosMapping<T>;
     entry.write = &write_messages<T>;
-    entry.channel = add_channel(*entry.signal, RosMapping<T>::kType, "");
-    if constexpr (RosMapping<T>::kExactType != nullptr) {
-      entry.exact_channel = add_channel(*entry.signal, RosMapping<T>::kExactType, "/exact");
+    entry.channel = add_channel(*entry.signal, Mapping::type(), Mapping::definition(), "");
+    if constexpr (requires { &Mapping::write_exact; }) {
+      entry.exact_channel =
+          add_channel(*entry.signal, Mapping::exact_type(), Mapping::exact_definition(), "/exact");
     }
+  }
+
+  /// Of a type that a plug-in brought.
+  void set_described_type(RecordedSignal& entry) {
+    const std::string type = ros_type_of(entry.signal->type());
+    entry.write = &write_described_signal;
+    entry.channel =
+        add_channel(*entry.signal, type,
+                    described_definition(type, {}, FieldsOfSignal(*entry.signal)), "");
   }
 
   /// Every signal learns where its vehicle is from "<vehicle>/truth", in whatever order they come.
   void connect_truth() {
     for (const RecordedSignal& truth : entries) {
       if (truth.signal->name() != truth.frames.prefix + "truth") continue;
-      if (std::string_view(truth.signal->type()) != Odometry::kType) continue;
+      if (!is_message<Odometry>(*truth.signal)) continue;
       for (RecordedSignal& entry : entries) {
         if (entry.frames.prefix != truth.frames.prefix) continue;
         entry.truth = static_cast<const Signal<Odometry>*>(truth.signal);
@@ -115,7 +152,7 @@ struct Recorder::Impl {
   bool compact_poses;
   WallClock::duration flush_period;
   McapWriter writer;
-  std::map<std::string, std::uint16_t> schema_ids;
+  std::map<std::pair<std::string, std::string>, std::uint16_t> schema_ids;  ///< type, definition
   std::vector<RecordedSignal> entries;
   WallClock::time_point last_flush = WallClock::now();
   Time last_now;
@@ -143,7 +180,7 @@ void Recorder::add_signal(const SignalBase& signal, Duration min_period) {
   entry.min_period = min_period;
   entry.frames = FrameNames::of_signal(signal.name());
   for_each_message_type([&]<class T>(T*) { impl_->set_type<T>(entry); });
-  VINEROW_DEMAND(entry.write != nullptr);
+  if (entry.write == nullptr) impl_->set_described_type(entry);
   impl_->entries.push_back(std::move(entry));
   if (impl_->compact_poses) impl_->connect_truth();
 }

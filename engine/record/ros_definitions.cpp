@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "engine/core/check.h"
@@ -76,12 +77,6 @@ constexpr std::array kDefinitions = {
                "float32[] ranges\nfloat32[] intensities\n"},
     Definition{"geometry_msgs/PoseWithCovarianceStamped",
                "std_msgs/Header header\ngeometry_msgs/PoseWithCovariance pose\n"},
-    Definition{"vinerow_msgs/LaserScan",
-               "std_msgs/Header header\n# rad, in the plane z = 0 of the sensor, from its x\n"
-               "float64 first_angle\nfloat64 angle_step\n# m\nfloat64 min_range\n"
-               "float64 max_range\n# +inf: nothing seen\nfloat64[] ranges\n"
-               "# of the vehicle in header.frame_id, and of the sensor in the vehicle\n"
-               "geometry_msgs/Pose body\ngeometry_msgs/Pose sensor\n"},
     Definition{"sensor_msgs/Range",
                "std_msgs/Header header\nuint8 ULTRASOUND=0\nuint8 INFRARED=1\n"
                "uint8 radiation_type\nfloat32 field_of_view\nfloat32 min_range\n"
@@ -136,30 +131,6 @@ constexpr std::array kDefinitions = {
     Definition{"nav_msgs/OccupancyGrid",
                "std_msgs/Header header\nnav_msgs/MapMetaData info\n"
                "# 100 taken, 0 free; x fastest\nint8[] data\n"},
-    Definition{"vinerow_msgs/OccupancyGrid",
-               "std_msgs/Header header\n# m\nfloat64 cell\n"
-               "# lower left corner of the first cell, m\nfloat64 corner_x\nfloat64 corner_y\n"
-               "uint32 columns\nuint32 rows\n# 1 taken, 0 free; x fastest\nuint8[] cells\n"},
-    Definition{"vinerow_msgs/LocalCommand",
-               "# what a local planner wants of a vehicle with two steered axles\n"
-               "uint8 FOLLOW=0\nuint8 DRIVE=1\nuint8 STOP=2\n"
-               "std_msgs/Header header\nuint8 mode\n"
-               "# m/s: limit when following, signed speed when driving\nfloat64 speed\n"
-               "# rad, positive to the left\nfloat64 front_axle\nfloat64 rear_axle\n"
-               "# m, least distance to anything known on the way chosen\nfloat64 clearance\n"},
-    Definition{"vinerow_msgs/NamedValues",
-               "std_msgs/Header header\n# the unit is the end of the name: _m, _rad, _radps, _N\n"
-               "string[] name\nfloat64[] value\n"},
-    Definition{"vinerow_msgs/FollowerState",
-               "# a follower on its path, by its own estimate\n"
-               "std_msgs/Header header\n# m, positive left of the path\nfloat64 lateral_error\n"
-               "# rad\nfloat64 heading_error\n# m along the path, done and to go\n"
-               "float64 distance\nfloat64 remaining\nint32 waypoint\nbool finished\n"},
-    Definition{"vinerow_msgs/MovementAuthority",
-               "# how far a vehicle may go along its plan\n"
-               "std_msgs/Header header\n# m along the path; infinity: to its end\n"
-               "float64 stop_at\n# waited for, and who has it; -1: none\n"
-               "int32 alley\nstring holder\n"},
     Definition{"trajectory_msgs/MultiDOFJointTrajectory",
                "std_msgs/Header header\nstring[] joint_names\n"
                "trajectory_msgs/MultiDOFJointTrajectoryPoint[] points\n"},
@@ -168,83 +139,18 @@ constexpr std::array kDefinitions = {
                "geometry_msgs/Transform[] transforms\ngeometry_msgs/Twist[] velocities\n"
                "geometry_msgs/Twist[] accelerations\n"
                "builtin_interfaces/Duration time_from_start\n"},
-    Definition{"vinerow_msgs/TrajectoryPoint",
-               "# of the body's origin in header.frame_id: m, m/s, m/s^2\n"
-               "geometry_msgs/Point position\ngeometry_msgs/Vector3 velocity\n"
-               "geometry_msgs/Vector3 acceleration\n"
-               "# rad, continuous; rad/s\nfloat64 yaw\nfloat64 yaw_rate\n"},
-    Definition{"vinerow_msgs/ReferenceTrajectory",
-               "# where a flying vehicle should be now and in the coming moments\n"
-               "uint8 WAIT=0\nuint8 TAKE_OFF=1\nuint8 TRANSIT=2\nuint8 ROW=3\nuint8 TURN=4\n"
-               "uint8 RETURN=5\nuint8 LAND=6\nuint8 DONE=7\nuint8 HOVER=8\n"
-               "std_msgs/Header header\nuint8 phase\n"
-               "# m along the plan, flown and to go\nfloat64 distance\nfloat64 remaining\n"
-               "# s from one point to the next; the first holds at the stamp\nfloat64 step\n"
-               "vinerow_msgs/TrajectoryPoint[] points\n"},
-    Definition{"vinerow_msgs/RangeRay",
-               "# m; +inf: nothing seen\nstd_msgs/Header header\nfloat64 range\n"
-               "float64 min_range\nfloat64 max_range\n# rad, half of the cone\n"
-               "float64 half_angle\n"
-               "# of the vehicle in header.frame_id, and of the sensor (looking along its x) in "
-               "the vehicle\n"
-               "geometry_msgs/Pose body\ngeometry_msgs/Pose sensor\n"},
-    Definition{"vinerow_msgs/GnssFix",
-               "std_msgs/Header header\nbool valid\n# rad, rad, m above the ellipsoid\n"
-               "float64 latitude\nfloat64 longitude\nfloat64 altitude\n"
-               "# antenna in header.frame_id (east, north, up): m, m/s, 1 sigma m\n"
-               "geometry_msgs/Point position\ngeometry_msgs/Vector3 velocity\n"
-               "geometry_msgs/Vector3 position_std\n# m/s, of each component; 0: not told\n"
-               "float64 velocity_std\n"
-               "uint8 NONE=0\nuint8 STANDALONE=1\nuint8 SBAS=2\nuint8 FLOAT=3\nuint8 FIXED=4\n"
-               "uint8 mode\n# used; 0: not told\nint32 satellites\n"},
-    Definition{"vinerow_msgs/PathPoint",
-               "uint8 LEG=0\nuint8 TURN=1\nuint8 TRANSIT=2\nuint8 VERTICAL=3\nuint8 RETURN=4\n"
-               "geometry_msgs/Point position\n# rad, direction of travel\nfloat64 yaw\n"
-               "# 1/m, positive to the left, of the stretch that starts here\nfloat64 curvature\n"
-               "# m/s, 0 = the follower's own\nfloat64 speed\nuint8 kind\n"
-               "# index of the alley a leg runs in, -1 elsewhere\nint32 alley\n"},
-    Definition{"vinerow_msgs/PlannedPath",
-               "std_msgs/Header header\n# m, of the exact curve\nfloat64 length\n"
-               "vinerow_msgs/PathPoint[] points\n"},
     Definition{"geometry_msgs/Vector3Stamped",
                "std_msgs/Header header\ngeometry_msgs/Vector3 vector\n"},
-    Definition{
-        "vinerow_msgs/AirReference",
-        "# what a vehicle on wings is to hold now\n"
-        "uint8 WAIT=0\nuint8 LAUNCH=1\nuint8 STRAIGHT=2\nuint8 TURN=3\nuint8 LOITER=4\n"
-        "uint8 LAND=5\nuint8 DONE=6\n"
-        "std_msgs/Header header\nuint8 phase\n# whether the propeller may run\nbool power\n"
-        "# m/s, true airspeed\nfloat64 airspeed\n"
-        "# rad from east, positive to the left: of the velocity over ground, and of the body\n"
-        "float64 course\nfloat64 heading\n# rad/s\nfloat64 heading_rate\n"
-        "# rad, positive with the right wing down\nfloat64 bank\n"
-        "# m, z in header.frame_id\nfloat64 height\n# rad, of the path through the air\n"
-        "float64 climb_angle\n# m/s, mean wind as far as it is known\n"
-        "geometry_msgs/Vector3 wind\n# m, positive left of the leg\nfloat64 cross_track\n"
-        "int32 waypoint\n# m along the plan, flown and to go\nfloat64 distance\n"
-        "float64 remaining\n"},
-    Definition{
-        "vinerow_msgs/CameraShot",
-        "# a picture taken from above\nstd_msgs/Header header\nint32 index\n"
-        "# of the vehicle in header.frame_id, and of the camera (looking along its x, z up in "
-        "the picture) in the vehicle\n"
-        "geometry_msgs/Pose body\ngeometry_msgs/Pose camera\n"
-        "# where the corners meet the ground: upper left, upper right, lower right, lower "
-        "left, m\n"
-        "geometry_msgs/Point[4] corners\n# every corner meets the ground\nbool on_ground\n"
-        "# m along the optical axis, and metres per pixel there\n"
-        "float64 distance\nfloat64 ground_sampling_distance\n"},
-    Definition{"vinerow_msgs/BatteryState",
-               "std_msgs/Header header\n# W drawn now\nfloat64 power\n# J since the start\n"
-               "float64 energy_used\n# remaining share of the capacity, 0 to 1\n"
-               "float64 charge\n"},
 };
 
-const Definition& find_definition(std::string_view type) {
+std::string_view find_text(std::string_view type, std::span<const RosDefinition> inside) {
+  for (const RosDefinition& definition : inside) {
+    if (definition.type == type) return definition.text;
+  }
   const auto found = std::find_if(kDefinitions.begin(), kDefinitions.end(),
                                   [&](const Definition& d) { return d.type == type; });
   VINEROW_DEMAND(found != kDefinitions.end());
-  return *found;
+  return found->text;
 }
 
 /// Types of other packages' messages in a text, in order: the words with a '/' at line starts.
@@ -261,24 +167,25 @@ void add_used_types(std::string_view text, std::vector<std::string_view>& types)
 
 }  // namespace
 
+std::string full_ros_definition(std::string_view text, std::span<const RosDefinition> inside) {
+  std::vector<std::string_view> types;
+  add_used_types(text, types);
+  std::string full(text);
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    const std::string_view used = find_text(types[i], inside);
+    full.append(80, '=').append("\nMSG: ").append(types[i]).append("\n").append(used);
+    add_used_types(used, types);
+  }
+  return full;
+}
+
 std::string full_ros_definition(std::string_view type) {
   // "nav_msgs/msg/Odometry" -> "nav_msgs/Odometry"
   const std::size_t middle = type.find("/msg/");
   VINEROW_DEMAND(middle != std::string_view::npos);
   const std::string short_type =
       std::string(type.substr(0, middle)) + std::string(type.substr(middle + 4));
-
-  std::vector<std::string_view> types = {find_definition(short_type).type};
-  std::string text;
-  for (std::size_t i = 0; i < types.size(); ++i) {
-    const Definition& definition = find_definition(types[i]);
-    if (i > 0) {
-      text.append(80, '=').append("\nMSG: ").append(definition.type).append("\n");
-    }
-    text.append(definition.text);
-    add_used_types(definition.text, types);
-  }
-  return text;
+  return full_ros_definition(find_text(short_type, {}), {});
 }
 
 }  // namespace vinerow::record

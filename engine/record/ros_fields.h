@@ -9,7 +9,7 @@
 #include "engine/core/time.h"
 #include "engine/math/pose.h"
 #include "engine/record/cdr.h"
-#include "engine/record/ros_mapping.h"
+#include "engine/record/write_context.h"
 
 namespace vinerow::record {
 

@@ -1,91 +1,123 @@
 #pragma once
 /// Which ROS 2 message each signal type becomes, and how its bytes are written and read back.
 ///
-/// The first channel of a signal has the standard ROS 2 type. Where that type cannot hold the whole
-/// value (single precision, missing fields), a second channel "<topic>/exact" with a type of our
-/// own does; reading back uses the exact one. README.md has the table and its reasons.
+/// Types that a standard ROS 2 message can hold are mapped to it by hand. Where it cannot hold the
+/// whole value (single precision, missing fields), a second channel "<topic>/exact" has every field
+/// as the message describes itself; reading back uses that one. Types without a standard message
+/// have only their description (described_message.h). README.md has the table and its reasons.
 
+#include <array>
 #include <string>
+#include <string_view>
 
-#include "engine/api/messages/commands.h"
-#include "engine/api/messages/event.h"
-#include "engine/api/messages/flight.h"
-#include "engine/api/messages/grid.h"
-#include "engine/api/messages/motion.h"
-#include "engine/api/messages/path.h"
-#include "engine/api/messages/sensors.h"
-#include "engine/core/time.h"
-#include "engine/math/pose.h"
+#include "engine/api/messages.h"
 #include "engine/record/cdr.h"
+#include "engine/record/described_message.h"
+#include "engine/record/ros_definitions.h"
+#include "engine/record/write_context.h"
 
 namespace vinerow::record {
 
-/// Frame names in the messages of one signal.
-struct FrameNames {
-  std::string world = "map";
-  std::string body;    ///< "rover/base_link"
-  std::string own;     ///< "rover/gps"
-  std::string prefix;  ///< "rover/", before the names of links
-
-  /// @param signal  "rover/gps"
-  static FrameNames of_signal(const std::string& signal);
-};
-
-/// What a message says beside the value.
-struct WriteContext {
-  const FrameNames& frames;
-  Time stamp;
-  /// Where the vehicle's body was at `stamp`, if it is known: poses of its links and sensors are
-  /// then stored relative to it, rounded to kPoseGrid, because a log is mostly the noise of poses.
-  const Pose* X_WB = nullptr;
-};
-
-/// Step of positions (m) and quaternion components in poses relative to the body: about 1 nm and
-/// 2 nrad, a power of two, so that a rounded number has few bits and a fixed mounting is the same
-/// bytes in every message.
-constexpr double kPoseGrid = 0x1p-30;
-
-/// @tparam T one of the types of messages.h
+/// Order of fields in logs, of messages whose logs were laid out before their list of fields.
 template <class T>
-struct RosMapping;
+inline constexpr std::array<std::string_view, 0> kLogOrder{};
+template <>
+inline constexpr std::array<std::string_view, 10> kLogOrder<GnssFix> = {
+    "valid",    "latitude",     "longitude",    "altitude", "position",
+    "velocity", "position_std", "velocity_std", "mode",     "satellites"};
+template <>
+inline constexpr std::array<std::string_view, 6> kLogOrder<OccupancyGrid> = {
+    "cell", "corner_x", "corner_y", "columns", "rows", "cells"};
+template <>
+inline constexpr std::array<std::string_view, 2> kLogOrder<PlannedPath> = {"length", "points"};
+template <>
+inline constexpr std::array<std::string_view, 5> kLogOrder<ReferenceTrajectory> = {
+    "phase", "distance", "remaining", "step", "points"};
 
-/// What every mapping has. `read` fills all fields of T from what write_exact wrote, or write if
-/// kExactType is null. @returns false if the bytes do not hold such a message
-#define VINEROW_ROS_MAPPING(T, type, exact_type)                        \
-  template <>                                                           \
-  struct RosMapping<T> {                                                \
-    static constexpr const char* kType = type;                          \
-    static constexpr const char* kExactType = exact_type;               \
-    static void write(CdrWriter&, const WriteContext&, const T&);       \
-    static void write_exact(CdrWriter&, const WriteContext&, const T&); \
-    static bool read(CdrReader&, const FrameNames&, T&);                \
+/// A message as it describes itself.
+template <class T>
+struct DescribedMapping {
+  static void write(CdrWriter& out, const WriteContext& to, const T& value) {
+    write_described(out, to, frame_of<T>(), kLogOrder<T>, FieldsOf<T>(value));
+  }
+  static bool read(CdrReader& in, const FrameNames&, T& value) {
+    return read_described(in, kLogOrder<T>, value);
+  }
+  /// @param ros_type  what the message is called
+  static std::string definition(std::string_view ros_type) {
+    const T fresh{};
+    return described_definition(ros_type, kLogOrder<T>, FieldsOf<T>(fresh));
+  }
+};
+
+/// What every mapping has. `read` fills all fields of T from what write_exact wrote, or write where
+/// exact_type() is empty. @returns false if the bytes do not hold such a message
+template <class T>
+struct RosMapping {
+  static std::string type() { return ros_type_of(T::kType); }
+  static std::string exact_type() { return {}; }
+  static std::string definition() { return DescribedMapping<T>::definition(type()); }
+  static void write(CdrWriter& out, const WriteContext& to, const T& value) {
+    DescribedMapping<T>::write(out, to, value);
+  }
+  static bool read(CdrReader& in, const FrameNames& frames, T& value) {
+    return DescribedMapping<T>::read(in, frames, value);
+  }
+};
+
+/// A standard type that holds all: `write` and `read` by hand.
+#define VINEROW_STANDARD_MESSAGE(T, ros_type)                      \
+  template <>                                                      \
+  struct RosMapping<T> {                                           \
+    static std::string type() { return ros_type; }                 \
+    static std::string exact_type() { return {}; }                 \
+    static std::string definition() {                              \
+      return full_ros_definition(type());                          \
+    }                                                              \
+    static void write(CdrWriter&, const WriteContext&, const T&);  \
+    static bool read(CdrReader&, const FrameNames&, T&);           \
+  };
+/// A standard type that does not: `write` by hand, the rest from the description.
+#define VINEROW_EXACT_MESSAGE(T, ros_type, ros_exact_type)                                      \
+  template <>                                                                                   \
+  struct RosMapping<T> {                                                                        \
+    static std::string type() { return ros_type; }                                              \
+    static std::string exact_type() { return ros_exact_type; }                                  \
+    static std::string definition() { return full_ros_definition(type()); }                     \
+    static std::string exact_definition() {                                                     \
+      return DescribedMapping<T>::definition(exact_type());                                     \
+    }                                                                                           \
+    static void write(CdrWriter&, const WriteContext&, const T&);                               \
+    static void write_exact(CdrWriter& out, const WriteContext& to, const T& value) {           \
+      DescribedMapping<T>::write(out, to, value);                                               \
+    }                                                                                           \
+    static bool read(CdrReader& in, const FrameNames& frames, T& value) {                       \
+      return DescribedMapping<T>::read(in, frames, value);                                      \
+    }                                                                                           \
   };
 
-VINEROW_ROS_MAPPING(Odometry, "nav_msgs/msg/Odometry", nullptr)
-VINEROW_ROS_MAPPING(ImuSample, "sensor_msgs/msg/Imu", nullptr)
-VINEROW_ROS_MAPPING(GnssFix, "sensor_msgs/msg/NavSatFix", "vinerow_msgs/msg/GnssFix")
-VINEROW_ROS_MAPPING(RangeSample, "sensor_msgs/msg/Range", "vinerow_msgs/msg/RangeRay")
-VINEROW_ROS_MAPPING(PressureSample, "sensor_msgs/msg/FluidPressure", nullptr)
-VINEROW_ROS_MAPPING(MagneticSample, "sensor_msgs/msg/MagneticField", nullptr)
-VINEROW_ROS_MAPPING(LaserScan, "sensor_msgs/msg/LaserScan", "vinerow_msgs/msg/LaserScan")
-VINEROW_ROS_MAPPING(PositionEllipsoid, "geometry_msgs/msg/PoseWithCovarianceStamped", nullptr)
-VINEROW_ROS_MAPPING(VelocityCommand, "geometry_msgs/msg/TwistStamped", nullptr)
-VINEROW_ROS_MAPPING(LocalCommand, "vinerow_msgs/msg/LocalCommand", nullptr)
-VINEROW_ROS_MAPPING(LineList, "visualization_msgs/msg/Marker", nullptr)
-VINEROW_ROS_MAPPING(OccupancyGrid, "nav_msgs/msg/OccupancyGrid", "vinerow_msgs/msg/OccupancyGrid")
-VINEROW_ROS_MAPPING(NamedValues, "vinerow_msgs/msg/NamedValues", nullptr)
-VINEROW_ROS_MAPPING(LinkPoses, "tf2_msgs/msg/TFMessage", nullptr)
-VINEROW_ROS_MAPPING(PlannedPath, "nav_msgs/msg/Path", "vinerow_msgs/msg/PlannedPath")
-VINEROW_ROS_MAPPING(FollowerState, "vinerow_msgs/msg/FollowerState", nullptr)
-VINEROW_ROS_MAPPING(MovementAuthority, "vinerow_msgs/msg/MovementAuthority", nullptr)
-VINEROW_ROS_MAPPING(ReferenceTrajectory, "trajectory_msgs/msg/MultiDOFJointTrajectory",
-                    "vinerow_msgs/msg/ReferenceTrajectory")
-VINEROW_ROS_MAPPING(AirReference, "vinerow_msgs/msg/AirReference", nullptr)
-VINEROW_ROS_MAPPING(AirData, "geometry_msgs/msg/Vector3Stamped", nullptr)
-VINEROW_ROS_MAPPING(CameraShot, "vinerow_msgs/msg/CameraShot", nullptr)
-VINEROW_ROS_MAPPING(BatteryState, "sensor_msgs/msg/BatteryState", "vinerow_msgs/msg/BatteryState")
-VINEROW_ROS_MAPPING(Event, "rcl_interfaces/msg/Log", nullptr)
+VINEROW_STANDARD_MESSAGE(Odometry, "nav_msgs/msg/Odometry")
+VINEROW_STANDARD_MESSAGE(ImuSample, "sensor_msgs/msg/Imu")
+VINEROW_EXACT_MESSAGE(GnssFix, "sensor_msgs/msg/NavSatFix", "vinerow_msgs/msg/GnssFix")
+VINEROW_EXACT_MESSAGE(RangeSample, "sensor_msgs/msg/Range", "vinerow_msgs/msg/RangeRay")
+VINEROW_STANDARD_MESSAGE(PressureSample, "sensor_msgs/msg/FluidPressure")
+VINEROW_STANDARD_MESSAGE(MagneticSample, "sensor_msgs/msg/MagneticField")
+VINEROW_EXACT_MESSAGE(LaserScan, "sensor_msgs/msg/LaserScan", "vinerow_msgs/msg/LaserScan")
+VINEROW_STANDARD_MESSAGE(PositionEllipsoid, "geometry_msgs/msg/PoseWithCovarianceStamped")
+VINEROW_STANDARD_MESSAGE(VelocityCommand, "geometry_msgs/msg/TwistStamped")
+VINEROW_STANDARD_MESSAGE(LineList, "visualization_msgs/msg/Marker")
+VINEROW_EXACT_MESSAGE(OccupancyGrid, "nav_msgs/msg/OccupancyGrid",
+                      "vinerow_msgs/msg/OccupancyGrid")
+VINEROW_STANDARD_MESSAGE(LinkPoses, "tf2_msgs/msg/TFMessage")
+VINEROW_EXACT_MESSAGE(PlannedPath, "nav_msgs/msg/Path", "vinerow_msgs/msg/PlannedPath")
+VINEROW_EXACT_MESSAGE(ReferenceTrajectory, "trajectory_msgs/msg/MultiDOFJointTrajectory",
+                      "vinerow_msgs/msg/ReferenceTrajectory")
+VINEROW_STANDARD_MESSAGE(AirData, "geometry_msgs/msg/Vector3Stamped")
+VINEROW_EXACT_MESSAGE(BatteryState, "sensor_msgs/msg/BatteryState",
+                      "vinerow_msgs/msg/BatteryState")
+VINEROW_STANDARD_MESSAGE(Event, "rcl_interfaces/msg/Log")
 
-#undef VINEROW_ROS_MAPPING
+#undef VINEROW_STANDARD_MESSAGE
+#undef VINEROW_EXACT_MESSAGE
 
 }  // namespace vinerow::record

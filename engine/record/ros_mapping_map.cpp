@@ -1,7 +1,6 @@
-/// Mappings of what planners know, search and want: grid, tree, local command.
+/// Mappings of what planners know and search: grid, tree.
 
 #include <algorithm>
-#include <limits>
 
 #include "engine/record/ros_fields.h"
 #include "engine/record/ros_mapping.h"
@@ -18,31 +17,7 @@ constexpr std::uint8_t kTaken = 100;  ///< per cent
 constexpr double kLineWidth_m = 0.03;
 constexpr float kLineColour[4] = {0.2f, 0.6f, 1.0f, 0.6f};  // red, green, blue, alpha
 
-constexpr std::uint32_t kMostCellsOfASide = std::numeric_limits<std::int32_t>::max();
-
 }  // namespace
-
-void RosMapping<LocalCommand>::write(CdrWriter& out, const WriteContext& to,
-                                     const LocalCommand& value) {
-  write_header(out, to.stamp, to.frames.body);
-  out.add(static_cast<std::uint8_t>(value.mode));
-  out.add(value.v_mps);
-  out.add(value.front_axle_rad);
-  out.add(value.rear_axle_rad);
-  out.add(value.clearance_m);
-}
-
-bool RosMapping<LocalCommand>::read(CdrReader& in, const FrameNames&, LocalCommand& value) {
-  skip_header(in);
-  const auto mode = in.read<std::uint8_t>();
-  if (mode > static_cast<std::uint8_t>(LocalCommand::Mode::kStop)) return false;
-  value.mode = static_cast<LocalCommand::Mode>(mode);
-  value.v_mps = in.read<double>();
-  value.front_axle_rad = in.read<double>();
-  value.rear_axle_rad = in.read<double>();
-  value.clearance_m = in.read<double>();
-  return in.ok();
-}
 
 void RosMapping<LineList>::write(CdrWriter& out, const WriteContext& to, const LineList& value) {
   write_header(out, to.stamp, to.frames.world);
@@ -97,34 +72,6 @@ void RosMapping<OccupancyGrid>::write(CdrWriter& out, const WriteContext& to,
   out.add_count(value.cells.size());
   std::transform(value.cells.begin(), value.cells.end(), out.extend_octets(value.cells.size()),
                  [](std::uint8_t cell) { return cell != 0 ? kTaken : std::uint8_t{0}; });
-}
-
-void RosMapping<OccupancyGrid>::write_exact(CdrWriter& out, const WriteContext& to,
-                                            const OccupancyGrid& value) {
-  write_header(out, to.stamp, to.frames.world);
-  out.add(value.cell_m);
-  out.add(value.corner_W.x());
-  out.add(value.corner_W.y());
-  out.add(static_cast<std::uint32_t>(value.columns));
-  out.add(static_cast<std::uint32_t>(value.rows));
-  out.add_count(value.cells.size());
-  std::copy(value.cells.begin(), value.cells.end(), out.extend_octets(value.cells.size()));
-}
-
-bool RosMapping<OccupancyGrid>::read(CdrReader& in, const FrameNames&, OccupancyGrid& value) {
-  skip_header(in);
-  value.cell_m = in.read<double>();
-  value.corner_W.x() = in.read<double>();
-  value.corner_W.y() = in.read<double>();
-  const auto columns = in.read<std::uint32_t>(), rows = in.read<std::uint32_t>();
-  value.cells.resize(in.read_count(1));
-  in.read_octets(value.cells.data(), value.cells.size());
-  // A damaged size must not send who looks up a cell beyond the cells.
-  if (columns > kMostCellsOfASide || rows > kMostCellsOfASide) return false;
-  if (std::uint64_t{columns} * rows != value.cells.size()) return false;
-  value.columns = static_cast<int>(columns);
-  value.rows = static_cast<int>(rows);
-  return in.ok();
 }
 
 }  // namespace vinerow::record

@@ -1,4 +1,4 @@
-/// Mappings of poses, commands, paths and what a follower says.
+/// Mappings of poses, commands and paths.
 
 #include "engine/record/ros_fields.h"
 #include "engine/record/ros_mapping.h"
@@ -25,7 +25,6 @@ void take_position(const double* covariance, Eigen::Vector3d& diagonal, Eigen::V
 
 // Least bytes of one element of a sequence: bounds a damaged count.
 constexpr std::size_t kLeastTransform = 8 + 4 + 4 + 7 * 8;
-constexpr std::size_t kLeastPathPoint = 6 * 8 + 1 + 4;
 
 }  // namespace
 
@@ -101,24 +100,6 @@ bool RosMapping<VelocityCommand>::read(CdrReader& in, const FrameNames&, Velocit
   return in.ok();
 }
 
-void RosMapping<NamedValues>::write(CdrWriter& out, const WriteContext& to,
-                                    const NamedValues& value) {
-  write_header(out, to.stamp, to.frames.body);
-  out.add_count(value.names.size());
-  for (const std::string& name : value.names) out.add(std::string_view(name));
-  out.add_count(value.values.size());
-  out.add_doubles(value.values.data(), value.values.size());
-}
-
-bool RosMapping<NamedValues>::read(CdrReader& in, const FrameNames&, NamedValues& value) {
-  skip_header(in);
-  value.names.resize(in.read_count(sizeof(std::uint32_t)));
-  for (std::string& name : value.names) in.read(name);
-  value.values.resize(in.read_count(sizeof(double)));
-  in.read_doubles(value.values.data(), value.values.size());
-  return in.ok();
-}
-
 void RosMapping<LinkPoses>::write(CdrWriter& out, const WriteContext& to, const LinkPoses& value) {
   const std::size_t count = std::min(value.names.size(), value.X_WL.size());
   // A tree world -> body -> links where the body is known, else every link in the world.
@@ -170,77 +151,6 @@ void RosMapping<PlannedPath>::write(CdrWriter& out, const WriteContext& to,
     write_header(out, to.stamp, to.frames.world);
     write_pose(out, {quaternion_from_rpy({0, 0, point.yaw_rad}), point.p_W});
   }
-}
-
-void RosMapping<PlannedPath>::write_exact(CdrWriter& out, const WriteContext& to,
-                                          const PlannedPath& value) {
-  write_header(out, to.stamp, to.frames.world);
-  out.add(value.length_m);
-  out.add_count(value.points.size());
-  for (const PathPoint& point : value.points) {
-    out.add(point.p_W);
-    out.add(point.yaw_rad);
-    out.add(point.curvature_per_m);
-    out.add(point.speed_mps);
-    out.add(static_cast<std::uint8_t>(point.kind));
-    out.add(point.alley);
-  }
-}
-
-bool RosMapping<PlannedPath>::read(CdrReader& in, const FrameNames&, PlannedPath& value) {
-  skip_header(in);
-  value.length_m = in.read<double>();
-  value.points.resize(in.read_count(kLeastPathPoint));
-  for (PathPoint& point : value.points) {
-    in.read(point.p_W);
-    point.yaw_rad = in.read<double>();
-    point.curvature_per_m = in.read<double>();
-    point.speed_mps = in.read<double>();
-    const auto kind = in.read<std::uint8_t>();
-    if (kind > static_cast<std::uint8_t>(PathKind::kReturn)) return false;
-    point.kind = static_cast<PathKind>(kind);
-    point.alley = in.read<std::int32_t>();
-  }
-  return in.ok();
-}
-
-void RosMapping<FollowerState>::write(CdrWriter& out, const WriteContext& to,
-                                      const FollowerState& value) {
-  write_header(out, to.stamp, to.frames.body);
-  out.add(value.lateral_error_m);
-  out.add(value.heading_error_rad);
-  out.add(value.distance_m);
-  out.add(value.remaining_m);
-  out.add(value.waypoint);
-  out.add(value.finished);
-}
-
-bool RosMapping<FollowerState>::read(CdrReader& in, const FrameNames&, FollowerState& value) {
-  skip_header(in);
-  value.lateral_error_m = in.read<double>();
-  value.heading_error_rad = in.read<double>();
-  value.distance_m = in.read<double>();
-  value.remaining_m = in.read<double>();
-  value.waypoint = in.read<std::int32_t>();
-  value.finished = in.read_bool();
-  return in.ok();
-}
-
-void RosMapping<MovementAuthority>::write(CdrWriter& out, const WriteContext& to,
-                                          const MovementAuthority& value) {
-  write_header(out, to.stamp, to.frames.body);
-  out.add(value.stop_at_m);
-  out.add(value.alley);
-  out.add(value.holder);
-}
-
-bool RosMapping<MovementAuthority>::read(CdrReader& in, const FrameNames&,
-                                         MovementAuthority& value) {
-  skip_header(in);
-  value.stop_at_m = in.read<double>();
-  value.alley = in.read<std::int32_t>();
-  in.read(value.holder);
-  return in.ok();
 }
 
 }  // namespace vinerow::record

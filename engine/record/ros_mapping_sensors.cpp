@@ -29,22 +29,6 @@ std::int8_t status_of(const GnssFix& fix) {
 
 constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
 
-/// A sensor's pose as the body's and its own in the body. The body's is the same bytes as in the
-/// truth beside it, which compresses to nothing.
-void write_pose_beside_body(CdrWriter& out, const WriteContext& to, const Pose& X_WS) {
-  write_pose(out, to.X_WB ? *to.X_WB : Pose{});
-  write_pose(out, to.X_WB ? pose_in_body(*to.X_WB, X_WS) : X_WS);
-}
-
-void read_pose_beside_body(CdrReader& in, Pose& X_WS) {
-  Pose X_WB;
-  read_pose(in, X_WB);
-  read_pose(in, X_WS);
-  // Not multiplied by the identity, which would turn -0 into 0.
-  const bool is_in_world = X_WB.p.isZero(0) && X_WB.q.coeffs() == Pose{}.q.coeffs();
-  if (!is_in_world) X_WS = X_WB * X_WS;
-}
-
 }  // namespace
 
 void RosMapping<ImuSample>::write(CdrWriter& out, const WriteContext& to, const ImuSample& value) {
@@ -82,38 +66,6 @@ void RosMapping<GnssFix>::write(CdrWriter& out, const WriteContext& to, const Gn
   out.add(kCovarianceDiagonalKnown);
 }
 
-void RosMapping<GnssFix>::write_exact(CdrWriter& out, const WriteContext& to,
-                                      const GnssFix& value) {
-  write_header(out, to.stamp, to.frames.world);
-  out.add(value.valid);
-  out.add(value.latitude_rad);
-  out.add(value.longitude_rad);
-  out.add(value.altitude_m);
-  out.add(value.p_W);
-  out.add(value.v_W);
-  out.add(value.std_m);
-  out.add(value.velocity_std_mps);
-  out.add(static_cast<std::uint8_t>(value.mode));
-  out.add(value.satellites);
-}
-
-bool RosMapping<GnssFix>::read(CdrReader& in, const FrameNames&, GnssFix& value) {
-  skip_header(in);
-  value.valid = in.read_bool();
-  value.latitude_rad = in.read<double>();
-  value.longitude_rad = in.read<double>();
-  value.altitude_m = in.read<double>();
-  in.read(value.p_W);
-  in.read(value.v_W);
-  in.read(value.std_m);
-  value.velocity_std_mps = in.read<double>();
-  const auto mode = in.read<std::uint8_t>();
-  if (mode > static_cast<std::uint8_t>(GnssFix::Mode::kFixed)) return false;
-  value.mode = static_cast<GnssFix::Mode>(mode);
-  value.satellites = in.read<std::int32_t>();
-  return in.ok();
-}
-
 void RosMapping<RangeSample>::write(CdrWriter& out, const WriteContext& to,
                                     const RangeSample& value) {
   write_header(out, to.stamp, to.frames.own);
@@ -122,26 +74,6 @@ void RosMapping<RangeSample>::write(CdrWriter& out, const WriteContext& to,
   out.add(static_cast<float>(value.min_range_m));
   out.add(static_cast<float>(value.max_range_m));
   out.add(static_cast<float>(value.range_m));
-}
-
-void RosMapping<RangeSample>::write_exact(CdrWriter& out, const WriteContext& to,
-                                          const RangeSample& value) {
-  write_header(out, to.stamp, to.frames.world);
-  out.add(value.range_m);
-  out.add(value.min_range_m);
-  out.add(value.max_range_m);
-  out.add(value.half_angle_rad);
-  write_pose_beside_body(out, to, value.X_WS);
-}
-
-bool RosMapping<RangeSample>::read(CdrReader& in, const FrameNames&, RangeSample& value) {
-  skip_header(in);
-  value.range_m = in.read<double>();
-  value.min_range_m = in.read<double>();
-  value.max_range_m = in.read<double>();
-  value.half_angle_rad = in.read<double>();
-  read_pose_beside_body(in, value.X_WS);
-  return in.ok();
 }
 
 void RosMapping<PressureSample>::write(CdrWriter& out, const WriteContext& to,
@@ -190,30 +122,6 @@ void RosMapping<LaserScan>::write(CdrWriter& out, const WriteContext& to, const 
   out.add_count(0);  // intensities
 }
 
-void RosMapping<LaserScan>::write_exact(CdrWriter& out, const WriteContext& to,
-                                        const LaserScan& value) {
-  write_header(out, to.stamp, to.frames.world);
-  out.add(value.first_angle_rad);
-  out.add(value.angle_step_rad);
-  out.add(value.min_range_m);
-  out.add(value.max_range_m);
-  out.add_count(value.ranges_m.size());
-  out.add_doubles(value.ranges_m.data(), value.ranges_m.size());
-  write_pose_beside_body(out, to, value.X_WS);
-}
-
-bool RosMapping<LaserScan>::read(CdrReader& in, const FrameNames&, LaserScan& value) {
-  skip_header(in);
-  value.first_angle_rad = in.read<double>();
-  value.angle_step_rad = in.read<double>();
-  value.min_range_m = in.read<double>();
-  value.max_range_m = in.read<double>();
-  value.ranges_m.resize(in.read_count(sizeof(double)));
-  in.read_doubles(value.ranges_m.data(), value.ranges_m.size());
-  read_pose_beside_body(in, value.X_WS);
-  return in.ok();
-}
-
 void RosMapping<BatteryState>::write(CdrWriter& out, const WriteContext& to,
                                      const BatteryState& value) {
   write_header(out, to.stamp, to.frames.body);
@@ -229,22 +137,6 @@ void RosMapping<BatteryState>::write(CdrWriter& out, const WriteContext& to,
   out.add_count(0);          // cell_temperature
   out.add(std::string_view());
   out.add(std::string_view());
-}
-
-void RosMapping<BatteryState>::write_exact(CdrWriter& out, const WriteContext& to,
-                                           const BatteryState& value) {
-  write_header(out, to.stamp, to.frames.body);
-  out.add(value.power_W);
-  out.add(value.energy_used_J);
-  out.add(value.charge);
-}
-
-bool RosMapping<BatteryState>::read(CdrReader& in, const FrameNames&, BatteryState& value) {
-  skip_header(in);
-  value.power_W = in.read<double>();
-  value.energy_used_J = in.read<double>();
-  value.charge = in.read<double>();
-  return in.ok();
 }
 
 void RosMapping<Event>::write(CdrWriter& out, const WriteContext& to, const Event& value) {

@@ -9,9 +9,6 @@
 namespace vinerow::record {
 namespace {
 
-// Least bytes of one element of the sequence: bounds a damaged count.
-constexpr std::size_t kLeastPoint = 11 * sizeof(double);
-
 constexpr double kMostSeconds = 2'147'483'647;  ///< that builtin_interfaces/Duration holds
 
 }  // namespace
@@ -36,43 +33,6 @@ void RosMapping<ReferenceTrajectory>::write(CdrWriter& out, const WriteContext& 
         std::clamp(static_cast<double>(i) * value.dt_s, -kMostSeconds, kMostSeconds);
     write_time(out, Time{std::llround(from_start_s * 1e9)});  // a Duration has the same two fields
   }
-}
-
-void RosMapping<ReferenceTrajectory>::write_exact(CdrWriter& out, const WriteContext& to,
-                                                  const ReferenceTrajectory& value) {
-  write_header(out, to.stamp, to.frames.world);
-  out.add(static_cast<std::uint8_t>(value.phase));
-  out.add(value.distance_m);
-  out.add(value.remaining_m);
-  out.add(value.dt_s);
-  out.add_count(value.points.size());
-  for (const TrajectoryPoint& point : value.points) {
-    out.add(point.p_W);
-    out.add(point.v_W);
-    out.add(point.a_W);
-    out.add(point.yaw_rad);
-    out.add(point.yaw_rate_radps);
-  }
-}
-
-bool RosMapping<ReferenceTrajectory>::read(CdrReader& in, const FrameNames&,
-                                           ReferenceTrajectory& value) {
-  skip_header(in);
-  const auto phase = in.read<std::uint8_t>();
-  if (phase > static_cast<std::uint8_t>(ReferenceTrajectory::Phase::kHover)) return false;
-  value.phase = static_cast<ReferenceTrajectory::Phase>(phase);
-  value.distance_m = in.read<double>();
-  value.remaining_m = in.read<double>();
-  value.dt_s = in.read<double>();
-  value.points.resize(in.read_count(kLeastPoint));
-  for (TrajectoryPoint& point : value.points) {
-    in.read(point.p_W);
-    in.read(point.v_W);
-    in.read(point.a_W);
-    point.yaw_rad = in.read<double>();
-    point.yaw_rate_radps = in.read<double>();
-  }
-  return in.ok();
 }
 
 }  // namespace vinerow::record

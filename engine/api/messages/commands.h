@@ -3,8 +3,11 @@
 /// Frames and units: engine/api/messages.h.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "engine/api/field.h"
 
 namespace vinerow {
 
@@ -14,9 +17,10 @@ struct VelocityCommand {
   double v_mps = 0.0;
   double yaw_rate_radps = 0.0;
 
-  template <class F>
-  void fields(F&& f) {
-    f(v_mps), f(yaw_rate_radps);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"speed", "m/s"}, self.v_mps);
+    f({"yaw_rate", "rad/s"}, self.yaw_rate_radps);
   }
 };
 
@@ -35,11 +39,24 @@ struct LocalCommand {
   double rear_axle_rad = 0.0;
   double clearance_m = 0.0;  ///< least distance to anything known on the way chosen, m
 
-  template <class F>
-  void fields(F&& f) {
-    f(mode), f(v_mps), f(front_axle_rad), f(rear_axle_rad), f(clearance_m);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"mode"}, self.mode);
+    f({"speed", "m/s", "limit when following, signed speed when driving"}, self.v_mps);
+    f({"front_axle", "rad", "positive to the left"}, self.front_axle_rad);
+    f({"rear_axle", "rad"}, self.rear_axle_rad);
+    f({"clearance", "m", "least distance to anything known on the way chosen"}, self.clearance_m);
   }
 };
+
+inline std::span<const EnumName> enum_names(LocalCommand::Mode) {
+  using enum LocalCommand::Mode;
+  static constexpr EnumName kNames[] = {
+      enum_name(kFollow, "FOLLOW"),
+      enum_name(kDrive, "DRIVE"),
+      enum_name(kStop, "STOP")};
+  return kNames;
+}
 
 /// Named numbers of one kind: actuator commands, wheel states. Names are fixed when the writer
 /// connects. ROS 2: vinerow_msgs/msg/NamedValues (see record/).
@@ -48,9 +65,10 @@ struct NamedValues {
   std::vector<std::string> names;
   std::vector<double> values;
 
-  template <class F>
-  void fields(F&& f) {
-    f(names), f(values);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"name", "", "ends with the unit of the value: _m, _rad, _radps, _N"}, self.names);
+    f({"value"}, self.values);
   }
 };
 

@@ -3,7 +3,10 @@
 /// Frames and units: engine/api/messages.h.
 
 #include <cstdint>
+#include <span>
 #include <string>
+
+#include "engine/api/field.h"
 
 namespace vinerow {
 
@@ -15,10 +18,21 @@ struct Event {
   std::string source;  ///< "rover.controller"
   std::string text;
 
-  template <class F>
-  void fields(F&& f) {
-    f(level), f(source), f(text);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"level"}, self.level);
+    f({"source"}, self.source);
+    f({"text"}, self.text);
   }
 };
+
+inline std::span<const EnumName> enum_names(Event::Level) {
+  using enum Event::Level;
+  static constexpr EnumName kNames[] = {
+      enum_name(kInfo, "INFO"),
+      enum_name(kWarning, "WARN"),
+      enum_name(kError, "ERROR")};
+  return kNames;
+}
 
 }  // namespace vinerow

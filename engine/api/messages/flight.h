@@ -4,23 +4,37 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include "engine/api/field.h"
 
 namespace vinerow {
 
 /// Where a flying vehicle should be at one moment.
 struct TrajectoryPoint {
+  static constexpr const char* kType = "TrajectoryPoint";
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< of B's origin, m
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< m/s
   Eigen::Vector3d a_W = Eigen::Vector3d::Zero();  ///< m/s2
   double yaw_rad = 0.0;                           ///< continuous, not wrapped
   double yaw_rate_radps = 0.0;
+
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"position", "m", "of the body's origin"}, self.p_W);
+    f({"velocity", "m/s"}, self.v_W);
+    f({"acceleration", "m/s^2"}, self.a_W);
+    f({"yaw", "rad", "continuous"}, self.yaw_rad);
+    f({"yaw_rate", "rad/s"}, self.yaw_rate_radps);
+  }
 };
 
 /// Where a flying vehicle should be now and in the coming moments: points[i] holds at the signal's
 /// stamp + i dt_s. ROS 2: trajectory_msgs/msg/MultiDOFJointTrajectory.
 struct ReferenceTrajectory {
   static constexpr const char* kType = "ReferenceTrajectory";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   enum class Phase : std::uint8_t {
     kWait = 0,     ///< on the ground, rotors off
     kTakeOff = 1,  ///< straight up
@@ -38,19 +52,35 @@ struct ReferenceTrajectory {
   double distance_m = 0.0;  ///< flown along the plan
   double remaining_m = 0.0;
 
-  template <class F>
-  void fields(F&& f) {
-    f(dt_s);
-    for (TrajectoryPoint& point : points) {
-      f(point.p_W), f(point.v_W), f(point.a_W), f(point.yaw_rad), f(point.yaw_rate_radps);
-    }
-    f(phase), f(distance_m), f(remaining_m);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"step", "s", "from one point to the next; the first holds at the stamp"}, self.dt_s);
+    f({"points"}, self.points);
+    f({"phase"}, self.phase);
+    f({"distance", "m", "flown along the plan"}, self.distance_m);
+    f({"remaining", "m"}, self.remaining_m);
   }
 };
+
+inline std::span<const EnumName> enum_names(ReferenceTrajectory::Phase) {
+  using enum ReferenceTrajectory::Phase;
+  static constexpr EnumName kNames[] = {
+      enum_name(kWait, "WAIT"),
+      enum_name(kTakeOff, "TAKE_OFF"),
+      enum_name(kTransit, "TRANSIT"),
+      enum_name(kRow, "ROW"),
+      enum_name(kTurn, "TURN"),
+      enum_name(kReturn, "RETURN"),
+      enum_name(kLand, "LAND"),
+      enum_name(kDone, "DONE"),
+      enum_name(kHover, "HOVER")};
+  return kNames;
+}
 
 /// What a vehicle on wings is to hold now. ROS 2: vinerow_msgs/msg/AirReference.
 struct AirReference {
   static constexpr const char* kType = "AirReference";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   enum class Phase : std::uint8_t {
     kWait = 0,      ///< on the launcher, propeller off
     kLaunch = 1,    ///< straight ahead and up
@@ -75,12 +105,37 @@ struct AirReference {
   double distance_m = 0.0;                           ///< along the plan
   double remaining_m = 0.0;
 
-  template <class F>
-  void fields(F&& f) {
-    f(phase), f(power), f(airspeed_mps), f(course_rad), f(heading_rad), f(heading_rate_radps);
-    f(bank_rad), f(height_m), f(climb_angle_rad), f(wind_W), f(cross_track_m), f(waypoint);
-    f(distance_m), f(remaining_m);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"phase"}, self.phase);
+    f({"power", "", "whether the propeller may run"}, self.power);
+    f({"airspeed", "m/s", "true airspeed"}, self.airspeed_mps);
+    f({"course", "rad", "of the velocity over ground, from east, positive to the left"},
+      self.course_rad);
+    f({"heading", "rad", "of the body, likewise"}, self.heading_rad);
+    f({"heading_rate", "rad/s"}, self.heading_rate_radps);
+    f({"bank", "rad", "positive with the right wing down"}, self.bank_rad);
+    f({"height", "m", "z in header.frame_id"}, self.height_m);
+    f({"climb_angle", "rad", "of the path through the air"}, self.climb_angle_rad);
+    f({"wind", "m/s", "mean wind as far as it is known"}, self.wind_W);
+    f({"cross_track", "m", "positive left of the leg"}, self.cross_track_m);
+    f({"waypoint"}, self.waypoint);
+    f({"distance", "m", "along the plan"}, self.distance_m);
+    f({"remaining", "m"}, self.remaining_m);
   }
 };
+
+inline std::span<const EnumName> enum_names(AirReference::Phase) {
+  using enum AirReference::Phase;
+  static constexpr EnumName kNames[] = {
+      enum_name(kWait, "WAIT"),
+      enum_name(kLaunch, "LAUNCH"),
+      enum_name(kStraight, "STRAIGHT"),
+      enum_name(kTurn, "TURN"),
+      enum_name(kLoiter, "LOITER"),
+      enum_name(kLand, "LAND"),
+      enum_name(kDone, "DONE")};
+  return kNames;
+}
 
 }  // namespace vinerow

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/api/field.h"
+
 namespace vinerow {
 
 /// Which squares of the ground are taken: 1 by an obstacle, 0 free. Square (i, j) covers the cell
@@ -13,6 +15,7 @@ namespace vinerow {
 /// worlds/mapping. ROS 2: nav_msgs/msg/OccupancyGrid.
 struct OccupancyGrid {
   static constexpr const char* kType = "OccupancyGrid";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   int columns = 0;  ///< along x; 0: there is no grid
   int rows = 0;     ///< along y
   double cell_m = 1.0;
@@ -23,10 +26,20 @@ struct OccupancyGrid {
     return cells[static_cast<std::size_t>(j) * columns + i] != 0;
   }
   bool empty() const { return columns == 0 || rows == 0; }
+  /// Whether there is a cell for every square: what comes from a file may be damaged.
+  bool valid() const {
+    return columns >= 0 && rows >= 0 &&
+           static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) == cells.size();
+  }
 
-  template <class F>
-  void fields(F&& f) {
-    f(columns), f(rows), f(cell_m), f(corner_W.x()), f(corner_W.y()), f(cells);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"columns"}, self.columns);
+    f({"rows"}, self.rows);
+    f({"cell", "m"}, self.cell_m);
+    f({"corner_x", "m", "lower left corner of the first cell"}, self.corner_W.x());
+    f({"corner_y", "m"}, self.corner_W.y());
+    f({"cells", "", "1 taken, 0 free; x fastest"}, self.cells);
   }
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/field.h"
 #include "engine/math/pose.h"
 
 namespace vinerow {
@@ -24,6 +25,7 @@ inline Eigen::Matrix3d symmetric_matrix(const Eigen::Vector3d& diagonal,
 /// Pose and twist of a body; truth or estimate. ROS 2: nav_msgs/msg/Odometry.
 struct Odometry {
   static constexpr const char* kType = "Odometry";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   Pose X_WB;
   Eigen::Vector3d v_WB_B = Eigen::Vector3d::Zero();  ///< velocity of B's origin, m/s, in B
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< angular velocity, rad/s, in B
@@ -33,10 +35,14 @@ struct Odometry {
   Eigen::Vector3d position_covariance_m2 = Eigen::Vector3d::Zero();
   double yaw_std_rad = 0.0;
 
-  template <class F>
-  void fields(F&& f) {
-    f(X_WB.p), f(X_WB.q), f(v_WB_B), f(w_WB_B), f(position_variance_m2);
-    f(position_covariance_m2), f(yaw_std_rad);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"pose", "", "of the body"}, self.X_WB);
+    f({"linear_velocity", "m/s", "of the body's origin, in the body"}, self.v_WB_B);
+    f({"angular_velocity", "rad/s", "in the body"}, self.w_WB_B);
+    f({"position_variance", "m^2", "xx, yy, zz; 0 for truth"}, self.position_variance_m2);
+    f({"position_covariance", "m^2", "xy, xz, yz"}, self.position_covariance_m2);
+    f({"yaw_std", "rad"}, self.yaw_std_rad);
   }
 
   /// Both as one symmetric matrix.
@@ -53,14 +59,17 @@ struct Odometry {
 /// geometry_msgs/msg/PoseWithCovarianceStamped.
 struct PositionEllipsoid {
   static constexpr const char* kType = "PositionEllipsoid";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();
   /// P in W: diagonal (xx, yy, zz) and what is beside it (xy, xz, yz), m2.
   Eigen::Vector3d shape_diagonal_m2 = Eigen::Vector3d::Zero();
   Eigen::Vector3d shape_beside_m2 = Eigen::Vector3d::Zero();
 
-  template <class F>
-  void fields(F&& f) {
-    f(centre_W), f(shape_diagonal_m2), f(shape_beside_m2);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"centre", "m"}, self.centre_W);
+    f({"shape_diagonal", "m^2", "xx, yy, zz"}, self.shape_diagonal_m2);
+    f({"shape_beside", "m^2", "xy, xz, yz"}, self.shape_beside_m2);
   }
 };
 
@@ -68,13 +77,14 @@ struct PositionEllipsoid {
 /// tf2_msgs/msg/TFMessage.
 struct LinkPoses {
   static constexpr const char* kType = "LinkPoses";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   std::vector<std::string> names;
   std::vector<Pose> X_WL;
 
-  template <class F>
-  void fields(F&& f) {
-    f(names);
-    for (Pose& pose : X_WL) f(pose.p), f(pose.q);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"names"}, self.names);
+    f({"poses"}, self.X_WL);
   }
 };
 

@@ -4,8 +4,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "engine/api/field.h"
 
 namespace vinerow {
 
@@ -13,11 +16,12 @@ namespace vinerow {
 /// (LINE_LIST).
 struct LineList {
   static constexpr const char* kType = "LineList";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   std::vector<Eigen::Vector3d> points_W;  ///< an even number
 
-  template <class F>
-  void fields(F&& f) {
-    for (Eigen::Vector3d& p : points_W) f(p);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"points", "m", "two a piece"}, self.points_W);
   }
 };
 
@@ -30,29 +34,50 @@ enum class PathKind : std::uint8_t {
   kReturn = 4     ///< the way home after the last leg
 };
 
+inline std::span<const EnumName> enum_names(PathKind) {
+  using enum PathKind;
+  static constexpr EnumName kNames[] = {
+      enum_name(kLeg, "LEG"),
+      enum_name(kTurn, "TURN"),
+      enum_name(kTransit, "TRANSIT"),
+      enum_name(kVertical, "VERTICAL"),
+      enum_name(kReturn, "RETURN")};
+  return kNames;
+}
+
 /// One point of a path; the stretch from this point to the next has `kind`.
 struct PathPoint {
+  static constexpr const char* kType = "PathPoint";
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   double yaw_rad = 0.0;          ///< direction of travel
   double curvature_per_m = 0.0;  ///< of the stretch that starts here, positive to the left
   double speed_mps = 0.0;        ///< wanted speed; 0 = the follower's own
   PathKind kind = PathKind::kLeg;
   std::int32_t alley = -1;  ///< index of the alley a leg runs in, -1 elsewhere
+
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"position", "m"}, self.p_W);
+    f({"yaw", "rad", "direction of travel"}, self.yaw_rad);
+    f({"curvature", "1/m", "positive to the left, of the stretch that starts here"},
+      self.curvature_per_m);
+    f({"speed", "m/s", "0: the follower's own"}, self.speed_mps);
+    f({"kind"}, self.kind);
+    f({"alley", "", "index of the alley a leg runs in, -1 elsewhere"}, self.alley);
+  }
 };
 
 /// What a follower is to drive. ROS 2: nav_msgs/msg/Path.
 struct PlannedPath {
   static constexpr const char* kType = "PlannedPath";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   std::vector<PathPoint> points;
   double length_m = 0.0;  ///< of the exact curve, not of the polyline
 
-  template <class F>
-  void fields(F&& f) {
-    for (PathPoint& point : points) {
-      f(point.p_W), f(point.yaw_rad), f(point.curvature_per_m), f(point.speed_mps);
-      f(point.kind), f(point.alley);
-    }
-    f(length_m);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"points"}, self.points);
+    f({"length", "m", "of the exact curve"}, self.length_m);
   }
 };
 
@@ -64,9 +89,11 @@ struct MovementAuthority {
   std::int32_t alley = -1;    ///< waited for; -1: none
   std::string holder;         ///< vehicle that has it; "" where nobody is waited for
 
-  template <class F>
-  void fields(F&& f) {
-    f(stop_at_m), f(alley), f(holder);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"stop_at", "m", "along the plan; +inf: to its end"}, self.stop_at_m);
+    f({"alley", "", "waited for; -1: none"}, self.alley);
+    f({"holder", "", "who has it"}, self.holder);
   }
 };
 
@@ -80,10 +107,14 @@ struct FollowerState {
   std::int32_t waypoint = 0;  ///< current index
   bool finished = false;
 
-  template <class F>
-  void fields(F&& f) {
-    f(lateral_error_m), f(heading_error_rad), f(distance_m), f(remaining_m), f(waypoint),
-        f(finished);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"lateral_error", "m", "positive left of the path"}, self.lateral_error_m);
+    f({"heading_error", "rad"}, self.heading_error_rad);
+    f({"distance", "m", "along the path"}, self.distance_m);
+    f({"remaining", "m"}, self.remaining_m);
+    f({"waypoint"}, self.waypoint);
+    f({"finished"}, self.finished);
   }
 };
 

@@ -5,8 +5,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "engine/api/field.h"
 #include "engine/math/pose.h"
 
 namespace vinerow {
@@ -14,19 +16,22 @@ namespace vinerow {
 /// Inertial measurement. ROS 2: sensor_msgs/msg/Imu.
 struct ImuSample {
   static constexpr const char* kType = "ImuSample";
+  static constexpr MessageFrame kFrame = MessageFrame::kOwn;
   Eigen::Vector3d w_WS_S = Eigen::Vector3d::Zero();  ///< rate gyro, rad/s
   Eigen::Vector3d f_WS_S =
       Eigen::Vector3d::Zero();  ///< specific force (at rest on level ground: +g along z), m/s2
 
-  template <class F>
-  void fields(F&& f) {
-    f(w_WS_S), f(f_WS_S);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"angular_velocity", "rad/s", "in the sensor"}, self.w_WS_S);
+    f({"specific_force", "m/s^2", "in the sensor"}, self.f_WS_S);
   }
 };
 
 /// Satellite position fix, both in WGS84 and in W. ROS 2: sensor_msgs/msg/NavSatFix.
 struct GnssFix {
   static constexpr const char* kType = "GnssFix";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   enum class Mode : std::uint8_t {
     kNone = 0,
     kStandalone = 1,  ///< code measurements alone
@@ -45,55 +50,84 @@ struct GnssFix {
   Eigen::Vector3d std_m = Eigen::Vector3d::Zero();  ///< 1 sigma east, north, up
   double velocity_std_mps = 0.0;                    ///< 1 sigma of each component; 0: not told
 
-  template <class F>
-  void fields(F&& f) {
-    f(valid), f(mode), f(satellites), f(velocity_std_mps), f(latitude_rad), f(longitude_rad),
-        f(altitude_m), f(p_W), f(v_W), f(std_m);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"valid"}, self.valid);
+    f({"mode"}, self.mode);
+    f({"satellites", "", "used; 0: not told"}, self.satellites);
+    f({"velocity_std", "m/s", "of each component; 0: not told"}, self.velocity_std_mps);
+    f({"latitude", "rad"}, self.latitude_rad);
+    f({"longitude", "rad"}, self.longitude_rad);
+    f({"altitude", "m", "above the ellipsoid"}, self.altitude_m);
+    f({"position", "m", "of the antenna in header.frame_id: east, north, up"}, self.p_W);
+    f({"velocity", "m/s"}, self.v_W);
+    f({"position_std", "m", "1 sigma east, north, up"}, self.std_m);
   }
 };
+
+inline std::span<const EnumName> enum_names(GnssFix::Mode) {
+  using enum GnssFix::Mode;
+  static constexpr EnumName kNames[] = {
+      enum_name(kNone, "NONE"),
+      enum_name(kStandalone, "STANDALONE"),
+      enum_name(kSbas, "SBAS"),
+      enum_name(kFloat, "FLOAT"),
+      enum_name(kFixed, "FIXED")};
+  return kNames;
+}
 
 /// One range reading along x of S. ROS 2: sensor_msgs/msg/Range.
 struct RangeSample {
   static constexpr const char* kType = "RangeSample";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   double range_m = 0.0;  ///< +infinity if nothing was seen
   double min_range_m = 0.0;
   double max_range_m = 0.0;
   double half_angle_rad = 0.0;
   Pose X_WS;  ///< true pose of the sensor at the reading, for pictures and checks
 
-  template <class F>
-  void fields(F&& f) {
-    f(range_m), f(min_range_m), f(max_range_m), f(half_angle_rad), f(X_WS.p), f(X_WS.q);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"range", "m", "+inf: nothing seen"}, self.range_m);
+    f({"min_range", "m"}, self.min_range_m);
+    f({"max_range", "m"}, self.max_range_m);
+    f({"half_angle", "rad", "half of the cone"}, self.half_angle_rad);
+    f({"sensor", "", "it looks along its x", true}, self.X_WS);
   }
 };
 
 /// Static pressure of the air. ROS 2: sensor_msgs/msg/FluidPressure.
 struct PressureSample {
   static constexpr const char* kType = "PressureSample";
+  static constexpr MessageFrame kFrame = MessageFrame::kOwn;
   double pressure_Pa = 0.0;
   double std_Pa = 0.0;
 
-  template <class F>
-  void fields(F&& f) {
-    f(pressure_Pa), f(std_Pa);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"pressure", "Pa"}, self.pressure_Pa);
+    f({"std", "Pa"}, self.std_Pa);
   }
 };
 
 /// Flux density of the magnetic field. ROS 2: sensor_msgs/msg/MagneticField.
 struct MagneticSample {
   static constexpr const char* kType = "MagneticSample";
+  static constexpr MessageFrame kFrame = MessageFrame::kOwn;
   Eigen::Vector3d field_S_T = Eigen::Vector3d::Zero();  ///< tesla, in S
   double std_T = 0.0;                                   ///< 1 sigma of each component
 
-  template <class F>
-  void fields(F&& f) {
-    f(field_S_T), f(std_T);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"field", "T", "in the sensor"}, self.field_S_T);
+    f({"std", "T", "of each component"}, self.std_T);
   }
 };
 
 /// One turn of a scanning rangefinder in the plane z = 0 of S. ROS 2: sensor_msgs/msg/LaserScan.
 struct LaserScan {
   static constexpr const char* kType = "LaserScan";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   double first_angle_rad = 0.0;  ///< of ranges_m[0], from x of S towards y
   double angle_step_rad = 0.0;
   double min_range_m = 0.0;
@@ -101,10 +135,14 @@ struct LaserScan {
   std::vector<double> ranges_m;  ///< +infinity where nothing was seen; constant in number
   Pose X_WS;                     ///< true pose of the sensor at the stamp, for pictures and checks
 
-  template <class F>
-  void fields(F&& f) {
-    f(first_angle_rad), f(angle_step_rad), f(min_range_m), f(max_range_m), f(ranges_m);
-    f(X_WS.p), f(X_WS.q);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"first_angle", "rad", "in the plane z = 0 of the sensor, from its x"}, self.first_angle_rad);
+    f({"angle_step", "rad"}, self.angle_step_rad);
+    f({"min_range", "m"}, self.min_range_m);
+    f({"max_range", "m"}, self.max_range_m);
+    f({"ranges", "m", "+inf: nothing seen"}, self.ranges_m);
+    f({"sensor", "", "", true}, self.X_WS);
   }
 };
 
@@ -114,15 +152,16 @@ struct AirData {
   static constexpr const char* kType = "AirData";
   Eigen::Vector3d v_air_B = Eigen::Vector3d::Zero();  ///< of the vehicle through the air, m/s
 
-  template <class F>
-  void fields(F&& f) {
-    f(v_air_B);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"velocity", "m/s", "of the vehicle through the air, in the body"}, self.v_air_B);
   }
 };
 
 /// One picture taken from above. ROS 2: vinerow_msgs/msg/CameraShot.
 struct CameraShot {
   static constexpr const char* kType = "CameraShot";
+  static constexpr MessageFrame kFrame = MessageFrame::kWorld;
   std::int32_t index = -1;  ///< counted from 0; -1: none yet
   Pose X_WS;                ///< x of S along the optical axis, y to the picture's left, z up in it
   /// Where the picture's corners meet the ground: upper left, upper right, lower right, lower left,
@@ -133,11 +172,15 @@ struct CameraShot {
   double distance_m = 0.0;  ///< to the ground along the optical axis
   double gsd_m = 0.0;       ///< ground sampling distance there
 
-  template <class F>
-  void fields(F&& f) {
-    f(index), f(X_WS.p), f(X_WS.q);
-    for (Eigen::Vector3d& corner : corners_W) f(corner);
-    f(on_ground), f(distance_m), f(gsd_m);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"index", "", "counted from 0; -1: none yet"}, self.index);
+    f({"camera", "", "it looks along its x, z up in the picture"}, self.X_WS);
+    f({"corners", "m", "on the ground: upper left, upper right, lower right, lower left"},
+      self.corners_W);
+    f({"on_ground", "", "every corner meets the ground"}, self.on_ground);
+    f({"distance", "m", "to the ground along the optical axis"}, self.distance_m);
+    f({"ground_sampling_distance", "m", "of a pixel there"}, self.gsd_m);
   }
 };
 
@@ -148,9 +191,11 @@ struct BatteryState {
   double energy_used_J = 0.0;  ///< since the start
   double charge = 1.0;         ///< remaining share of the capacity
 
-  template <class F>
-  void fields(F&& f) {
-    f(power_W), f(energy_used_J), f(charge);
+  template <class Self, class F>
+  static void fields(Self& self, F&& f) {
+    f({"power", "W", "drawn now"}, self.power_W);
+    f({"energy_used", "J", "since the start"}, self.energy_used_J);
+    f({"charge", "", "remaining share of the capacity, 0 to 1"}, self.charge);
   }
 };
 

@@ -1,11 +1,13 @@
 #pragma once
 /// Message values with every field filled by different numbers, and their comparison to the bit.
 
-#include <cstring>
+#include <array>
+#include <cmath>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "engine/api/message.h"
 #include "engine/api/messages.h"
 #include "engine/core/random.h"
 
@@ -16,8 +18,14 @@ struct FillField {
   RandomStream& random;
 
   template <class T>
+  void operator()(const FieldInfo&, T& value) const {
+    fill(value);
+  }
+
+ private:
+  template <class T>
   requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void operator()(T& value) {
+  void fill(T& value) const {
     if constexpr (std::is_enum_v<T>) {
       // Ranges differ: set by fill() below.
     } else if constexpr (std::is_same_v<T, bool>) {
@@ -28,26 +36,36 @@ struct FillField {
       value = 100 * random.normal();
     }
   }
-  void operator()(std::string& text) {
+  void fill(std::string& text) const {
     text.clear();
     for (auto n = random.next_u64() % 20; n > 0; --n) {
       text.push_back(static_cast<char>('a' + random.next_u64() % 26));
     }
   }
-  void operator()(Eigen::Vector3d& v) {
-    for (double& x : v) (*this)(x);
+  void fill(Eigen::Vector3d& v) const {
+    for (double& x : v) fill(x);
   }
-  void operator()(Eigen::Quaterniond& q) {
-    for (double& x : q.coeffs()) (*this)(x);
+  void fill(Eigen::Quaterniond& q) const {
+    for (double& x : q.coeffs()) fill(x);
     q.normalize();
   }
-  void operator()(std::vector<double>& values) {
-    for (double& x : values) (*this)(x);
+  void fill(Pose& pose) const {
+    fill(pose.p);
+    fill(pose.q);
   }
-  void operator()(std::vector<std::string>& texts) {
-    for (std::string& text : texts) (*this)(text);
+  template <HasFields T>
+  void fill(T& record) const {
+    T::fields(record, *this);
   }
-  void operator()(std::vector<std::uint8_t>& bytes) {
+  template <class T, std::size_t kCount>
+  void fill(std::array<T, kCount>& values) const {
+    for (T& value : values) fill(value);
+  }
+  template <class T>
+  void fill(std::vector<T>& values) const {
+    for (T& value : values) fill(value);
+  }
+  void fill(std::vector<std::uint8_t>& bytes) const {
     for (std::uint8_t& x : bytes) x = static_cast<std::uint8_t>(random.next_u64());
   }
 };
@@ -67,7 +85,7 @@ void fill(RandomStream& random, T& value) {
   if constexpr (std::is_same_v<T, PlannedPath>) value.points.resize(size);
   if constexpr (std::is_same_v<T, ReferenceTrajectory>) value.points.resize(size);
   if constexpr (std::is_same_v<T, LineList>) value.points_W.resize(2 * size);
-  value.fields(FillField{random});
+  T::fields(value, FillField{random});
   if constexpr (std::is_same_v<T, PlannedPath>) {
     for (PathPoint& point : value.points) point.kind = static_cast<PathKind>(random.next_u64() % 5);
   }
@@ -104,37 +122,48 @@ void fill(RandomStream& random, T& value) {
 struct CollectField {
   std::vector<std::uint8_t>& bytes;
 
-  void add(const void* data, std::size_t size) {
+  template <class T>
+  void operator()(const FieldInfo&, const T& value) const {
+    collect(value);
+  }
+
+ private:
+  void add(const void* data, std::size_t size) const {
     const auto* first = static_cast<const std::uint8_t*>(data);
     bytes.insert(bytes.end(), first, first + size);
   }
   template <class T>
   requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void operator()(const T& value) { add(&value, sizeof value); }
-  void operator()(const std::string& text) {
-    (*this)(text.size());
+  void collect(const T& value) const { add(&value, sizeof value); }
+  void collect(const std::string& text) const {
+    collect(text.size());
     add(text.data(), text.size());
   }
-  void operator()(const Eigen::Vector3d& v) { add(v.data(), 3 * sizeof(double)); }
-  void operator()(const Eigen::Quaterniond& q) { add(q.coeffs().data(), 4 * sizeof(double)); }
-  void operator()(const std::vector<double>& values) {
-    (*this)(values.size());
-    add(values.data(), values.size() * sizeof(double));
+  void collect(const Eigen::Vector3d& v) const { add(v.data(), 3 * sizeof(double)); }
+  void collect(const Eigen::Quaterniond& q) const { add(q.coeffs().data(), 4 * sizeof(double)); }
+  void collect(const Pose& pose) const {
+    collect(pose.p);
+    collect(pose.q);
   }
-  void operator()(const std::vector<std::uint8_t>& values) {
-    (*this)(values.size());
-    add(values.data(), values.size());
+  template <HasFields T>
+  void collect(const T& record) const {
+    T::fields(record, *this);
   }
-  void operator()(const std::vector<std::string>& texts) {
-    (*this)(texts.size());
-    for (const std::string& text : texts) (*this)(text);
+  template <class T, std::size_t kCount>
+  void collect(const std::array<T, kCount>& values) const {
+    for (const T& value : values) collect(value);
+  }
+  template <class T>
+  void collect(const std::vector<T>& values) const {
+    collect(values.size());
+    for (const T& value : values) collect(value);
   }
 };
 
 template <class T>
-std::vector<std::uint8_t> bytes_of(T value) {
+std::vector<std::uint8_t> bytes_of(const T& value) {
   std::vector<std::uint8_t> bytes;
-  value.fields(CollectField{bytes});
+  T::fields(value, CollectField{bytes});
   return bytes;
 }
 

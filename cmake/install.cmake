@@ -7,6 +7,7 @@ install(TARGETS vinerow_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY engine vehicles worlds controllers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vinerow
         FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY tools/testing/include/vinerow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${CMAKE_BINARY_DIR}/generated/vinerow/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vinerow)
 install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/vinerow)
 install(EXPORT vinerowTargets NAMESPACE vinerow:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vinerow)
 

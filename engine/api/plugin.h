@@ -4,21 +4,13 @@
 ///   void register_parts(vinerow::Registry& registry) { registry.add_controller(spec, factory); }
 ///   VINEROW_PLUGIN(register_parts)
 ///
-/// The loader compares the ABI tag compiled into the plug-in with its own and refuses a difference.
+/// The loader compares the ABI tag compiled into the plug-in (abi.h) with its own and refuses a
+/// difference in one sentence.
 
+#include "engine/api/abi.h"
 #include "engine/api/registry.h"
 
-/// Raised whenever a class or struct in engine/api changes its layout or virtual functions.
-#define VINEROW_ABI_VERSION 8
-
-/// ABI tag: our version, and the compiler's C++ ABI, so that a plug-in built otherwise is refused
-/// by name.
-#define VINEROW_ABI_STRINGIFY_2(x) #x
-#define VINEROW_ABI_STRINGIFY(x) VINEROW_ABI_STRINGIFY_2(x)
-#define VINEROW_ABI_TAG                                                                       \
-  "vinerow-abi-" VINEROW_ABI_STRINGIFY(VINEROW_ABI_VERSION) "-cxxabi-" VINEROW_ABI_STRINGIFY( \
-      __GXX_ABI_VERSION)
-
+/// Makes a shared library a plug-in. @param register_function  void(vinerow::Registry&)
 #define VINEROW_PLUGIN(register_function)                                              \
   extern "C" __attribute__((visibility("default"))) const char* vinerow_plugin_abi() { \
     return VINEROW_ABI_TAG;                                                            \

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 #include <vector>
+#include <vinerow/version.h>
 
 #include "engine/api/messages.h"
 #include "engine/core/error.h"
@@ -82,7 +83,7 @@ struct Recorder::Impl {
         flush_period(std::chrono::duration_cast<WallClock::duration>(
             std::chrono::duration<double>(options.flush_wall_s))),
         writer(file, options.compression, options.chunk_bytes, "ros2",
-               std::string("vinerow ") + VINEROW_VERSION) {}
+               "vinerow " VINEROW_VERSION_STRING) {}
 
   std::uint16_t schema_id(const std::string& type, const std::string& definition) {
     // Two plug-ins may mean different things by one name.

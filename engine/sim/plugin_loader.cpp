@@ -3,10 +3,11 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <string_view>
+#include <string>
 
 #include "engine/api/plugin.h"
 #include "engine/core/error.h"
+#include "engine/sim/abi_difference.h"
 
 namespace vinerow {
 
@@ -27,10 +28,11 @@ void load_plugin(const std::filesystem::path& file, Registry& registry) {
     throw ConfigError(fmt::format(
         "'{}' is not a Vinerow plug-in: it has no VINEROW_PLUGIN(...) line", file.string()));
   }
-  if (std::string_view(abi()) != VINEROW_ABI_TAG) {
-    throw ConfigError(
-        fmt::format("plug-in '{}' was built for '{}', this program is '{}'; build it again",
-                    file.string(), abi(), VINEROW_ABI_TAG));
+  const std::string difference = abi_difference(abi(), VINEROW_ABI_TAG);
+  if (!difference.empty()) {
+    throw ConfigError(fmt::format(
+        "plug-in '{}' {}; build it again with the headers and flags of this vinerow", file.string(),
+        difference));
   }
   registry.set_origin(file.string());
   try {

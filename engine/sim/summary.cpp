@@ -1,8 +1,11 @@
 #include "engine/sim/summary.h"
 
+#include <fmt/format.h>
+#include <vinerow/version.h>
+
 #include <nlohmann/json.hpp>
 
-#include "engine/api/plugin.h"
+#include "engine/api/abi_version.h"
 #include "engine/api/world_model.h"
 
 namespace vinerow {
@@ -101,7 +104,7 @@ const char* status_name(const RunResult& result) {
 }  // namespace
 
 std::string program_version() {
-  return VINEROW_VERSION;
+  return VINEROW_VERSION_STRING;
 }
 
 std::string summary_json(const RunResult& result, Simulation& simulation) {
@@ -138,7 +141,9 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   summary["notes"] = simulation.world().notes;
   summary["cost"] = cost_json(simulation);
   summary["versions"] = {
-      {"vinerow", program_version()}, {"abi", VINEROW_ABI_TAG}, {"compiler", __VERSION__}};
+      {"vinerow", program_version()},
+      {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
+      {"compiler", __VERSION__}};
   return summary.dump(2) + "\n";
 }
 

@@ -147,6 +147,15 @@ TEST(Plugins, WrongOnesAreRefusedByName) {
                  {"vinerow_test_old_abi", "vinerow-abi-0-cxxabi-1000", "build it again"});
 }
 
+#if defined(__x86_64__) && !defined(__AVX__)
+TEST(Plugins, OneCompiledForWiderVectorsIsRefused) {
+  expect_refused("list --plugin " + plugin("vinerow_test_other_alignment"),
+                 {"vinerow_test_other_alignment",
+                  "was compiled with 32-byte alignment (-mavx or -march=native?), this vinerow uses "
+                  "16; build it again"});
+}
+#endif
+
 /// Runs the demo with a misbehaving controller.
 void expect_broken_off(const std::string& controller, const std::string& text) {
   const ScratchFolder folder("broken_" + controller);

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages.h"
 #include "engine/api/registry.h"
 
 namespace vinerow {

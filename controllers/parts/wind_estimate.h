@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/api/forward.h"
+#include "engine/api/messages/motion.h"
 #include "engine/api/messages/sensors.h"
 
 namespace vinerow {

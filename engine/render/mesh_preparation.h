@@ -2,6 +2,7 @@
 /// From a TriangleMesh to what the GPU draws: compact vertices with normals, and card pictures
 /// chosen.
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 

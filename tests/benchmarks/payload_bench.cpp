@@ -44,7 +44,7 @@ void payload_tick(benchmark::State& state, const char* type, double height_m) {
   context.scene = &v.world.scene();
   context.world = v.model.get();
   context.vehicle_description = &description;
-  context.map = &v.model->rows;
+  context.map = &*v.model->rows;
   ParameterSet parameters(spec.parameters, type);
   // The tank lasts.
   if (spec.name == "sprayer") parameters.set("tank_l", 1e9);

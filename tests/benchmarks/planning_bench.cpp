@@ -27,7 +27,7 @@ struct ParcelF {
     context.seed = seed;
     context.vehicle = "rover";
     context.part = "rover.planner";
-    context.map = &world->rows;
+    context.map = &*world->rows;
     context.vehicle_description = &vehicle;
     ParameterSet parameters(registry.spec(PartKind::kPlanner, "rrt_star").parameters, "rrt_star");
     parameters.set("alleys", alleys);

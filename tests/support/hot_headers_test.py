@@ -19,7 +19,7 @@ MOST = {
     "engine/api/world_model.h": 220,
     "engine/api/mesh.h": 360,
     "engine/api/height_field.h": 340,
-    "engine/api/messages.h": 65,
+    "engine/api/messages.h": 80,
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.MULTILINE)

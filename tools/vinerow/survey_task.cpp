@@ -7,6 +7,7 @@
 
 #include "controllers/planning/survey.h"
 #include "controllers/planning/survey_params.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/io/geojson.h"
 #include "engine/io/raster.h"
@@ -176,7 +177,7 @@ SurveyTask task_of_scenario(const SurveyArguments& arguments, const io::Scenario
     set_values(arguments.values, parameters);
     PlannerContext context;
     context.vehicle_description = &runtime->vehicle().description();
-    context.map = &simulation.world().rows;
+    context.map = &*simulation.world().rows;
     context.scene = &simulation.physics().scene();
     context.origin = task.origin;
     context.gravity_mps2 = scenario.gravity_mps2;

@@ -92,7 +92,7 @@ struct PayloadRig {
     context.vehicle_truth = &vehicle;
     vehicle.description_.height_above_ground_m = 0.4;
     context.vehicle_description = &vehicle.description();
-    context.map = map != nullptr ? map : &world.rows;
+    context.map = map != nullptr ? map : &*world.rows;
     payload = vehicle_registry().make_payload(type, parameters, context);
     Ports ports(bus, "rover", "rover.p");
     payload->connect(ports);

@@ -203,7 +203,7 @@ inline constexpr Access kChoice = {
       for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i] == *static_cast<const T*>(member)) return Value(row.spec.choices[i]);
       }
-      return Value(std::string("?"));
+      return Value(std::string("(no such value)"));
     }};
 
 template <class T>
@@ -443,7 +443,8 @@ class ParameterTable {
     validate(params, who);
     return params;
   }
-  /// The other way round: a set that holds the struct's values. @throws ConfigError as validate does
+  /// The other way round: a set that holds the struct's values.
+  /// @throws ConfigError for a value out of its range
   ParameterSet write(const P& params, const std::string& owner = "") const {
     return rows_.write(&params, owner);
   }

@@ -297,7 +297,7 @@ TEST(ParameterTable, AStructFilledInCodeMeetsTheSameLimitsAsAFile) {
             "rover: gear_damping_Ns_per_m = 2000 N s/m, must be >= 0 N s/m and <= 1000 N s/m");
   params = {};
   params.layout = static_cast<Layout>(7);
-  EXPECT_EQ(fault_of(params), "rover: layout = '?', must be one of: x, plus");
+  EXPECT_EQ(fault_of(params), "rover: layout = '(no such value)', must be one of: x, plus");
 }
 
 TEST(ParameterTable, RulesAcrossMembersHoldOnEveryWayIn) {

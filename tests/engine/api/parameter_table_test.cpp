@@ -10,7 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::parameter_table_test {
 namespace {
 
 enum class Layout { kX, kPlus };
@@ -348,4 +348,4 @@ TEST(ParameterTable, WordsAndValuesHaveOneMap) {
 }
 
 }  // namespace
-}  // namespace vinerow
+}  // namespace vinerow::parameter_table_test

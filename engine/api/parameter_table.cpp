@@ -331,10 +331,15 @@ std::vector<ParameterSpec> Rows::specs() const {
   return specs;
 }
 
-void Rows::read(const ParameterSet& parameters, void* base) const {
+void Rows::read(const ParameterSet& parameters, void* base, const std::string& who) const {
   for (const Row& row : rows_) {
     const Value* value = parameters.find(row.spec.name);
-    if (value) row.access->set(row, *value, address(base, row.offset));
+    if (!value) continue;
+    try {
+      row.access->set(row, *value, address(base, row.offset));
+    } catch (const ConfigError& error) {
+      throw ConfigError(place(who, error.what()));
+    }
   }
 }
 

@@ -138,7 +138,8 @@ class Rows {
   Row& named(const std::string& name);
 
   std::vector<ParameterSpec> specs() const;
-  void read(const ParameterSet& parameters, void* base) const;
+  /// @param who  begins the error of a value that its member cannot hold, "" for none
+  void read(const ParameterSet& parameters, void* base, const std::string& who) const;
   ParameterSet write(const void* base, const std::string& owner) const;
   void validate(const void* base, const std::string& who) const;
 
@@ -210,9 +211,9 @@ template <class T>
 inline constexpr Access kGroup = {
     [](const Row& row, const Value& value, void* member) {
       if constexpr (kIsOptional<T>) {
-        rows_of(row).read(groups_of(value).front(), &static_cast<T*>(member)->emplace());
+        rows_of(row).read(groups_of(value).front(), &static_cast<T*>(member)->emplace(), "");
       } else {
-        rows_of(row).read(groups_of(value).front(), member);
+        rows_of(row).read(groups_of(value).front(), member, "");
       }
     },
     [](const Row& row, const void* member) -> std::optional<Value> {
@@ -241,7 +242,7 @@ inline constexpr Access kGroups = {
       T& list = *static_cast<T*>(member);
       list.clear();
       for (const ParameterSet& group : groups_of(value)) {
-        rows_of(row).read(group, &list.emplace_back());
+        rows_of(row).read(group, &list.emplace_back(), "");
       }
     },
     [](const Row& row, const void* member) -> std::optional<Value> {
@@ -439,7 +440,7 @@ class ParameterTable {
   /// @throws ConfigError as validate does
   P read(const ParameterSet& parameters, const std::string& who) const {
     P params{};
-    rows_.read(parameters, &params);
+    rows_.read(parameters, &params, who);
     validate(params, who);
     return params;
   }

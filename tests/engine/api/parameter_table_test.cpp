@@ -323,7 +323,7 @@ TEST(ParameterTable, WholeNumbersMustFitTheirMember) {
   parameters.set("iterations", std::int64_t{1} << 33);
   EXPECT_EQ(table().read(parameters, "").iterations, std::int64_t{1} << 33);
   parameters.set("missing_rows", std::vector<double>{1, 2.5});
-  EXPECT_EQ(refusal(parameters), "missing_rows[1] = 2.5, must be a whole number");
+  EXPECT_EQ(refusal(parameters), "rover: missing_rows[1] = 2.5, must be a whole number");
 }
 
 TEST(ParameterTable, WritesAStructAsASetThatReadsBack) {

@@ -60,7 +60,7 @@ PartSpec rrt_star_spec() {
   spec.description =
       "Plans legs along the alleys and turns on the occupancy grid: a first turn in closed form, "
       "improved by RRT* (Karaman, Frazzoli 2011) in OMPL for a car-like vehicle (paper A, 4.1).";
-  spec.parameters = route_planner_parameters();
+  spec.parameters = route_planner_table().specs();
   for (ParameterSpec& parameter : rrt_star_search_parameters()) {
     spec.parameters.push_back(std::move(parameter));
   }

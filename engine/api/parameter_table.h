@@ -204,6 +204,9 @@ inline constexpr Access kChoice = {
       for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i] == *static_cast<const T*>(member)) return Value(row.spec.choices[i]);
       }
+      if constexpr (kIsOptional<T>) {
+        if (!*static_cast<const T*>(member)) return std::nullopt;
+      }
       return Value(std::string("(no such value)"));
     }};
 
@@ -318,6 +321,7 @@ class ParameterTable {
     return plain(std::move(name), ParameterKind::kPath, member, std::move(words));
   }
   /// One of some words: an enum, or whatever copies and compares. The words are the spec's choices.
+  /// An empty std::optional that no word stands for is absent.
   template <class F, class T = std::remove_cvref_t<std::invoke_result_t<F, P&>>>
   ParameterTable& choice(std::string name, F member, std::initializer_list<Choice<T>> choices,
                          std::string words) {

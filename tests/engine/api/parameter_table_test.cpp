@@ -46,6 +46,7 @@ struct Params {
   std::vector<std::string> words = {"a"};
   Layout layout = Layout::kPlus;
   std::optional<End> first_wall;
+  std::optional<Layout> spare_layout;
   Eigen::Vector3d inertia_kgm2 = {0.05, 0.05, 0.09};
   std::array<double, 2> pair_rad = {rad_from_deg(10.0), rad_from_deg(20.0)};
   std::vector<double> heights_m = {1.0, 2.0};
@@ -103,6 +104,7 @@ const ParameterTable<Params>& table() {
           .choice("layout", &P::layout, kLayouts, "of the rotors")
           .choice("first_wall", &P::first_wall,
                   {{"auto", std::nullopt}, {"first", End::kFirst}, {"last", End::kLast}}, "walled")
+          .choice("spare_layout", &P::spare_layout, kLayouts, "of one more machine")
           .numbers("inertia_kgm2", "kg m2", &P::inertia_kgm2, kPositive, "about the axes")
           .numbers("pair_deg", "deg", &P::pair_rad, between(-90, 90), "both", 0, kDegrees)
           .numbers("heights_m", "m", &P::heights_m, kAnyNumber, "of nozzles")
@@ -184,18 +186,21 @@ TEST(ParameterTable, SpecsHaveNamesUnitsRangesWordsAndTheInitialisersAsDefaults)
 }
 
 TEST(ParameterTable, OptionalMembersPathsAndGroupsAreAbsentUnlessGiven) {
-  for (const char* name : {"drag_area_m2", "file", "antenna_m", "spare_leg", "faults"}) {
+  for (const char* name :
+       {"drag_area_m2", "file", "spare_layout", "antenna_m", "spare_leg", "faults"}) {
     EXPECT_TRUE(
         std::holds_alternative<std::monostate>(spec_of(table().specs(), name).default_value))
         << name;
   }
   const Params params = table().read(defaults(), "");
-  EXPECT_FALSE(params.drag_area_m2 || params.antenna_m || params.spare_leg);
+  EXPECT_FALSE(params.drag_area_m2 || params.spare_layout || params.antenna_m || params.spare_leg);
   ParameterSet given = defaults();
   given.set("drag_area_m2", 0.3).set("antenna_m", std::vector<double>{1, 2, 3});
+  given.set("spare_layout", std::string("plus"));
   const Params filled = table().read(given, "");
   EXPECT_EQ(filled.drag_area_m2, 0.3);
   EXPECT_EQ(*filled.antenna_m, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(filled.spare_layout, Layout::kPlus);
 }
 
 TEST(ParameterTable, DegreesAreRoundInTheFileAndExactInTheMember) {

@@ -33,9 +33,10 @@ struct GivenParams {
   std::optional<double> approach_mps;
 };
 
-using End = WaypointGuidanceParams::End;
-constexpr std::array<Choice<End>, 3> kEnds = {
-    {{"land", End::kLand}, {"loiter", End::kLoiter}, {"stop", End::kStop}}};
+using MissionEnd = WaypointGuidanceParams::End;
+constexpr std::array<Choice<MissionEnd>, 3> kEnds = {{{"land", MissionEnd::kLand},
+                                                      {"loiter", MissionEnd::kLoiter},
+                                                      {"stop", MissionEnd::kStop}}};
 
 std::string find_fault_in_landing(const GivenParams& given) {
   const WaypointGuidanceParams& p = given.params;
@@ -45,7 +46,7 @@ std::string find_fault_in_landing(const GivenParams& given) {
       {"land_course_deg", p.land_course_rad.has_value()},
       {"approach_speed_mps", given.approach_mps.has_value()}};
   for (const auto& [name, is_given] : words) {
-    if (p.end == End::kLand || !is_given) continue;
+    if (p.end == MissionEnd::kLand || !is_given) continue;
     return fmt::format("{} says how to land, but end is '{}'", name, name_of(kEnds, p.end));
   }
   if (p.flare_m < p.approach_height_m) return "";

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "engine/api/registry.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "tests/support/paths.h"
 #include "worlds/register.h"

@@ -7,6 +7,7 @@
 #include "controllers/dwa/dwa_params.h"
 #include "engine/api/map.h"
 #include "engine/api/messages/event.h"
+#include "engine/api/parameter_table.h"
 #include "engine/math/pose.h"
 
 namespace vinerow {
@@ -49,14 +50,14 @@ class SteeringReader {
 
 class Dwa final : public Guidance {
  public:
-  Dwa(const ParameterSet& parameters, const ControllerContext& context)
+  Dwa(const DwaPartParams& params, const ControllerContext& context)
       : source_(context.part),
         known_(context.map != nullptr ? DistanceField(context.map->occupancy) : DistanceField()),
         rangers_(find_rangers(context)),
-        memory_(read_obstacle_memory_params(parameters), rangers_, known_,
+        memory_(params.memory, rangers_, known_,
                 context.vehicle_description->outline_B(),
                 context.vehicle_description->height_above_ground_m),
-        guide_(read_dwa_params(parameters, context), read_dwa_outline(parameters, context),
+        guide_(params.guide, make_dwa_outline(params, context),
                context.vehicle_description->outline_B(), known_) {}
 
   void connect(Ports& ports) override {
@@ -165,7 +166,7 @@ PartSpec dwa_spec() {
       "Dynamic window approach in (v, front, rear axle angle) with obstacles that ultrasound sees "
       "(paper A, eq. 23 corrected); follows the plan where it is free, else passes, backs out or "
       "stands.";
-  spec.parameters = dwa_parameters();
+  spec.parameters = dwa_table().specs();
   spec.default_rate_Hz = 10.0;
   spec.reads = {"estimate", "plan", "<ultrasound sensors>", "encoders", "actuators", "authority"};
   spec.writes = {"local_command", "guidance_event"};
@@ -174,7 +175,7 @@ PartSpec dwa_spec() {
 
 std::unique_ptr<Guidance> make_dwa(const ParameterSet& parameters,
                                    const ControllerContext& context) {
-  return std::make_unique<Dwa>(parameters, context);
+  return std::make_unique<Dwa>(read_dwa_params(parameters, context), context);
 }
 
 }  // namespace vinerow

@@ -24,13 +24,14 @@
 #include "controllers/parts/pose2.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/api/stepped_parts.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
 struct ObstacleMemoryParams {
   double obstacle_range_m = 2.5;
   double map_tolerance_m = 0.25;
-  double ground_slope_rad = 0.0873;  ///< 5 deg: ground ahead rises by at most this
+  double ground_slope_rad = rad_from_deg(5.0);  ///< ground ahead rises by at most this
   int consistent_echoes = 2;
   double consistency_m = 0.25;  ///< readings in a row differ by less
   int hits = 2;

@@ -13,6 +13,7 @@
 #include "controllers/estimation/map_watch.h"
 #include "controllers/estimation/range_sensors.h"
 #include "engine/api/messages/commands.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
@@ -21,26 +22,62 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// All parameters of the estimator.
+struct DistanceEstimatorParams {
+  std::string ins = "ins", gps = "gps";            ///< signals
+  Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
+  std::vector<std::string> ranges;                 ///< range sensors; empty: all ultrasounds
+  bool use_map = true;
+  double start_std_m = 0.26;
+  double range_bound_m = 0.003;
+  bool cone = true;
+  double cone_half_angle_rad = rad_from_deg(15.0);
+  int fan_rays = 7;
+  GroundParams ground;
+  DistanceFilterOptions filter;
+};
+
+const ParameterTable<DistanceEstimatorParams>& distance_filter_table() {
+  using P = DistanceEstimatorParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("ins", &P::ins, "signal of the inertial unit: velocity, attitude, position")
+          .text("gps", &P::gps, "signal of the satellite receiver")
+          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+                   "where the antenna sits in B (x, y, z); taken off the fix")
+          .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasounds")
+          .boolean("use_map", &P::use_map, "false: satellite fixes and inertial unit only")
+          .number("start_std_m", "m", &P::start_std_m, between(1e-3, 100.0),
+                  "how well each coordinate of the start is known (paper C: 0.26)")
+          .number("range_bound_m", "m", &P::range_bound_m, kPositive,
+                  "largest error of a range (HC-SR04: 3 mm)")
+          .boolean("cone", &P::cone,
+                   "the sensor's cone is part of the prediction; false: a single ray")
+          .degrees("cone_half_angle_deg", &P::cone_half_angle_rad, between(0.1, 60.0),
+                   "half angle of that cone")
+          .integer("fan_rays", &P::fan_rays, between(1, 101),
+                   "rays over the cone; an even number is raised by one")
+          .include(&P::ground, ground_table())
+          .include(&P::filter, distance_filter_law_table());
+  return table;
+}
+
 std::string distance_filter_name(const EstimatorContext& context) {
   return context.part + " (distance_filter)";
 }
 
-const RowMap* find_map(const ParameterSet& parameters, const EstimatorContext& context) {
-  return parameters.boolean("use_map") ? context.map : nullptr;
-}
-
-std::vector<RangeSensorModel> read_filter_sensors(const ParameterSet& parameters,
-                                                  const EstimatorContext& context,
-                                                  const GroundReference& ground) {
-  if (!parameters.boolean("use_map")) return {};
+std::vector<RangeSensorModel> make_filter_sensors(const DistanceEstimatorParams& params,
+                                                 const EstimatorContext& context,
+                                                 const GroundReference& ground) {
+  if (!params.use_map) return {};
   std::vector<RangeSensorModel> sensors =
-      find_range_sensors(parameters.texts("ranges"), context, distance_filter_name(context));
+      find_range_sensors(params.ranges, context, distance_filter_name(context));
   std::erase_if(sensors, [&](const RangeSensorModel& s) { return ground.looks_down(s.name); });
   for (RangeSensorModel& sensor : sensors) {
-    sensor.bound_m = parameters.number("range_bound_m");
-    if (parameters.boolean("cone")) {
-      sensor.half_angle_rad = rad_from_deg(parameters.number("cone_half_angle_deg"));
-      sensor.fan_rays = static_cast<int>(parameters.integer("fan_rays")) | 1;
+    sensor.bound_m = params.range_bound_m;
+    if (params.cone) {
+      sensor.half_angle_rad = params.cone_half_angle_rad;
+      sensor.fan_rays = params.fan_rays | 1;
     }
   }
   return sensors;
@@ -48,22 +85,22 @@ std::vector<RangeSensorModel> read_filter_sensors(const ParameterSet& parameters
 
 class DistanceFilter final : public Estimator {
  public:
-  DistanceFilter(const ParameterSet& parameters, const EstimatorContext& context)
-      : ins_name_(parameters.text("ins")),
-        gps_name_(parameters.text("gps")),
-        start_std_m_(parameters.number("start_std_m")),
-        yaw_std_rad_(rad_from_deg(parameters.number("yaw_std_deg"))),
-        inertial_std_m_(parameters.number("inertial_std_m")),
-        ground_(parameters, context, find_map(parameters, context), distance_filter_name(context)),
-        sensors_(read_filter_sensors(parameters, context, ground_)),
+  DistanceFilter(const DistanceEstimatorParams& params, const EstimatorContext& context)
+      : ins_name_(params.ins),
+        gps_name_(params.gps),
+        start_std_m_(params.start_std_m),
+        yaw_std_rad_(params.filter.yaw_std_rad),
+        inertial_std_m_(params.filter.inertial_std_m),
+        ground_(params.ground, context, params.use_map ? context.map : nullptr,
+                distance_filter_name(context)),
+        sensors_(make_filter_sensors(params, context, ground_)),
         index_(make_index(context)),
-        law_(read_distance_filter_params(parameters),
+        law_(make_distance_filter_params(params.filter),
              context.map != nullptr ? context.map->accuracy : MapAccuracy{},
              index_ ? &*index_ : nullptr, sensors_),
         random_(context.random()),
+        p_BA_(params.p_BA),
         seen_ranges_(sensors_.size(), 0) {
-    const auto& antenna = parameters.numbers("antenna_m");
-    p_BA_ = {antenna[0], antenna[1], antenna[2]};
     readings_.reserve(sensors_.size());
     taken_.resize(sensors_.size());
     state_.names = {"echoes",      "echoes_gated",  "echoes_unmatched", "fixes",
@@ -218,7 +255,7 @@ class DistanceFilter final : public Estimator {
   std::optional<RowMeshIndex> index_;
   DistanceFilterLaw law_;
   RandomStream random_;
-  Vector3d p_BA_ = Vector3d::Zero();
+  Vector3d p_BA_;
   int ground_echoes_ = 0;
   std::vector<std::uint64_t> seen_ranges_;
   std::vector<char> taken_;
@@ -246,25 +283,7 @@ PartSpec distance_filter_spec() {
   spec.description =
       "Position from an inertial unit, satellite fixes and echoes off mapped rows: the 3D distance "
       "filter of Donati et al. 2022, section 3, in several readings, and an EKF on the range.";
-  spec.parameters = {
-      text_parameter("ins", "ins", "signal of the inertial unit: velocity, attitude, position"),
-      text_parameter("gps", "gps", "signal of the satellite receiver"),
-      number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
-                            "where the antenna sits in B (x, y, z); taken off the fix", 3),
-      text_list_parameter("ranges", {}, "names of the range sensors; empty: all ultrasounds"),
-      boolean_parameter("use_map", true, "false: satellite fixes and inertial unit only"),
-      number_parameter("start_std_m", "m", 0.26, 1e-3, 100.0,
-                       "how well each coordinate of the start is known (paper C: 0.26)"),
-      positive_parameter("range_bound_m", "m", 0.003, "largest error of a range (HC-SR04: 3 mm)"),
-      boolean_parameter("cone", true,
-                        "the sensor's cone is part of the prediction; false: a single ray"),
-      number_parameter("cone_half_angle_deg", "deg", 15.0, 0.1, 60.0, "half angle of that cone"),
-      integer_parameter("fan_rays", 7, 1, 101,
-                        "rays over the cone; an even number is raised by one"),
-  };
-  for (auto&& more : {ground_parameters(), distance_filter_parameters()}) {
-    spec.parameters.insert(spec.parameters.end(), more.begin(), more.end());
-  }
+  spec.parameters = distance_filter_table().specs();
   spec.default_rate_Hz = 100.0;
   spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>"};
   spec.writes = {"estimate", "ellipsoid", "estimator_state", "estimator_event"};
@@ -273,7 +292,8 @@ PartSpec distance_filter_spec() {
 
 std::unique_ptr<Estimator> make_distance_filter(const ParameterSet& parameters,
                                                 const EstimatorContext& context) {
-  return std::make_unique<DistanceFilter>(parameters, context);
+  return std::make_unique<DistanceFilter>(
+      distance_filter_table().read(parameters, distance_filter_name(context)), context);
 }
 
 }  // namespace vinerow

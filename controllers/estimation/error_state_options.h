@@ -5,23 +5,30 @@
 
 #include "controllers/estimation/error_state_kalman.h"
 #include "engine/api/part.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
 struct ErrorStateOptions {
-  ErrorStateKalmanParams filter;
-  std::string imu, gnss, barometer, magnetometer, wheels;  ///< signals; empty: none
+  // Noise: VectorNav VN-100/VN-200 data sheet (gyro 0.0035 deg/s/rtHz and 10 deg/h in-run,
+  // accelerometer 0.14 mg/rtHz and 0.04 mg in-run). The walks reach the in-run figure within 100 s.
+  ErrorStateKalmanParams filter{.imu = {.gyro_radps_rtHz = rad_from_deg(0.0035),
+                                        .accel_mps2_rtHz = 0.00137,
+                                        .gyro_walk_radps2_rtHz = rad_from_deg(2.8e-4),
+                                        .accel_walk_mps3_rtHz = 3.9e-5}};
+  std::string imu = "imu", gnss = "gps";        ///< signals
+  std::string barometer, magnetometer, wheels;  ///< signals; empty: none
 
   bool starts_level = false;  ///< by levelling instead of a draw about the truth
   double levelling_s = 1.0;
   double start_yaw_rad = 0.0;
   double start_std_m = 0.5;
-  double start_height_std_m = 0.5;
+  double start_height_std_m = 0.0;  ///< 0: as start_std_m; read() puts that in its place
   double start_velocity_std_mps = 0.05;
-  double start_tilt_std_rad = 0.0;
-  double start_yaw_std_rad = 0.0;
-  double gyro_bias_std_radps = 0.0;
-  double accel_bias_std_mps2 = 0.0;
+  double start_tilt_std_rad = rad_from_deg(1.0);
+  double start_yaw_std_rad = rad_from_deg(2.0);
+  double gyro_bias_std_radps = rad_from_deg(0.02);
+  double accel_bias_std_mps2 = 0.02;
 
   double gate_sigma = 5.0;
   double restart_after_s = 5.0;
@@ -30,7 +37,7 @@ struct ErrorStateOptions {
   double gnss_correlation_s = 0.0;
   double barometer_std_m = 0.5;
   double barometer_correlation_s = 10.0;
-  double magnetometer_std_rad = 0.05;
+  double magnetometer_std_rad = rad_from_deg(3.0);
   double magnetometer_correlation_s = 1.0;
   double declination_rad = 0.0;
   double wheel_std_mps = 0.1;

@@ -1,19 +1,38 @@
 #include "controllers/estimation/gps_pose.h"
 
 #include "controllers/estimation/heading_source.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
 
+struct GpsPoseParams {
+  std::string gps = "gps";                         ///< signal
+  Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
+  bool extrapolate = false;
+  HeadingParams heading;
+};
+
+const ParameterTable<GpsPoseParams>& gps_pose_table() {
+  using P = GpsPoseParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("gps", &P::gps, "signal of the satellite receiver")
+          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+                   "where the antenna sits in B (x, y, z); taken off the fix")
+          .boolean("extrapolate", &P::extrapolate,
+                   "carry the fix on by its velocity until the next one comes")
+          .include(&P::heading, heading_table());
+  return table;
+}
+
 class GpsPose final : public Estimator {
  public:
-  GpsPose(const ParameterSet& parameters, const EstimatorContext& context)
-      : gps_name_(parameters.text("gps")),
-        extrapolate_(parameters.boolean("extrapolate")),
-        heading_(parameters, context.period) {
-    const auto& antenna = parameters.numbers("antenna_m");
-    p_BA_ = {antenna[0], antenna[1], antenna[2]};
-  }
+  GpsPose(const GpsPoseParams& params, const EstimatorContext& context)
+      : gps_name_(params.gps),
+        extrapolate_(params.extrapolate),
+        heading_(params.heading, context.period),
+        p_BA_(params.p_BA) {}
 
   void connect(Ports& ports) override {
     gps_ = ports.read<GnssFix>(gps_name_);
@@ -62,16 +81,7 @@ PartSpec gps_pose_spec() {
       "Takes the last satellite fix as the position, unfiltered (Martelli, Mocera, Soma 2024, "
       "location "
       "error), and the heading from the truth or a gyro.";
-  spec.parameters = {
-      text_parameter("gps", "gps", "signal of the satellite receiver"),
-      number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
-                            "where the antenna sits in B (x, y, z); taken off the fix", 3),
-      boolean_parameter("extrapolate", false,
-                        "carry the fix on by its velocity until the next one comes"),
-  };
-  for (ParameterSpec& parameter : HeadingSource::parameters()) {
-    spec.parameters.push_back(std::move(parameter));
-  }
+  spec.parameters = gps_pose_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<gps>", "truth", "<imu>"};
   spec.writes = {"estimate"};
@@ -80,7 +90,8 @@ PartSpec gps_pose_spec() {
 
 std::unique_ptr<Estimator> make_gps_pose(const ParameterSet& parameters,
                                          const EstimatorContext& context) {
-  return std::make_unique<GpsPose>(parameters, context);
+  return std::make_unique<GpsPose>(gps_pose_table().read(parameters, context.part + " (gps_pose)"),
+                                   context);
 }
 
 }  // namespace vinerow

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "controllers/estimation/range_sensors.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/vehicle.h"
 #include "engine/core/error.h"
 
@@ -17,42 +18,43 @@ constexpr double kGrass_m = 0.1;          // and clods, that echo before the gro
 constexpr double kGradeStd = 0.05;        // of the plane's slope, where it leaves the rows
 
 /// Of the body's origin, where the vehicle rolls on the ground.
-std::optional<double> standing_height_m(const ParameterSet& parameters,
+std::optional<double> standing_height_m(const std::optional<bool>& on_ground,
                                         const VehicleDescription* vehicle, const RowMap* map,
                                         const std::string& who) {
   const bool may =
       vehicle != nullptr && !vehicle->flies() && map != nullptr && map->rows.size() >= 2;
-  if (parameters.has("on_ground") && parameters.boolean("on_ground") && !may) {
+  if (on_ground.value_or(false) && !may) {
     throw ConfigError(fmt::format("{}: on_ground is true, but {}", who,
                                   vehicle == nullptr ? "nothing is known of the vehicle"
                                   : vehicle->flies() ? "the vehicle flies"
                                                      : "the map has no two rows that tell its "
                                                        "ground"));
   }
-  if (!may || (parameters.has("on_ground") && !parameters.boolean("on_ground"))) {
-    return std::nullopt;
-  }
+  if (!may || !on_ground.value_or(true)) return std::nullopt;
   return vehicle->height_above_ground_m;
 }
 
 }  // namespace
 
-std::vector<ParameterSpec> ground_parameters() {
-  return {text_parameter("down", "", "name of a range sensor that looks at the ground; '' = none"),
-          optional(boolean_parameter(
-              "on_ground", true,
-              "whether wheels stand on the mapped ground, which tells the height; if absent: yes "
-              "for what does not fly")),
-          positive_parameter("ground_std_m", "m", 0.05,
-                             "1 sigma of a height above the ground between the rows")};
+const ParameterTable<GroundParams>& ground_table() {
+  using P = GroundParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("down", &P::down, "name of a range sensor that looks at the ground; '' = none")
+          .boolean("on_ground", &P::on_ground,
+                   "whether wheels stand on the mapped ground, which tells the height; if absent: "
+                   "yes for what does not fly")
+          .number("ground_std_m", "m", &P::ground_std_m, kPositive,
+                  "1 sigma of a height above the ground between the rows");
+  return table;
 }
 
-GroundReference::GroundReference(const ParameterSet& parameters, const EstimatorContext& context,
+GroundReference::GroundReference(const GroundParams& params, const EstimatorContext& context,
                                  const RowMap* map, const std::string& who)
-    : ground_std_m_(parameters.number("ground_std_m")),
-      height_m_(standing_height_m(parameters, context.vehicle_description, map, who)) {
+    : ground_std_m_(params.ground_std_m),
+      height_m_(standing_height_m(params.on_ground, context.vehicle_description, map, who)) {
   if (map != nullptr && map->rows.size() >= 2) ground_.emplace(*map);
-  const std::string& down = parameters.text("down");
+  const std::string& down = params.down;
   if (down.empty()) return;
   down_ = find_range_sensors({down}, context, who, "down").front();
   if (!ground_) {

@@ -10,6 +10,7 @@
 #include "controllers/estimation/range_prediction.h"
 #include "controllers/estimation/row_ground.h"
 #include "engine/api/messages/sensors.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {
@@ -22,16 +23,22 @@ struct PlaneReading {
   double std_m = 0.05;
 };
 
+struct GroundParams {
+  std::string down;               ///< range sensor that looks at the ground; empty: none
+  std::optional<bool> on_ground;  ///< absent: whether the vehicle does not fly
+  double ground_std_m = 0.05;     ///< 1 sigma of a height above the ground between the rows
+};
+
 /// `down`, `on_ground` and `ground_std_m`.
-std::vector<ParameterSpec> ground_parameters();
+const ParameterTable<GroundParams>& ground_table();
 
 class GroundReference {
  public:
   /// @param map  nullptr: the estimator uses none  @param who  for errors: "rover.estimator (x)"
   /// @throws ConfigError where `down` is no sensor of the vehicle, `on_ground` is said of what
   /// flies, or no two rows tell the ground
-  GroundReference(const ParameterSet& parameters, const EstimatorContext& context,
-                  const RowMap* map, const std::string& who);
+  GroundReference(const GroundParams& params, const EstimatorContext& context, const RowMap* map,
+                  const std::string& who);
 
   /// Whether a sensor of this name is the one that looks down, and so at no wall.
   bool looks_down(const std::string& sensor) const { return down_ && down_->name == sensor; }

@@ -3,41 +3,43 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
 
-std::vector<ParameterSpec> HeadingSource::parameters() {
-  return {
-      choice_parameter("heading", "truth", {"truth", "gyro", "gyro_course"},
-                       "truth: without error; gyro: summed yaw rate of the IMU; gyro_course: that, "
-                       "drawn to the course of the satellite velocity"),
-      text_parameter("imu", "imu", "signal of the IMU (gyro, gyro_course)"),
-      positive_parameter("course_time_s", "s", 5.0, "how fast gyro_course follows the course"),
-      positive_parameter("course_speed_mps", "m/s", 0.3, "slower than this the course is not used"),
-  };
+const ParameterTable<HeadingParams>& heading_table() {
+  using P = HeadingParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .choice("heading", &P::mode,
+                  {{"truth", P::Mode::kTruth},
+                   {"gyro", P::Mode::kGyro},
+                   {"gyro_course", P::Mode::kGyroCourse}},
+                  "truth: without error; gyro: summed yaw rate of the IMU; gyro_course: that, "
+                  "drawn to the course of the satellite velocity")
+          .text("imu", &P::imu, "signal of the IMU (gyro, gyro_course)")
+          .number("course_time_s", "s", &P::course_time_s, kPositive,
+                  "how fast gyro_course follows the course")
+          .number("course_speed_mps", "m/s", &P::course_speed_mps, kPositive,
+                  "slower than this the course is not used");
+  return table;
 }
 
 std::vector<std::string> HeadingSource::reads() {
   return {"truth", "<imu>"};
 }
 
-HeadingSource::HeadingSource(const ParameterSet& parameters, Duration period)
-    : imu_name_(parameters.text("imu")),
-      course_time_s_(parameters.number("course_time_s")),
-      course_speed_mps_(parameters.number("course_speed_mps")),
-      period_s_(period.s()) {
-  const std::string& mode = parameters.text("heading");
-  mode_ = mode == "truth" ? Mode::kTruth : mode == "gyro" ? Mode::kGyro : Mode::kGyroCourse;
-}
+HeadingSource::HeadingSource(const HeadingParams& params, Duration period)
+    : params_(params), period_s_(period.s()) {}
 
 void HeadingSource::connect(Ports& ports) {
   truth_ = ports.read<Odometry>("truth");
-  if (mode_ != Mode::kTruth) imu_ = ports.read<ImuSample>(imu_name_);
+  if (params_.mode != Mode::kTruth) imu_ = ports.read<ImuSample>(params_.imu);
 }
 
 void HeadingSource::step(const GnssFix* fix) {
-  if (mode_ == Mode::kTruth) {
+  if (params_.mode == Mode::kTruth) {
     if (!truth_.has_value()) return;
     q_WB_ = truth_.value().X_WB.q;
     w_WB_B_ = truth_.value().w_WB_B;
@@ -55,10 +57,10 @@ void HeadingSource::step(const GnssFix* fix) {
   }
   previous_rate_radps_ = w_WB_B_.z();
   since_fix_s_ += period_s_;
-  if (mode_ == Mode::kGyroCourse && fix != nullptr) {
-    if (fix->v_W.head<2>().norm() > course_speed_mps_) {
+  if (params_.mode == Mode::kGyroCourse && fix != nullptr) {
+    if (fix->v_W.head<2>().norm() > params_.course_speed_mps) {
       const double course = std::atan2(fix->v_W.y(), fix->v_W.x());
-      const double share = std::min(1.0, since_fix_s_ / course_time_s_);
+      const double share = std::min(1.0, since_fix_s_ / params_.course_time_s);
       yaw_rad_ += share * wrap_angle(course - yaw_rad_);
     }
     since_fix_s_ = 0.0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/api/messages/sensors.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {
@@ -13,12 +14,21 @@ namespace vinerow {
 ///   truth        the true attitude (paper B: heading without error)
 ///   gyro         yaw rate of the IMU summed up from the true heading at the start; level ground
 ///   assumed gyro_course  the same, drawn to the course of the satellite velocity while driving
+struct HeadingParams {
+  enum class Mode { kTruth, kGyro, kGyroCourse } mode = Mode::kTruth;
+  std::string imu = "imu";        ///< signal
+  double course_time_s = 5.0;     ///< how fast kGyroCourse follows the course
+  double course_speed_mps = 0.3;  ///< slower than this the course is not used
+};
+
+/// `heading`, `imu`, `course_time_s`, `course_speed_mps`
+const ParameterTable<HeadingParams>& heading_table();
+
 class HeadingSource {
  public:
-  static std::vector<ParameterSpec> parameters();
   static std::vector<std::string> reads();
 
-  HeadingSource(const ParameterSet& parameters, Duration period);
+  HeadingSource(const HeadingParams& params, Duration period);
 
   void connect(Ports& ports);
   /// Advances to `now`. @param fix  a new satellite fix, or nullptr
@@ -30,11 +40,8 @@ class HeadingSource {
   double yaw_rad() const { return yaw_rad_; }
 
  private:
-  enum class Mode { kTruth, kGyro, kGyroCourse };
-  Mode mode_;
-  std::string imu_name_;
-  double course_time_s_;
-  double course_speed_mps_;
+  using Mode = HeadingParams::Mode;
+  HeadingParams params_;
   double period_s_;
   bool ready_ = false;
   double yaw_rad_ = 0.0;

@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "engine/math/angles.h"
+
 namespace vinerow {
 
 /// Slow errors: standard deviation and correlation time. A standard deviation of zero leaves the
@@ -19,10 +21,10 @@ struct SlowError {
 };
 
 struct LocalisationNoise {
-  double velocity_density_m_rts = 0.003;  ///< white error of the velocity, m/sqrt(s)
-  SlowError velocity_mps{0.05, 5.0};      ///< each axis
-  SlowError heading_rad{0.0035, 60.0};    ///< part of the heading's error that stays
-  SlowError fix_horizontal_m{0.7, 60.0};  ///< part of the fixes' error that stays
+  double velocity_density_m_rts = 0.003;           ///< white error of the velocity, m/sqrt(s)
+  SlowError velocity_mps{0.05, 5.0};               ///< each axis
+  SlowError heading_rad{rad_from_deg(0.2), 60.0};  ///< part of the heading's error that stays
+  SlowError fix_horizontal_m{0.7, 60.0};           ///< part of the fixes' error that stays
   SlowError fix_vertical_m{1.05, 60.0};
 };
 

@@ -12,50 +12,114 @@
 #include "controllers/estimation/map_watch.h"
 #include "controllers/estimation/range_sensors.h"
 #include "engine/api/messages/commands.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
 namespace {
 
-MapLocalisationParams read_params(const ParameterSet& parameters) {
-  MapLocalisationParams params;
-  params.noise.velocity_density_m_rts = parameters.number("velocity_density_m_rts");
-  params.noise.velocity_mps = {parameters.number("velocity_std_mps"),
-                               parameters.number("velocity_time_s")};
-  params.noise.heading_rad = {rad_from_deg(parameters.number("heading_std_deg")),
-                              parameters.number("heading_time_s")};
-  params.noise.fix_horizontal_m = {parameters.number("fix_walk_std_m"),
-                                   parameters.number("fix_walk_time_s")};
-  params.noise.fix_vertical_m = {1.5 * parameters.number("fix_walk_std_m"),
-                                 parameters.number("fix_walk_time_s")};
-  params.heading_white_std_rad = rad_from_deg(parameters.number("heading_white_std_deg"));
-  params.map_shift_std_m = parameters.number("map_shift_std_m");
-  params.gate_sigma = parameters.number("gate_sigma");
-  params.fix_gate_sigma = parameters.number("fix_gate_sigma");
-  params.fix_slow_share = parameters.number("fix_slow_share");
-  params.huber_sigma = parameters.number("huber_sigma");
-  params.walls_tell_height = parameters.boolean("walls_tell_height");
-  params.max_range_m = parameters.number("max_range_m");
-  params.false_share = parameters.number("false_share");
-  params.bank = static_cast<int>(parameters.integer("bank"));
-  params.bank_std_m = parameters.number("bank_std_m");
-  return params;
+/// All parameters of the estimator.
+struct MapEstimatorParams {
+  std::string ins = "ins", gps = "gps";            ///< signals; gps empty: none
+  Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
+  std::vector<std::string> ranges;                 ///< range sensors; empty: all ultrasounds
+  int cone_rays = 7;
+  double range_bound_m = 0.003;
+  double start_std_m = 0.26;
+  bool on_map = true;
+  MapLocalisationParams law;
+  GroundParams ground;
+};
+
+const ParameterTable<MapEstimatorParams>& map_localisation_table() {
+  using P = MapEstimatorParams;
+  using Law = MapLocalisationParams;
+  using Noise = LocalisationNoise;
+  const auto law = [](auto member) { return inside(&P::law, member); };
+  const auto noise = [](auto... way) { return inside(&P::law, &Law::noise, way...); };
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("ins", &P::ins, "signal of the aided inertial unit: velocity and attitude")
+          .text("gps", &P::gps, "signal of the satellite receiver; '' = none")
+          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+                   "where the antenna sits in B (x, y, z); taken off the fix")
+          .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasounds")
+          .integer("cone_rays", &P::cone_rays, between(1, 31),
+                   "rays over a sensor's cone whose first return is predicted")
+          .number("range_bound_m", "m", &P::range_bound_m, kPositive,
+                  "largest error of an echo's distance")
+          .number("max_range_m", "m", law(&Law::max_range_m), kPositive,
+                  "walls farther away than this are not used")
+          .number("start_std_m", "m", &P::start_std_m, between(0.0, 100.0),
+                  "1 sigma of the place at the start, each axis")
+          .number("velocity_density_m_rts", "m/sqrt(s)", noise(&Noise::velocity_density_m_rts),
+                  between(0.0, 10.0), "white part of the velocity's error, summed up")
+          .number("velocity_std_mps", "m/s", noise(&Noise::velocity_mps, &SlowError::std),
+                  between(0.0, 10.0), "1 sigma of the velocity's slow error, each axis")
+          .number("velocity_time_s", "s", noise(&Noise::velocity_mps, &SlowError::time_s),
+                  kPositive, "its correlation time")
+          .degrees("heading_std_deg", noise(&Noise::heading_rad, &SlowError::std),
+                   between(0.0, 90.0), "1 sigma of the heading's slow error")
+          .number("heading_time_s", "s", noise(&Noise::heading_rad, &SlowError::time_s), kPositive,
+                  "its correlation time")
+          .degrees("heading_white_std_deg", law(&Law::heading_white_std_rad), between(0.0, 90.0),
+                   "1 sigma of the heading's error that changes with every reading")
+          .number("fix_walk_std_m", "m", noise(&Noise::fix_horizontal_m, &SlowError::std),
+                  between(0.0, 100.0),
+                  "1 sigma of the fixes' slow error, east and north; up 1.5 times as much")
+          .number("fix_walk_time_s", "s", noise(&Noise::fix_horizontal_m, &SlowError::time_s),
+                  kPositive, "its correlation time")
+          .number("fix_slow_share", "", law(&Law::fix_slow_share), between(0.0, 0.999),
+                  "share of the variance that a fix states which is slow error, another one "
+                  "in each of the receiver's modes, as with RTK; 0: a fix states its white "
+                  "error alone, and fix_walk_std_m holds")
+          .number("map_shift_std_m", "m", law(&Law::map_shift_std_m), between(0.0, 100.0),
+                  "1 sigma of a shift of the whole map, beside what its maker states")
+          .choice("place", &P::on_map, {{"on_map", true}, {"in_world", false}},
+                  "where a map's shift is a state, the estimate is the place beside the map's "
+                  "walls, where planners on the same map want it, or that in the world; the "
+                  "covariance is against the world either way")
+          .number("gate_sigma", "", law(&Law::gate_sigma), kPositive,
+                  "echoes farther from their prediction are false")
+          .number("fix_gate_sigma", "", law(&Law::fix_gate_sigma), kPositive, "so are fixes")
+          .number("huber_sigma", "", law(&Law::huber_sigma), kPositive,
+                  "echoes farther off than this weigh less")
+          .boolean("walls_tell_height", law(&Law::walls_tell_height),
+                   "whether echoes off walls that lean correct the height; false on maps of "
+                   "point clouds, whose walls lean otherwise than the true ones")
+          .number("false_share", "", law(&Law::false_share), between(1e-6, 0.9),
+                  "share of the echoes that no wall explains, for the alleys' weights")
+          .integer("bank", law(&Law::bank), between(1, 8),
+                   "filters at most, one per alley in question")
+          .number("bank_std_m", "m", law(&Law::bank_std_m), kPositive,
+                  "a place known less well than this begins with one filter per alley")
+          .include(&P::ground, ground_table());
+  return table;
 }
 
 std::string map_localisation_name(const EstimatorContext& context) {
   return context.part + " (map_localisation)";
 }
 
-std::vector<RangeSensorModel> read_cone_sensors(const ParameterSet& parameters,
-                                                const EstimatorContext& context,
-                                                const GroundReference& ground) {
+MapEstimatorParams read_map_estimator_params(const ParameterSet& parameters,
+                                             const EstimatorContext& context) {
+  MapEstimatorParams params =
+      map_localisation_table().read(parameters, map_localisation_name(context));
+  LocalisationNoise& noise = params.law.noise;
+  noise.fix_vertical_m = {1.5 * noise.fix_horizontal_m.std, noise.fix_horizontal_m.time_s};
+  return params;
+}
+
+std::vector<RangeSensorModel> make_cone_sensors(const MapEstimatorParams& params,
+                                                 const EstimatorContext& context,
+                                                 const GroundReference& ground) {
   std::vector<RangeSensorModel> sensors =
-      find_range_sensors(parameters.texts("ranges"), context, map_localisation_name(context));
+      find_range_sensors(params.ranges, context, map_localisation_name(context));
   std::erase_if(sensors, [&](const RangeSensorModel& s) { return ground.looks_down(s.name); });
   for (RangeSensorModel& sensor : sensors) {
-    sensor.fan_rays = static_cast<int>(parameters.integer("cone_rays"));
-    sensor.bound_m = parameters.number("range_bound_m");
+    sensor.fan_rays = params.cone_rays;
+    sensor.bound_m = params.range_bound_m;
   }
   return sensors;
 }
@@ -67,21 +131,19 @@ const RowMap& demand_map(const EstimatorContext& context) {
 
 class MapLocalisation final : public Estimator {
  public:
-  MapLocalisation(const ParameterSet& parameters, const EstimatorContext& context)
-      : ins_name_(parameters.text("ins")),
-        gps_name_(parameters.text("gps")),
-        start_std_m_(parameters.number("start_std_m")),
-        on_map_(parameters.text("place") == "on_map"),
-        max_range_m_(parameters.number("max_range_m")),
+  MapLocalisation(const MapEstimatorParams& params, const EstimatorContext& context)
+      : ins_name_(params.ins),
+        gps_name_(params.gps),
+        start_std_m_(params.start_std_m),
+        on_map_(params.on_map),
+        max_range_m_(params.law.max_range_m),
         map_(demand_map(context)),
-        ground_(parameters, context, &map_, map_localisation_name(context)),
-        sensors_(read_cone_sensors(parameters, context, ground_)),
+        ground_(params.ground, context, &map_, map_localisation_name(context)),
+        sensors_(make_cone_sensors(params, context, ground_)),
         index_(map_),
-        law_(read_params(parameters), map_, index_, sensors_),
-        random_(context.random("start")) {
-    const auto& antenna = parameters.numbers("antenna_m");
-    p_BA_ = {antenna[0], antenna[1], antenna[2]};
-  }
+        law_(params.law, map_, index_, sensors_),
+        random_(context.random("start")),
+        p_BA_(params.p_BA) {}
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
@@ -244,56 +306,7 @@ PartSpec map_localisation_spec() {
   spec.description =
       "Place between mapped rows from an inertial unit, satellite fixes and echoes: a bank of "
       "extended Kalman filters on the echoes themselves, one per alley in question.";
-  spec.parameters = {
-      text_parameter("ins", "ins", "signal of the aided inertial unit: velocity and attitude"),
-      text_parameter("gps", "gps", "signal of the satellite receiver; '' = none"),
-      number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
-                            "where the antenna sits in B (x, y, z); taken off the fix", 3),
-      text_list_parameter("ranges", {}, "names of the range sensors; empty: all ultrasounds"),
-      integer_parameter("cone_rays", 7, 1, 31,
-                        "rays over a sensor's cone whose first return is predicted"),
-      positive_parameter("range_bound_m", "m", 0.003, "largest error of an echo's distance"),
-      positive_parameter("max_range_m", "m", 4.0, "walls farther away than this are not used"),
-      number_parameter("start_std_m", "m", 0.26, 0.0, 100.0,
-                       "1 sigma of the place at the start, each axis"),
-      number_parameter("velocity_density_m_rts", "m/sqrt(s)", 0.003, 0.0, 10.0,
-                       "white part of the velocity's error, summed up"),
-      number_parameter("velocity_std_mps", "m/s", 0.05, 0.0, 10.0,
-                       "1 sigma of the velocity's slow error, each axis"),
-      positive_parameter("velocity_time_s", "s", 5.0, "its correlation time"),
-      number_parameter("heading_std_deg", "deg", 0.2, 0.0, 90.0,
-                       "1 sigma of the heading's slow error"),
-      positive_parameter("heading_time_s", "s", 60.0, "its correlation time"),
-      number_parameter("heading_white_std_deg", "deg", 0.2, 0.0, 90.0,
-                       "1 sigma of the heading's error that changes with every reading"),
-      number_parameter("fix_walk_std_m", "m", 0.7, 0.0, 100.0,
-                       "1 sigma of the fixes' slow error, east and north; up 1.5 times as much"),
-      positive_parameter("fix_walk_time_s", "s", 60.0, "its correlation time"),
-      number_parameter("fix_slow_share", "", 0.0, 0.0, 0.999,
-                       "share of the variance that a fix states which is slow error, another one "
-                       "in each of the receiver's modes, as with RTK; 0: a fix states its white "
-                       "error alone, and fix_walk_std_m holds"),
-      number_parameter("map_shift_std_m", "m", 0.0, 0.0, 100.0,
-                       "1 sigma of a shift of the whole map, beside what its maker states"),
-      choice_parameter("place", "on_map", {"on_map", "in_world"},
-                       "where a map's shift is a state, the estimate is the place beside the map's "
-                       "walls, where planners on the same map want it, or that in the world; the "
-                       "covariance is against the world either way"),
-      positive_parameter("gate_sigma", "", 3.5, "echoes farther from their prediction are false"),
-      positive_parameter("fix_gate_sigma", "", 5.0, "so are fixes"),
-      positive_parameter("huber_sigma", "", 1.5, "echoes farther off than this weigh less"),
-      boolean_parameter("walls_tell_height", true,
-                        "whether echoes off walls that lean correct the height; false on maps of "
-                        "point clouds, whose walls lean otherwise than the true ones"),
-      number_parameter("false_share", "", 0.1, 1e-6, 0.9,
-                       "share of the echoes that no wall explains, for the alleys' weights"),
-      integer_parameter("bank", 5, 1, 8, "filters at most, one per alley in question"),
-      positive_parameter("bank_std_m", "m", 0.5,
-                         "a place known less well than this begins with one filter per alley"),
-  };
-  for (ParameterSpec& parameter : ground_parameters()) {
-    spec.parameters.push_back(std::move(parameter));
-  }
+  spec.parameters = map_localisation_table().specs();
   spec.default_rate_Hz = 100.0;
   spec.reads = {"truth", "<ins>", "<gps>", "<ranges>", "<down>"};
   spec.writes = {"estimate", "estimator_state", "estimator_event"};
@@ -302,7 +315,7 @@ PartSpec map_localisation_spec() {
 
 std::unique_ptr<Estimator> make_map_localisation(const ParameterSet& parameters,
                                                  const EstimatorContext& context) {
-  return std::make_unique<MapLocalisation>(parameters, context);
+  return std::make_unique<MapLocalisation>(read_map_estimator_params(parameters, context), context);
 }
 
 }  // namespace vinerow

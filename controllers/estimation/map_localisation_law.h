@@ -21,13 +21,15 @@
 #include "engine/api/forward.h"
 #include "engine/api/plant_row.h"
 #include "engine/core/time.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
 struct MapLocalisationParams {
   LocalisationNoise noise;
-  double heading_white_std_rad = 0.0035;  ///< part of the heading's error that changes every tick
-  double gate_sigma = 3.5;                ///< of echoes; beyond it they count as false
+  /// Part of the heading's error that changes every tick.
+  double heading_white_std_rad = rad_from_deg(0.2);
+  double gate_sigma = 3.5;  ///< of echoes; beyond it they count as false
   double fix_gate_sigma = 5.0;
   /// Of a fix's stated variance what moves slowly; the rest is white. 0: a fix states its white
   /// error alone, and `noise` tells the slow one.

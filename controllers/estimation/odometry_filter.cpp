@@ -9,25 +9,78 @@
 #include "controllers/estimation/trace.h"
 #include "controllers/parts/differential_drive.h"
 #include "controllers/parts/pose2.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
 namespace {
 
+struct OdometryFilterParams {
+  enum class Source { kCommand, kWheels, kGpsVelocity };
+
+  std::string gps = "gps", wheels = "wheels";      ///< signals
+  Eigen::Vector3d p_BA = Eigen::Vector3d::Zero();  ///< antenna in B
+  Source source = Source::kCommand;
+  double odometry_scale = 1.0;
+  bool gain_is_fixed = false;
+  double position_gain = 0.05;  ///< where it is
+  OdometryKalmanParams filter;
+  double gps_std_m = 0.0;  ///< 0: as the receiver states
+  HeadingParams heading;
+};
+
+const ParameterTable<OdometryFilterParams>& odometry_filter_table() {
+  using P = OdometryFilterParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("gps", &P::gps, "signal of the satellite receiver")
+          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+                   "where the antenna sits in B (x, y, z); taken off the fix")
+          .choice("odometry_source", &P::source,
+                  {{"command", P::Source::kCommand},
+                   {"wheels", P::Source::kWheels},
+                   {"gps_velocity", P::Source::kGpsVelocity}},
+                  "what is summed up: the controller's command, the wheels, or the satellite "
+                  "velocity, which alone sees a skid-steered vehicle slide")
+          .text("wheels", &P::wheels, "signal of the wheel speeds (odometry_source: wheels)")
+          .number("odometry_scale", "", &P::odometry_scale, kPositive,
+                  "factor on the odometry's speed: calibration, or an error to study")
+          .choice("gain", &P::gain_is_fixed, {{"kalman", false}, {"fixed", true}},
+                  "kalman: from the stated noises, odometry scale learnt; fixed: position_gain")
+          .number("position_gain", "", &P::position_gain, between(0.0, 1.0),
+                  "share of the difference taken over with each fix (gain: fixed)")
+          .number("drift_m_per_sqrt_m", "m/sqrt(m)",
+                  inside(&P::filter, &OdometryKalmanParams::drift_m_per_sqrt_m), kPositive,
+                  "1 sigma by which dead reckoning errs over one metre (gain: kalman)")
+          .number("scale_std", "", inside(&P::filter, &OdometryKalmanParams::scale_std),
+                  between(0.0, 1.0),
+                  "1 sigma of the odometry's scale at the start (gain: kalman); 0 = not learnt")
+          .number("gps_std_m", "m", &P::gps_std_m, between(0.0, 100.0),
+                  "1 sigma of a fix; 0 = as the receiver states")
+          .include(&P::heading, heading_table());
+  return table;
+}
+
+OdometryKalmanParams make_kalman_params(const OdometryFilterParams& params) {
+  OdometryKalmanParams kalman = params.filter;
+  if (kalman.scale_std <= 0.0) kalman.scale_drift_per_sqrt_m = 0.0;
+  if (params.gain_is_fixed) kalman.fixed_gain = params.position_gain;
+  return kalman;
+}
+
 class OdometryFilter final : public Estimator {
  public:
-  OdometryFilter(const ParameterSet& parameters, const EstimatorContext& context)
-      : gps_name_(parameters.text("gps")),
-        source_(read_source(parameters.text("odometry_source"))),
-        wheels_name_(parameters.text("wheels")),
-        odometry_scale_(parameters.number("odometry_scale")),
-        gps_std_m_(parameters.number("gps_std_m")),
+  OdometryFilter(const OdometryFilterParams& params, const EstimatorContext& context)
+      : gps_name_(params.gps),
+        source_(params.source),
+        wheels_name_(params.wheels),
+        odometry_scale_(params.odometry_scale),
+        gps_std_m_(params.gps_std_m),
         period_s_(context.period.s()),
-        filter_(read_filter(parameters)),
-        heading_(parameters, context.period) {
-    const auto& antenna = parameters.numbers("antenna_m");
-    p_BA_ = {antenna[0], antenna[1], antenna[2]};
+        filter_(make_kalman_params(params)),
+        heading_(params.heading, context.period),
+        p_BA_(params.p_BA) {
     if (source_ == Source::kWheels) {
       const std::string who = context.part + " (odometry_filter)";
       const VehicleDescription& vehicle = *context.vehicle_description;
@@ -75,20 +128,7 @@ class OdometryFilter final : public Estimator {
   }
 
  private:
-  enum class Source { kCommand, kWheels, kGpsVelocity };
-  static Source read_source(const std::string& name) {
-    if (name == "wheels") return Source::kWheels;
-    return name == "command" ? Source::kCommand : Source::kGpsVelocity;
-  }
-
-  static OdometryKalmanParams read_filter(const ParameterSet& parameters) {
-    OdometryKalmanParams params;
-    params.drift_m_per_sqrt_m = parameters.number("drift_m_per_sqrt_m");
-    params.scale_std = parameters.number("scale_std");
-    params.scale_drift_per_sqrt_m = params.scale_std > 0.0 ? params.scale_drift_per_sqrt_m : 0.0;
-    if (parameters.text("gain") == "fixed") params.fixed_gain = parameters.number("position_gain");
-    return params;
-  }
+  using Source = OdometryFilterParams::Source;
 
   void take_fix(Time now) {
     const GnssFix& fix = gps_.value();
@@ -186,32 +226,7 @@ PartSpec odometry_filter_spec() {
       "Dead reckoning along the heading by wheel or commanded speed, drawn to satellite fixes with "
       "a "
       "Kalman gain (position and odometry scale) or a fixed one.";
-  spec.parameters = {
-      text_parameter("gps", "gps", "signal of the satellite receiver"),
-      number_list_parameter("antenna_m", "m", {0.0, 0.0, 0.0},
-                            "where the antenna sits in B (x, y, z); taken off the fix", 3),
-      choice_parameter("odometry_source", "command", {"command", "wheels", "gps_velocity"},
-                       "what is summed up: the controller's command, the wheels, or the satellite "
-                       "velocity, which alone sees a skid-steered vehicle slide"),
-      text_parameter("wheels", "wheels", "signal of the wheel speeds (odometry_source: wheels)"),
-      positive_parameter("odometry_scale", "", 1.0,
-                         "factor on the odometry's speed: calibration, or an error to study"),
-      choice_parameter(
-          "gain", "kalman", {"kalman", "fixed"},
-          "kalman: from the stated noises, odometry scale learnt; fixed: position_gain"),
-      number_parameter("position_gain", "", 0.05, 0.0, 1.0,
-                       "share of the difference taken over with each fix (gain: fixed)"),
-      positive_parameter("drift_m_per_sqrt_m", "m/sqrt(m)", 0.002,
-                         "1 sigma by which dead reckoning errs over one metre (gain: kalman)"),
-      number_parameter(
-          "scale_std", "", 0.03, 0.0, 1.0,
-          "1 sigma of the odometry's scale at the start (gain: kalman); 0 = not learnt"),
-      number_parameter("gps_std_m", "m", 0.0, 0.0, 100.0,
-                       "1 sigma of a fix; 0 = as the receiver states"),
-  };
-  for (ParameterSpec& parameter : HeadingSource::parameters()) {
-    spec.parameters.push_back(std::move(parameter));
-  }
+  spec.parameters = odometry_filter_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"<gps>", "truth", "<imu>", "command or <wheels>"};
   spec.writes = {"estimate"};
@@ -220,7 +235,8 @@ PartSpec odometry_filter_spec() {
 
 std::unique_ptr<Estimator> make_odometry_filter(const ParameterSet& parameters,
                                                 const EstimatorContext& context) {
-  return std::make_unique<OdometryFilter>(parameters, context);
+  return std::make_unique<OdometryFilter>(
+      odometry_filter_table().read(parameters, context.part + " (odometry_filter)"), context);
 }
 
 }  // namespace vinerow

@@ -2,17 +2,35 @@
 
 #include "controllers/parts/aircraft_ports.h"
 #include "controllers/parts/aircraft_weights.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
 
+struct FixedWingLqrParams {
+  AircraftWeights weights;
+  AircraftLimits limits;
+};
+
+const ParameterTable<FixedWingLqrParams>& fixed_wing_lqr_table() {
+  using P = FixedWingLqrParams;
+  static const ParameterTable<P> table = ParameterTable<P>()
+                                             .include(&P::weights, aircraft_weight_table())
+                                             .include(&P::limits, aircraft_limit_table());
+  return table;
+}
+
+std::string who(const ControllerContext& context) {
+  return context.part + " (fixed_wing_lqr)";
+}
+
 class FixedWingLqr final : public Controller {
  public:
-  FixedWingLqr(const ParameterSet& parameters, const ControllerContext& context)
-      : ports_(context, "fixed_wing_lqr", read_aircraft_limits(parameters)) {
+  FixedWingLqr(const FixedWingLqrParams& params, const ControllerContext& context)
+      : ports_(context, "fixed_wing_lqr", params.limits) {
     const AircraftLaws laws =
         make_aircraft_laws(ports_.aircraft(), ports_.trims().level(), context.period.s(),
-                           read_aircraft_weights(parameters), context.part + " (fixed_wing_lqr)");
+                           params.weights, who(context));
     K_lon_ = laws.lon.K;
     K_lat_ = laws.lat.K;
   }
@@ -49,7 +67,7 @@ PartSpec fixed_wing_lqr_spec() {
   spec.description =
       "Linear quadratic regulator about the reference's steady flight (paper A, section 2, without "
       "constraints and tube) for vehicles on wings.";
-  spec.parameters = {aircraft_weight_parameter(), aircraft_limit_parameter()};
+  spec.parameters = fixed_wing_lqr_table().specs();
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "reference"};
   spec.writes = {"actuators", "deviation", "follower"};
@@ -58,7 +76,8 @@ PartSpec fixed_wing_lqr_spec() {
 
 std::unique_ptr<Controller> make_fixed_wing_lqr(const ParameterSet& parameters,
                                                 const ControllerContext& context) {
-  return std::make_unique<FixedWingLqr>(parameters, context);
+  return std::make_unique<FixedWingLqr>(fixed_wing_lqr_table().read(parameters, who(context)),
+                                        context);
 }
 
 }  // namespace vinerow

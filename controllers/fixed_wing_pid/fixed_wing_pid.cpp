@@ -3,37 +3,59 @@
 #include <cmath>
 
 #include "controllers/fixed_wing_pid/fixed_wing_pid_law.h"
-#include "engine/math/angles.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
 
-FixedWingGains read_gains(const ParameterSet& parameters) {
+struct FixedWingPidParams {
   FixedWingGains gains;
-  gains.height_per_s = parameters.number("height_gain");
-  gains.climb_limit_mps = parameters.number("climb_limit_mps");
-  gains.climb_rad_per_mps = parameters.number("climb_gain");
-  gains.climb_integral_rad_per_m = parameters.number("climb_integral");
-  gains.pitch_limit_rad = rad_from_deg(parameters.number("pitch_limit_deg"));
-  gains.incidence_limit_rad = rad_from_deg(parameters.number("incidence_limit_deg"));
-  gains.pitch = parameters.number("pitch_gain");
-  gains.pitch_rate_s = parameters.number("pitch_rate_gain");
-  gains.airspeed_per_mps = parameters.number("airspeed_gain");
-  gains.airspeed_integral_per_m = parameters.number("airspeed_integral");
-  gains.heading = parameters.number("heading_gain");
-  gains.bank_limit_rad = rad_from_deg(parameters.number("bank_limit_deg"));
-  gains.bank = parameters.number("bank_gain");
-  gains.bank_integral_per_s = parameters.number("bank_integral");
-  gains.roll_rate_s = parameters.number("roll_rate_gain");
-  gains.yaw_rate_s = parameters.number("yaw_rate_gain");
-  return gains;
+  AircraftLimits limits;
+};
+
+const ParameterTable<FixedWingPidParams>& fixed_wing_pid_table() {
+  using P = FixedWingPidParams;
+  using G = FixedWingGains;
+  constexpr ParameterRange kGain = between(0.0, 1000.0);
+  const auto of = [](auto member) { return inside(&P::gains, member); };
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("height_gain", "1/s", of(&G::height_per_s), kGain,
+                  "climb rate wanted per height error")
+          .number("climb_limit_mps", "m/s", of(&G::climb_limit_mps), kPositive,
+                  "largest climb rate towards the reference's height, beside its own")
+          .number("climb_gain", "rad s/m", of(&G::climb_rad_per_mps), kGain,
+                  "pitch wanted per climb rate error")
+          .number("climb_integral", "rad/m", of(&G::climb_integral_rad_per_m), kGain,
+                  "pitch wanted per second of climb rate error")
+          .degrees("pitch_limit_deg", of(&G::pitch_limit_rad), kPositive,
+                   "largest pitch wanted, from the steady flight's")
+          .degrees("incidence_limit_deg", of(&G::incidence_limit_rad), kPositive,
+                   "largest angle of attack wanted, from the steady flight's")
+          .number("pitch_gain", "", of(&G::pitch), kGain, "elevator per pitch error")
+          .number("pitch_rate_gain", "s", of(&G::pitch_rate_s), kGain, "elevator per pitch rate")
+          .number("airspeed_gain", "s/m", of(&G::airspeed_per_mps), kGain,
+                  "throttle per airspeed error")
+          .number("airspeed_integral", "1/m", of(&G::airspeed_integral_per_m), kGain,
+                  "throttle per second of airspeed error")
+          .number("heading_gain", "", of(&G::heading), kGain, "bank wanted per heading error")
+          .degrees("bank_limit_deg", of(&G::bank_limit_rad), kPositive,
+                   "largest bank wanted, from the steady flight's")
+          .number("bank_gain", "", of(&G::bank), kGain, "aileron per bank error")
+          .number("bank_integral", "1/s", of(&G::bank_integral_per_s), kGain,
+                  "aileron per second of bank error")
+          .number("roll_rate_gain", "s", of(&G::roll_rate_s), kGain, "aileron per roll rate")
+          .number("yaw_rate_gain", "s", of(&G::yaw_rate_s), kGain,
+                  "aileron per yaw rate, which damps the dutch roll")
+          .include(&P::limits, aircraft_limit_table());
+  return table;
 }
 
 class FixedWingPid final : public Controller {
  public:
-  FixedWingPid(const ParameterSet& parameters, const ControllerContext& context)
-      : ports_(context, "fixed_wing_pid", read_aircraft_limits(parameters)),
-        law_(read_gains(parameters), ports_.aircraft().cruise_speed_mps, context.period.s()) {}
+  FixedWingPid(const FixedWingPidParams& params, const ControllerContext& context)
+      : ports_(context, "fixed_wing_pid", params.limits),
+        law_(params.gains, ports_.aircraft().cruise_speed_mps, context.period.s()) {}
 
   void connect(Ports& ports) override { ports_.connect(ports); }
 
@@ -71,41 +93,12 @@ class FixedWingPid final : public Controller {
 }  // namespace
 
 PartSpec fixed_wing_pid_spec() {
-  const FixedWingGains gains;
-  const auto gain = [](const char* name, const char* unit, double value, const char* description) {
-    return number_parameter(name, unit, value, 0.0, 1000.0, description);
-  };
   PartSpec spec;
   spec.name = "fixed_wing_pid";
   spec.description =
       "The usual autopilot (successive loop closure; Beard and McLain 2012, chapter 6, without "
       "rudder) about the reference's steady flight, for vehicles on wings.";
-  spec.parameters = {
-      gain("height_gain", "1/s", gains.height_per_s, "climb rate wanted per height error"),
-      positive_parameter("climb_limit_mps", "m/s", gains.climb_limit_mps,
-                         "largest climb rate towards the reference's height, beside its own"),
-      gain("climb_gain", "rad s/m", gains.climb_rad_per_mps, "pitch wanted per climb rate error"),
-      gain("climb_integral", "rad/m", gains.climb_integral_rad_per_m,
-           "pitch wanted per second of climb rate error"),
-      positive_parameter("pitch_limit_deg", "deg", 15.0,
-                         "largest pitch wanted, from the steady flight's"),
-      positive_parameter("incidence_limit_deg", "deg", 6.0,
-                         "largest angle of attack wanted, from the steady flight's"),
-      gain("pitch_gain", "", gains.pitch, "elevator per pitch error"),
-      gain("pitch_rate_gain", "s", gains.pitch_rate_s, "elevator per pitch rate"),
-      gain("airspeed_gain", "s/m", gains.airspeed_per_mps, "throttle per airspeed error"),
-      gain("airspeed_integral", "1/m", gains.airspeed_integral_per_m,
-           "throttle per second of airspeed error"),
-      gain("heading_gain", "", gains.heading, "bank wanted per heading error"),
-      positive_parameter("bank_limit_deg", "deg", 35.0,
-                         "largest bank wanted, from the steady flight's"),
-      gain("bank_gain", "", gains.bank, "aileron per bank error"),
-      gain("bank_integral", "1/s", gains.bank_integral_per_s, "aileron per second of bank error"),
-      gain("roll_rate_gain", "s", gains.roll_rate_s, "aileron per roll rate"),
-      gain("yaw_rate_gain", "s", gains.yaw_rate_s,
-           "aileron per yaw rate, which damps the dutch roll"),
-      aircraft_limit_parameter(),
-  };
+  spec.parameters = fixed_wing_pid_table().specs();
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "reference"};
   spec.writes = {"actuators", "deviation", "follower"};
@@ -114,7 +107,8 @@ PartSpec fixed_wing_pid_spec() {
 
 std::unique_ptr<Controller> make_fixed_wing_pid(const ParameterSet& parameters,
                                                 const ControllerContext& context) {
-  return std::make_unique<FixedWingPid>(parameters, context);
+  return std::make_unique<FixedWingPid>(
+      fixed_wing_pid_table().read(parameters, context.part + " (fixed_wing_pid)"), context);
 }
 
 }  // namespace vinerow

@@ -8,6 +8,7 @@
 /// closure); here without rudder. Gains are chosen for an aircraft of about 1 kg and 12 m/s.
 
 #include "controllers/parts/aircraft_ports.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
@@ -16,15 +17,15 @@ struct FixedWingGains {
   double climb_limit_mps = 2.5;      ///< largest such climb rate
   double climb_rad_per_mps = 0.075;  ///< pitch per climb rate error
   double climb_integral_rad_per_m = 0.02;
-  double pitch_limit_rad = 0.26;       ///< largest pitch wanted, from the trim's
-  double incidence_limit_rad = 0.105;  ///< largest angle of attack wanted, from the trim's
-  double pitch = 0.9;                  ///< elevator per pitch error
-  double pitch_rate_s = 0.06;          ///< elevator per pitch rate
-  double airspeed_per_mps = 0.10;      ///< throttle per airspeed error
+  double pitch_limit_rad = rad_from_deg(15.0);     ///< largest pitch wanted, from the trim's
+  double incidence_limit_rad = rad_from_deg(6.0);  ///< largest angle of attack, likewise
+  double pitch = 0.9;                              ///< elevator per pitch error
+  double pitch_rate_s = 0.06;                      ///< elevator per pitch rate
+  double airspeed_per_mps = 0.10;                  ///< throttle per airspeed error
   double airspeed_integral_per_m = 0.02;
-  double heading = 1.0;          ///< bank per heading error
-  double bank_limit_rad = 0.61;  ///< largest bank wanted, from the trim's
-  double bank = 0.55;            ///< aileron per bank error
+  double heading = 1.0;                        ///< bank per heading error
+  double bank_limit_rad = rad_from_deg(35.0);  ///< largest bank wanted, from the trim's
+  double bank = 0.55;                          ///< aileron per bank error
   double bank_integral_per_s = 0.1;
   double roll_rate_s = 0.045;  ///< aileron per roll rate
   double yaw_rate_s = 0.12;    ///< aileron per yaw rate, against the dutch roll

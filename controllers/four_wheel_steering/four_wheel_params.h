@@ -1,13 +1,14 @@
 #pragma once
 /// Parameters of controller `four_wheel_steering`, read once.
 
-#include <vector>
+#include <string>
 
 #include "controllers/four_wheel_steering/drive_profile.h"
 #include "controllers/four_wheel_steering/path_reference.h"
 #include "controllers/four_wheel_steering/steered_vehicle.h"
 #include "controllers/four_wheel_steering/steering_law.h"
 #include "controllers/four_wheel_steering/wheel_speeds.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/parameters.h"
 
 namespace vinerow {
@@ -18,14 +19,18 @@ struct FourWheelParams {
   PathReferenceParams reference;
   DriveLimits drive;
   WheelSpeedsParams wheels;
-  double slip_learn_s = 0.0;
+  double response_s = 0.03;              ///< of the vehicle behind its steering, beside the servos
+  double wheel_acceleration_mps2 = 0.0;  ///< of each rim; 0: no limit
+  double slip_learn_s = 0.4;
   double goal_tolerance_m = 0.05;
   double cycle_s = 0.02;
 };
 
-std::vector<ParameterSpec> four_wheel_parameters();
+const ParameterTable<FourWheelParams>& four_wheel_table();
 
+/// With what follows from the vehicle and the cycle. @param who  begins errors
 FourWheelParams read_four_wheel_params(const ParameterSet& parameters,
-                                       const SteeredDrive& vehicle, double cycle_s);
+                                       const SteeredDrive& vehicle, double cycle_s,
+                                       const std::string& who);
 
 }  // namespace vinerow

@@ -15,6 +15,7 @@
 #include "controllers/four_wheel_steering/wheel_speeds.h"
 #include "controllers/parts/stop_profile.h"
 #include "engine/api/messages/event.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 
@@ -39,7 +40,8 @@ class FourWheelSteering final : public Controller {
   FourWheelSteering(const ParameterSet& parameters, const ControllerContext& context)
       : part_(context.part),
         vehicle_(read_steered_vehicle(*context.vehicle_description, describe(context))),
-        params_(read_four_wheel_params(parameters, vehicle_, context.period.s())),
+        params_(read_four_wheel_params(parameters, vehicle_, context.period.s(),
+                                       describe(context))),
         tracker_(params_.reference),
         axles_(vehicle_),
         slip_(params_.slip_learn_s),
@@ -252,7 +254,7 @@ PartSpec four_wheel_steering_spec() {
       "Mammarella et al. 2022 (eq. 24-26, corrected or as printed) and wheel speeds by the "
       "velocity "
       "QP (eq. 30-33); obeys a local planner where there is one.";
-  spec.parameters = four_wheel_parameters();
+  spec.parameters = four_wheel_table().specs();
   spec.default_rate_Hz = 50.0;
   spec.reads = {"estimate", "plan", "local_command", "encoders", "authority"};
   spec.writes = {"actuators", "command", "follower", "steering", "controller_event"};

@@ -26,8 +26,8 @@ enum class SteeringForm { kCorrected, kPrinted };
 
 struct SteeringParams {
   SteeringForm form = SteeringForm::kCorrected;
-  double lateral_gain_radpm = 0.6;  ///< K_s, rad per m of lateral error
-  double heading_gain_per_m = 1.2;  ///< K_theta, curvature per rad of heading error
+  double lateral_gain_radpm = 2.0;  ///< K_s, rad per m of lateral error
+  double heading_gain_per_m = 3.0;  ///< K_theta, curvature per rad of heading error
   double course_share = 0.0;        ///< c
   double max_axle_rad = 0.4;
 };

@@ -1,5 +1,7 @@
 #include "controllers/parts/aircraft_limits.h"
 
+#include "engine/api/parameter_table.h"
+
 namespace vinerow {
 namespace {
 
@@ -10,15 +12,13 @@ constexpr AircraftRangesInDeg kRelaxed = {2.4, 3.0,   150.0, 20.0, 15.0, 0.25, 1
 
 AircraftLimits::AircraftLimits() : AircraftRanges(kRelaxed.to_si()) {}
 
-ParameterSpec aircraft_limit_parameter() {
-  return aircraft_range_parameter(
-      "limits", kRelaxed,
+const ParameterTable<AircraftLimits>& aircraft_limit_table() {
+  using L = AircraftLimits;
+  static const ParameterTable<L> table = ParameterTable<L>().group(
+      "limits", [](L& limits) -> AircraftRanges& { return limits; }, aircraft_range_table(),
       "largest deviations from the reference's steady flight, to either side (paper A, section 2; "
       "defaults: the relaxed reading of its percentages)");
-}
-
-AircraftLimits read_aircraft_limits(const ParameterSet& parameters) {
-  return AircraftLimits(read_aircraft_ranges(parameters, "limits", kRelaxed));
+  return table;
 }
 
 }  // namespace vinerow

@@ -10,12 +10,10 @@ namespace vinerow {
 /// Largest size of each, to either side.
 struct AircraftLimits : AircraftRanges {
   AircraftLimits();
-  explicit AircraftLimits(const AircraftRanges& ranges) : AircraftRanges(ranges) {}
 };
 
 /// Group `limits`: u_mps 2.4, w_mps 3, q_degps 150, theta_deg 20, h_m 15, throttle 0.25,
 /// elevator_deg 10, v_mps 5, p_degps 250, r_degps 120, phi_deg 45, psi_deg 30, aileron_deg 12.
-ParameterSpec aircraft_limit_parameter();
-AircraftLimits read_aircraft_limits(const ParameterSet& parameters);
+const ParameterTable<AircraftLimits>& aircraft_limit_table();
 
 }  // namespace vinerow

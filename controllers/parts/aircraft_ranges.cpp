@@ -1,7 +1,6 @@
 #include "controllers/parts/aircraft_ranges.h"
 
-#include <utility>
-
+#include "engine/api/parameter_table.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
@@ -17,39 +16,26 @@ AircraftRanges AircraftRangesInDeg::to_si() const {
   return ranges;
 }
 
-ParameterSpec aircraft_range_parameter(std::string name, const AircraftRangesInDeg& defaults,
-                                       std::string description) {
-  return group_parameter(
-      std::move(name),
-      {
-          positive_parameter("u_mps", "m/s", defaults.u_mps, "forward speed"),
-          positive_parameter("w_mps", "m/s", defaults.w_mps, "speed across the wings"),
-          positive_parameter("q_degps", "deg/s", defaults.q_degps, "pitch rate"),
-          positive_parameter("theta_deg", "deg", defaults.theta_deg, "pitch"),
-          positive_parameter("h_m", "m", defaults.h_m, "height"),
-          positive_parameter("throttle", "", defaults.throttle, "throttle"),
-          positive_parameter("elevator_deg", "deg", defaults.elevator_deg, "elevator"),
-          positive_parameter("v_mps", "m/s", defaults.v_mps, "side speed"),
-          positive_parameter("p_degps", "deg/s", defaults.p_degps, "roll rate"),
-          positive_parameter("r_degps", "deg/s", defaults.r_degps, "yaw rate"),
-          positive_parameter("phi_deg", "deg", defaults.phi_deg, "roll"),
-          positive_parameter("psi_deg", "deg", defaults.psi_deg, "heading"),
-          positive_parameter("aileron_deg", "deg", defaults.aileron_deg, "aileron"),
-      },
-      std::move(description));
-}
-
-AircraftRanges read_aircraft_ranges(const ParameterSet& parameters, const std::string& name,
-                                    const AircraftRangesInDeg& defaults) {
-  if (!parameters.has(name)) return defaults.to_si();
-  const ParameterSet& group = parameters.group(name);
-  const auto number = [&](const char* key) { return group.number(key); };
-  return AircraftRangesInDeg{number("u_mps"),        number("w_mps"),   number("q_degps"),
-                             number("theta_deg"),    number("h_m"),     number("throttle"),
-                             number("elevator_deg"), number("v_mps"),   number("p_degps"),
-                             number("r_degps"),      number("phi_deg"), number("psi_deg"),
-                             number("aileron_deg")}
-      .to_si();
+const ParameterTable<AircraftRanges>& aircraft_range_table() {
+  using R = AircraftRanges;
+  const auto lon = [](int i) { return [i](R& r) -> double& { return r.lon[i]; }; };
+  const auto lat = [](int i) { return [i](R& r) -> double& { return r.lat[i]; }; };
+  static const ParameterTable<R> table =
+      ParameterTable<R>()
+          .number("u_mps", "m/s", lon(0), kPositive, "forward speed")
+          .number("w_mps", "m/s", lon(1), kPositive, "speed across the wings")
+          .number("q_degps", "deg/s", lon(2), kPositive, "pitch rate", kDegrees)
+          .degrees("theta_deg", lon(3), kPositive, "pitch")
+          .number("h_m", "m", lon(4), kPositive, "height")
+          .number("throttle", "", &R::throttle, kPositive, "throttle")
+          .degrees("elevator_deg", &R::elevator_rad, kPositive, "elevator")
+          .number("v_mps", "m/s", lat(0), kPositive, "side speed")
+          .number("p_degps", "deg/s", lat(1), kPositive, "roll rate", kDegrees)
+          .number("r_degps", "deg/s", lat(2), kPositive, "yaw rate", kDegrees)
+          .degrees("phi_deg", lat(3), kPositive, "roll")
+          .degrees("psi_deg", lat(4), kPositive, "heading")
+          .degrees("aileron_deg", &R::aileron_rad, kPositive, "aileron");
+  return table;
 }
 
 }  // namespace vinerow

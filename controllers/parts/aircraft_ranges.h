@@ -2,17 +2,16 @@
 /// One number for each deviation and control of a vehicle on wings: limits are such, and weights.
 
 #include <Eigen/Core>
-#include <string>
 
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 
 namespace vinerow {
 
 struct AircraftRanges {
   /// u m/s, w m/s, q rad/s, theta rad, h m
-  Eigen::Matrix<double, 5, 1> lon;
+  Eigen::Matrix<double, 5, 1> lon = Eigen::Matrix<double, 5, 1>::Zero();
   /// v m/s, p rad/s, r rad/s, phi rad, psi rad
-  Eigen::Matrix<double, 5, 1> lat;
+  Eigen::Matrix<double, 5, 1> lat = Eigen::Matrix<double, 5, 1>::Zero();
   double throttle = 0.0;
   double elevator_rad = 0.0;
   double aileron_rad = 0.0;
@@ -28,11 +27,7 @@ struct AircraftRangesInDeg {
   AircraftRanges to_si() const;
 };
 
-/// Group of these names, each > 0.
-ParameterSpec aircraft_range_parameter(std::string name, const AircraftRangesInDeg& defaults,
-                                       std::string description);
-/// @param name  of the group; the defaults where it is not given
-AircraftRanges read_aircraft_ranges(const ParameterSet& parameters, const std::string& name,
-                                    const AircraftRangesInDeg& defaults);
+/// The names of AircraftRangesInDeg, each > 0: fields of a group.
+const ParameterTable<AircraftRanges>& aircraft_range_table();
 
 }  // namespace vinerow

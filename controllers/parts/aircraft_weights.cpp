@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "controllers/parts/riccati.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
@@ -30,14 +31,12 @@ AxisLaw make_law(const LinearAxis& axis, double period_s, const Eigen::VectorXd&
 
 AircraftWeights::AircraftWeights() : AircraftRanges(kDefault.to_si()) {}
 
-ParameterSpec aircraft_weight_parameter() {
-  return aircraft_range_parameter(
-      "weights", kDefault,
+const ParameterTable<AircraftWeights>& aircraft_weight_table() {
+  using W = AircraftWeights;
+  static const ParameterTable<W> table = ParameterTable<W>().group(
+      "weights", [](W& weights) -> AircraftRanges& { return weights; }, aircraft_range_table(),
       "deviations that cost as much as each other: Q = diag(1 / x^2), R = diag(1 / u^2)");
-}
-
-AircraftWeights read_aircraft_weights(const ParameterSet& parameters) {
-  return AircraftWeights(read_aircraft_ranges(parameters, "weights", kDefault));
+  return table;
 }
 
 AircraftLaws make_aircraft_laws(const Aircraft& aircraft, const Trim& trim, double period_s,

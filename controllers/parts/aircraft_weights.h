@@ -14,13 +14,11 @@ namespace vinerow {
 /// The deviations that cost 1 each.
 struct AircraftWeights : AircraftRanges {
   AircraftWeights();
-  explicit AircraftWeights(const AircraftRanges& ranges) : AircraftRanges(ranges) {}
 };
 
 /// Group `weights`: u_mps 0.6, w_mps 1, q_degps 60, theta_deg 6, h_m 2, throttle 0.1, elevator_deg
 /// 4, v_mps 1.5, p_degps 90, r_degps 60, phi_deg 12, psi_deg 8, aileron_deg 4.
-ParameterSpec aircraft_weight_parameter();
-AircraftWeights read_aircraft_weights(const ParameterSet& parameters);
+const ParameterTable<AircraftWeights>& aircraft_weight_table();
 
 /// One axis with its cost and its gain.
 struct AxisLaw {

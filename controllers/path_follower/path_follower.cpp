@@ -4,50 +4,92 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "controllers/parts/drive_ports.h"
 #include "controllers/path_follower/path_follower_law.h"
 #include "controllers/path_follower/slip_estimate.h"
-#include "engine/core/error.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
 
-PathFollowerParams read_params(const ParameterSet& parameters, Duration period,
-                               const std::string& part) {
-  PathFollowerParams params;
-  params.lookahead_s = parameters.number("lookahead_s");
-  params.lookahead_min_m = parameters.number("lookahead_min_m");
-  params.lookahead_max_m = parameters.number("lookahead_max_m");
-  if (params.lookahead_max_m < params.lookahead_min_m) {
-    throw ConfigError(
-        fmt::format("{} (path_follower): lookahead_max_m = {} m, must be >= lookahead_min_m = {} m",
-                    part, params.lookahead_max_m, params.lookahead_min_m));
-  }
-  params.damping = parameters.number("damping");
-  params.integral = parameters.number("integral");
-  params.response_s = parameters.number("response_s");
-  params.max_curvature_per_m = 1.0 / parameters.number("min_turning_radius_m");
-  params.goal_tolerance_m = parameters.number("goal_tolerance_m");
-  params.cycle_s = period.s();
-  params.speed.speed_mps = parameters.number("speed_mps");
-  params.speed.acceleration_mps2 = parameters.number("acceleration_mps2");
-  params.speed.lateral_acceleration_mps2 = parameters.number("lateral_acceleration_mps2");
-  params.speed.yaw_rate_radps = parameters.number("turn_rate_radps");
-  params.yaw_rate_max_radps = parameters.number("yaw_rate_max_radps");
-  return params;
+/// All parameters of the controller; where two laws take one, it stands in the first of them.
+struct FollowerParams {
+  PathFollowerParams law;
+  SlipEstimateParams slip;
+  std::optional<double> turn_effectiveness;
+  double speed_gain = 1.0;
+  double wheel_yaw_max_radps = 6.0;
+};
+
+std::string find_fault_in_lookahead(const FollowerParams& p) {
+  if (p.law.lookahead_max_m >= p.law.lookahead_min_m) return "";
+  return fmt::format("lookahead_max_m = {} m, must be >= lookahead_min_m = {} m",
+                     p.law.lookahead_max_m, p.law.lookahead_min_m);
 }
 
-SlipEstimateParams read_slip(const ParameterSet& parameters, const VehicleDescription& vehicle) {
-  SlipEstimateParams params;
-  if (parameters.has("turn_effectiveness")) {
-    params.effectiveness = parameters.number("turn_effectiveness");
+const ParameterTable<FollowerParams>& follower_table() {
+  using P = FollowerParams;
+  using Law = PathFollowerParams;
+  const auto law = [](auto member) { return inside(&P::law, member); };
+  const auto speed = [](auto member) { return inside(&P::law, &Law::speed, member); };
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("speed_mps", "m/s", speed(&SpeedLimits::speed_mps), kPositive,
+                  "speed on straights (7 km/h)")
+          .number("lookahead_s", "s", law(&Law::lookahead_s), kPositive,
+                  "length over which errors die out, per speed")
+          .number("lookahead_min_m", "m", law(&Law::lookahead_min_m), kPositive,
+                  "least such length")
+          .number("lookahead_max_m", "m", law(&Law::lookahead_max_m), kPositive,
+                  "largest such length")
+          .number("damping", "", law(&Law::damping), kPositive,
+                  "damping ratio of the way back to the path")
+          .number("integral", "", law(&Law::integral), between(0.0, 1.0),
+                  "weight of the summed lateral error, against steady drift on slopes")
+          .number("response_s", "s", law(&Law::response_s), between(0.0, 2.0),
+                  "time that the vehicle's yaw rate lags behind the command")
+          .number("acceleration_mps2", "m/s2", speed(&SpeedLimits::acceleration_mps2), kPositive,
+                  "speeding up and braking")
+          .number("lateral_acceleration_mps2", "m/s2",
+                  speed(&SpeedLimits::lateral_acceleration_mps2), kPositive,
+                  "slows down in turns")
+          .number("turn_rate_radps", "rad/s", speed(&SpeedLimits::yaw_rate_radps), kPositive,
+                  "yaw rate of the planned turns: slows down so that v kappa stays below")
+          .number("yaw_rate_max_radps", "rad/s", law(&Law::yaw_rate_max_radps), kPositive,
+                  "limit of the commanded yaw rate")
+          .number("min_turning_radius_m", "m", law(&Law::max_curvature_per_m), kPositive,
+                  "tightest curve commanded", kInverse)
+          .number("speed_gain", "", &P::speed_gain, between(0.0, 5.0),
+                  "share of a speed too high or low that the wheels are told to make up")
+          .number("wheel_yaw_max_radps", "rad/s", &P::wheel_yaw_max_radps, kPositive,
+                  "limit of the yaw rate that the wheels stand for: tyres that spin hold no slope")
+          .number("turn_effectiveness", "", &P::turn_effectiveness, between(0.2, 1.25),
+                  "yaw rate driven per yaw rate of the wheels, at the start; default what the "
+                  "vehicle tells (track_m / effective_track_m), else 1")
+          .number("slide_arm_m", "m", inside(&P::slip, &SlipEstimateParams::arm_m),
+                  between(-0.6, 0.6),
+                  "the vehicle turns about a point this far ahead of its centre, at the start")
+          .number("slip_learn_s", "s", inside(&P::slip, &SlipEstimateParams::learn_time_s),
+                  between(0.0, 1e3),
+                  "time over which slip and slide are learnt; 0 = kept as at the start")
+          .number("goal_tolerance_m", "m", law(&Law::goal_tolerance_m), kPositive,
+                  "the mission ends this far before the path's end")
+          .rule(find_fault_in_lookahead);
+  return table;
+}
+
+FollowerParams read_params(const ParameterSet& parameters, const ControllerContext& context) {
+  FollowerParams params = follower_table().read(parameters, context.part + " (path_follower)");
+  params.law.cycle_s = context.period.s();
+  params.slip.response_s = params.law.response_s;
+  const VehicleDescription& vehicle = *context.vehicle_description;
+  if (params.turn_effectiveness) {
+    params.slip.effectiveness = *params.turn_effectiveness;
   } else if (vehicle.wheeled && vehicle.wheeled->effective_track_m > 0.0) {
-    params.effectiveness = vehicle.wheeled->track_m / vehicle.wheeled->effective_track_m;
+    params.slip.effectiveness = vehicle.wheeled->track_m / vehicle.wheeled->effective_track_m;
   }
-  params.arm_m = parameters.number("slide_arm_m");
-  params.learn_time_s = parameters.number("slip_learn_s");
-  params.response_s = parameters.number("response_s");
   return params;
 }
 
@@ -55,13 +97,13 @@ constexpr double kOverspeedFilter_s = 0.1;
 
 class PathFollower final : public Controller {
  public:
-  PathFollower(const ParameterSet& parameters, const ControllerContext& context)
+  PathFollower(const FollowerParams& params, const ControllerContext& context)
       : ports_(context, "path_follower"),
-        law_(read_params(parameters, context.period, context.part)),
-        slip_(read_slip(parameters, *context.vehicle_description)),
+        law_(params.law),
+        slip_(params.slip),
         period_s_(context.period.s()),
-        speed_gain_(parameters.number("speed_gain")),
-        wheel_yaw_max_radps_(parameters.number("wheel_yaw_max_radps")),
+        speed_gain_(params.speed_gain),
+        wheel_yaw_max_radps_(params.wheel_yaw_max_radps),
         overspeed_share_(1.0 - std::exp(-period_s_ / kOverspeedFilter_s)) {}
 
   void connect(Ports& ports) override { ports_.connect(ports); }
@@ -113,38 +155,7 @@ PartSpec path_follower_spec() {
       "error "
       "over a lookahead that grows with speed; brakes for turns; learns how a skid-steered vehicle "
       "slips.";
-  spec.parameters = {
-      positive_parameter("speed_mps", "m/s", 7.0 / 3.6, "speed on straights (7 km/h)"),
-      positive_parameter("lookahead_s", "s", 0.7, "length over which errors die out, per speed"),
-      positive_parameter("lookahead_min_m", "m", 0.6, "least such length"),
-      positive_parameter("lookahead_max_m", "m", 3.0, "largest such length"),
-      positive_parameter("damping", "", 1.0, "damping ratio of the way back to the path"),
-      number_parameter("integral", "", 0.0, 0.0, 1.0,
-                       "weight of the summed lateral error, against steady drift on slopes"),
-      number_parameter("response_s", "s", 0.0, 0.0, 2.0,
-                       "time that the vehicle's yaw rate lags behind the command"),
-      positive_parameter("acceleration_mps2", "m/s2", 0.8, "speeding up and braking"),
-      positive_parameter("lateral_acceleration_mps2", "m/s2", 1.0, "slows down in turns"),
-      positive_parameter("turn_rate_radps", "rad/s", 0.6,
-                         "yaw rate of the planned turns: slows down so that v kappa stays below"),
-      positive_parameter("yaw_rate_max_radps", "rad/s", 1.2, "limit of the commanded yaw rate"),
-      positive_parameter("min_turning_radius_m", "m", 0.5, "tightest curve commanded"),
-      number_parameter("speed_gain", "", 1.0, 0.0, 5.0,
-                       "share of a speed too high or low that the wheels are told to make up"),
-      positive_parameter("wheel_yaw_max_radps", "rad/s", 6.0,
-                         "limit of the yaw rate that the wheels stand for: tyres that spin hold "
-                         "no slope"),
-      optional(number_parameter("turn_effectiveness", "", 1.0, 0.2, 1.25,
-                                "yaw rate driven per yaw rate of the wheels, at the start; default "
-                                "what the vehicle tells (track_m / effective_track_m), else 1")),
-      number_parameter(
-          "slide_arm_m", "m", 0.0, -0.6, 0.6,
-          "the vehicle turns about a point this far ahead of its centre, at the start"),
-      number_parameter("slip_learn_s", "s", 1.0, 0.0, 1e3,
-                       "time over which slip and slide are learnt; 0 = kept as at the start"),
-      positive_parameter("goal_tolerance_m", "m", 0.05,
-                         "the mission ends this far before the path's end"),
-  };
+  spec.parameters = follower_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"estimate", "plan", "authority"};
   spec.writes = {"actuators", "command", "follower"};
@@ -153,7 +164,7 @@ PartSpec path_follower_spec() {
 
 std::unique_ptr<Controller> make_path_follower(const ParameterSet& parameters,
                                                const ControllerContext& context) {
-  return std::make_unique<PathFollower>(parameters, context);
+  return std::make_unique<PathFollower>(read_params(parameters, context), context);
 }
 
 }  // namespace vinerow

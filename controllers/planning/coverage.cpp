@@ -10,6 +10,7 @@
 #include "controllers/planning/row_check.h"
 #include "controllers/planning/row_route.h"
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
@@ -17,33 +18,48 @@ namespace vinerow {
 namespace {
 
 struct CoverageParams {
-  double pitch_m;
+  double pitch_m = 0.33;
   TurnParams turn;
   RowRouteParams route;
-  double speed_mps;
-  double lead_in_m;
-  double lead_out_m;
-  double clearance_m;
-  bool approach;
+  double speed_mps = 0.0;
+  double lead_in_m = 0.0;
+  double lead_out_m = 0.0;
+  double clearance_m = 0.0;
+  bool approach = true;
 };
 
-CoverageParams read_params(const ParameterSet& parameters, const std::string& who,
-                           int alley_count) {
-  CoverageParams params;
-  params.pitch_m = parameters.number("waypoint_pitch_m");
-  params.turn.kind =
-      parameters.text("turn") == "dubins" ? TurnKind::kDubins : TurnKind::kThreePointArc;
-  params.turn.radius_m = parameters.number("turn_radius_m");
-  params.turn.headland_m = parameters.number("headland_m");
-  if (parameters.has("apex_m")) params.turn.apex_m = parameters.number("apex_m");
-  params.turn.speed_mps = parameters.number("turn_speed_mps");
-  params.route = read_row_route_params(parameters, alley_count, who);
-  params.speed_mps = parameters.number("speed_mps");
-  params.lead_in_m = parameters.number("lead_in_m");
-  params.lead_out_m = parameters.number("lead_out_m");
-  params.clearance_m = parameters.number("clearance_m");
-  params.approach = parameters.boolean("approach");
-  return params;
+const ParameterTable<CoverageParams>& coverage_table() {
+  using P = CoverageParams;
+  const auto turn = [](auto member) { return inside(&P::turn, member); };
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("waypoint_pitch_m", "m", &P::pitch_m, kPositive,
+                  "waypoint pitch WPP: straights and arcs are split into round(length / "
+                  "pitch) parts")
+          .choice("turn", turn(&TurnParams::kind),
+                  {{"three_point_arc", TurnKind::kThreePointArc}, {"dubins", TurnKind::kDubins}},
+                  "how to get from one alley to the next")
+          .number("turn_radius_m", "m", turn(&TurnParams::radius_m), kPositive,
+                  "radius of Dubins arcs; least radius allowed for three-point arcs (table 1)")
+          .number("headland_m", "m", turn(&TurnParams::headland_m), between(0.0, 1e3),
+                  "straight on beyond the alley's end before turning, and before entering")
+          .number("apex_m", "m", turn(&TurnParams::apex_m), kPositive,
+                  "apex of the three-point arc beyond the alley ends; default half "
+                  "the alley spacing, a semicircle")
+          .number("speed_mps", "m/s", &P::speed_mps, between(0.0, 100.0),
+                  "wanted speed on legs; 0 = the follower's own")
+          .number("turn_speed_mps", "m/s", turn(&TurnParams::speed_mps), between(0.0, 100.0),
+                  "wanted speed in turns; 0 = the follower's own")
+          .number("lead_in_m", "m", &P::lead_in_m, between(0.0, 1e3),
+                  "straight before the first alley")
+          .number("lead_out_m", "m", &P::lead_out_m, between(0.0, 1e3),
+                  "straight beyond the last alley")
+          .boolean("approach", &P::approach,
+                   "plan the way from where the vehicle stands to the first alley")
+          .number("clearance_m", "m", &P::clearance_m, between(0.0, 10.0),
+                  "distance that the planned line keeps from every canopy's footprint")
+          .include(&P::route, row_route_table());
+  return table;
 }
 
 class Coverage final : public Planner {
@@ -123,32 +139,7 @@ PartSpec coverage_spec() {
   spec.description =
       "Drives the alleys of the row map with straight legs and headland turns (Martelli, Mocera, "
       "Soma 2024, section 2.3): three-point arcs or Dubins paths, split at the waypoint pitch.";
-  spec.parameters = {
-      positive_parameter("waypoint_pitch_m", "m", 0.33,
-                         "waypoint pitch WPP: straights and arcs are split into round(length / "
-                         "pitch) parts"),
-      choice_parameter("turn", "three_point_arc", {"three_point_arc", "dubins"},
-                       "how to get from one alley to the next"),
-      positive_parameter(
-          "turn_radius_m", "m", 1.0,
-          "radius of Dubins arcs; least radius allowed for three-point arcs (table 1)"),
-      number_parameter("headland_m", "m", 0.0, 0.0, 1e3,
-                       "straight on beyond the alley's end before turning, and before entering"),
-      optional(positive_parameter("apex_m", "m", 5.0,
-                                  "apex of the three-point arc beyond the alley ends; default half "
-                                  "the alley spacing, a semicircle")),
-      number_parameter("speed_mps", "m/s", 0.0, 0.0, 100.0,
-                       "wanted speed on legs; 0 = the follower's own"),
-      number_parameter("turn_speed_mps", "m/s", 0.0, 0.0, 100.0,
-                       "wanted speed in turns; 0 = the follower's own"),
-      number_parameter("lead_in_m", "m", 0.0, 0.0, 1e3, "straight before the first alley"),
-      number_parameter("lead_out_m", "m", 0.0, 0.0, 1e3, "straight beyond the last alley"),
-      boolean_parameter("approach", true,
-                        "plan the way from where the vehicle stands to the first alley"),
-      number_parameter("clearance_m", "m", 0.0, 0.0, 10.0,
-                       "distance that the planned line keeps from every canopy's footprint"),
-  };
-  for (ParameterSpec& parameter : row_route_parameters()) spec.parameters.push_back(parameter);
+  spec.parameters = coverage_table().specs();
   spec.reads = {"estimate"};
   spec.writes = {"plan"};
   return spec;
@@ -160,8 +151,10 @@ std::unique_ptr<Planner> make_coverage(const ParameterSet& parameters,
     throw ConfigError(fmt::format("{} (coverage): the map has no alleys to drive", context.part));
   }
   const int alley_count = static_cast<int>(context.map->alleys.size());
-  return std::make_unique<Coverage>(
-      read_params(parameters, context.part + " (coverage)", alley_count), context);
+  const std::string who = context.part + " (coverage)";
+  const CoverageParams params = coverage_table().read(parameters, who);
+  params.route.demand_alleys(alley_count, who);
+  return std::make_unique<Coverage>(params, context);
 }
 
 }  // namespace vinerow

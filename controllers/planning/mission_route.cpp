@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "controllers/planning/mission_items.h"
 #include "controllers/planning/mission_kinds.h"
@@ -11,6 +12,7 @@
 #include "controllers/planning/survey_params.h"
 #include "controllers/planning/survey_route.h"
 #include "engine/api/file_shelf.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
@@ -22,19 +24,41 @@ using Eigen::Vector3d;
 
 constexpr double kSamePlace_m = 1e-3;
 
+struct MissionRouteParams {
+  std::filesystem::path file;
+  double climb_slope = 0.12;  ///< of wings to the first waypoint, rise over run
+  double ramp_error_m = 2.0;
+  bool keeps_fences = true;
+};
+
+const ParameterTable<MissionRouteParams>& mission_route_table() {
+  using P = MissionRouteParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .path("file", &P::file, "the mission: a .plan or a QGC WPL 110 text")
+          .required()
+          .number("climb_slope", "", &P::climb_slope, between(0.001, 10.0),
+                  "at which wings climb to the first waypoint, rise over run; laps are added "
+                  "where the way there is too short")
+          .number("ramp_error_m", "m", &P::ramp_error_m, kPositive,
+                  "by which ramps between places above the terrain may miss it")
+          .choice("fences", &P::keeps_fences, {{"keep", true}, {"ignore", false}},
+                  "keep: a way that breaks one of the mission's fences is refused");
+  return table;
+}
+
 class MissionRoute final : public Planner {
  public:
-  MissionRoute(const ParameterSet& parameters, const PlannerContext& context,
+  MissionRoute(const MissionRouteParams& params, const PlannerContext& context,
                const std::string& who)
-      : mission_(*keep<io::MissionFile>(
-            context.shelf, file_mark(parameters.text("file")),
-            [&] { return io::read_mission(parameters.text("file")); })),
+      : mission_(*keep<io::MissionFile>(context.shelf, file_mark(params.file),
+                                        [&] { return io::read_mission(params.file); })),
         origin_(context.origin),
         scene_(context.scene),
         vehicle_(*context.vehicle_description),
-        climb_slope_(parameters.number("climb_slope")),
-        ramp_error_m_(parameters.number("ramp_error_m")),
-        keeps_fences_(parameters.text("fences") == "keep") {
+        climb_slope_(params.climb_slope),
+        ramp_error_m_(params.ramp_error_m),
+        keeps_fences_(params.keeps_fences) {
     winged_ = !vehicle_.rotorcraft;
     constexpr double kUsualRadius_m = 25.0;
     radius_m_ = vehicle_.min_turning_radius_m.value_or(kUsualRadius_m);
@@ -261,16 +285,7 @@ PartSpec mission_route_spec() {
   spec.description =
       "A mission from QGroundControl (.plan) or Mission Planner (QGC WPL 110), flown leg by leg; "
       "docs/survey.md lists the commands.";
-  spec.parameters = {
-      required(path_parameter("file", "the mission: a .plan or a QGC WPL 110 text")),
-      number_parameter("climb_slope", "", 0.12, 0.001, 10.0,
-                       "at which wings climb to the first waypoint, rise over run; laps are added "
-                       "where the way there is too short"),
-      positive_parameter("ramp_error_m", "m", 2.0,
-                         "by which ramps between places above the terrain may miss it"),
-      choice_parameter("fences", "keep", {"keep", "ignore"},
-                       "keep: a way that breaks one of the mission's fences is refused"),
-  };
+  spec.parameters = mission_route_table().specs();
   spec.reads = {"estimate"};
   spec.writes = {"plan"};
   return spec;
@@ -283,7 +298,7 @@ std::unique_ptr<Planner> make_mission_route(const ParameterSet& parameters,
     throw ConfigError(fmt::format("{} plans flights, but vehicle type '{}' does not fly", who,
                                   context.vehicle_description->type));
   }
-  return std::make_unique<MissionRoute>(parameters, context, who);
+  return std::make_unique<MissionRoute>(mission_route_table().read(parameters, who), context, who);
 }
 
 }  // namespace vinerow

@@ -20,6 +20,7 @@
 #include "controllers/planning/goal_distance.h"
 #include "controllers/planning/pose_cells.h"
 #include "controllers/planning/quartile_list.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
@@ -27,7 +28,7 @@ struct QuartileTreeParams {
   double curvature_per_m = 0.566;  ///< of the arcs to the left and right, > 0
   double step_m = 0.4;             ///< length of every arc
   double cell_m = 0.2;             ///< of the occupied cells
-  double cell_rad = 0.13962634;    ///< 8 deg
+  double cell_rad = rad_from_deg(8.0);
   double check_step_m = 0.1;       ///< between poses of the swept check
   double join_m = 3.0;             ///< longest Dubins path that joins the tree to the goal
   bool quartiles = true;

@@ -10,6 +10,7 @@
 #include "controllers/planning/route_room.h"
 #include "controllers/planning/row_check.h"
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
@@ -220,46 +221,44 @@ class RoutePlanner final : public Planner {
 
 }  // namespace
 
-std::vector<ParameterSpec> route_planner_parameters() {
-  std::vector<ParameterSpec> specs = row_route_parameters();
-  for (ParameterSpec spec : {
-           number_parameter("beyond_m", "m", 0.0, 0.0, 50.0,
-                            "legs go this far beyond the row ends before and after a turn"),
-           optional(positive_parameter("turning_radius_m", "m", 1.0,
-                                       "least turning radius; default the vehicle's own")),
-           number_parameter("margin_m", "m", 0.05, 0.0, 5.0,
-                            "room that every planned pose keeps around the vehicle's outline"),
-           positive_parameter("waypoint_pitch_m", "m", 0.25,
-                              "straights and arcs are split into round(length / pitch) parts"),
-           number_parameter("speed_mps", "m/s", 0.0, 0.0, 100.0,
-                            "wanted speed on legs; 0 = the follower's own"),
-           number_parameter("turn_speed_mps", "m/s", 0.0, 0.0, 100.0,
-                            "wanted speed in turns; 0 = the follower's own"),
-       }) {
-    specs.push_back(std::move(spec));
-  }
-  return specs;
+const ParameterTable<RoutePlannerParams>& route_planner_table() {
+  using P = RoutePlannerParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .include(&P::route, row_route_table())
+          .number("beyond_m", "m", inside(&P::route, &RowRouteParams::beyond_m), between(0.0, 50.0),
+                  "legs go this far beyond the row ends before and after a turn")
+          .number("turning_radius_m", "m", &P::wanted_radius_m, kPositive,
+                  "least turning radius; default the vehicle's own")
+          .number("margin_m", "m", &P::margin_m, between(0.0, 5.0),
+                  "room that every planned pose keeps around the vehicle's outline")
+          .number("waypoint_pitch_m", "m", &P::pitch_m, kPositive,
+                  "straights and arcs are split into round(length / pitch) parts")
+          .number("speed_mps", "m/s", &P::speed_mps, between(0.0, 100.0),
+                  "wanted speed on legs; 0 = the follower's own")
+          .number("turn_speed_mps", "m/s", &P::turn_speed_mps, between(0.0, 100.0),
+                  "wanted speed in turns; 0 = the follower's own");
+  return table;
 }
 
 namespace {
 
-double read_turning_radius_m(const ParameterSet& parameters, const VehicleDescription& vehicle,
-                             const std::string& who) {
+double find_turning_radius_m(const std::optional<double>& wanted_m,
+                             const VehicleDescription& vehicle, const std::string& who) {
   const std::optional<double>& own_m = vehicle.min_turning_radius_m;
-  if (!parameters.has("turning_radius_m")) {
+  if (!wanted_m) {
     const double radius_m = vehicle.need(own_m, "min_turning_radius_m", who);
     if (radius_m > 0.0) return radius_m;
     throw ConfigError(fmt::format("{}: vehicle type '{}' turns on the spot: give turning_radius_m",
                                   who, vehicle.type));
   }
-  const double radius_m = parameters.number("turning_radius_m");
-  if (own_m && radius_m < *own_m) {
+  if (own_m && *wanted_m < *own_m) {
     throw ConfigError(
         fmt::format("{}: turning_radius_m = {:.3f} m is less than the {:.3f} m that vehicle type "
                     "'{}' can turn",
-                    who, radius_m, *own_m, vehicle.type));
+                    who, *wanted_m, *own_m, vehicle.type));
   }
-  return radius_m;
+  return *wanted_m;
 }
 
 }  // namespace
@@ -267,17 +266,18 @@ double read_turning_radius_m(const ParameterSet& parameters, const VehicleDescri
 RoutePlannerParams read_route_planner_params(const ParameterSet& parameters,
                                              const PlannerContext& context,
                                              const std::string& who) {
-  RoutePlannerParams params;
+  RoutePlannerParams params = route_planner_table().read(parameters, who);
+  complete_route_params(context, who, params);
+  return params;
+}
+
+void complete_route_params(const PlannerContext& context, const std::string& who,
+                           RoutePlannerParams& params) {
   const int alley_count = context.map == nullptr ? 0 : static_cast<int>(context.map->alleys.size());
   if (alley_count == 0) throw ConfigError(who + ": the map has no alleys to drive");
-  params.route = read_row_route_params(parameters, alley_count, who);
-  params.route.beyond_m = parameters.number("beyond_m");
-  params.turning_radius_m = read_turning_radius_m(parameters, *context.vehicle_description, who);
-  params.margin_m = parameters.number("margin_m");
-  params.pitch_m = parameters.number("waypoint_pitch_m");
-  params.speed_mps = parameters.number("speed_mps");
-  params.turn_speed_mps = parameters.number("turn_speed_mps");
-  return params;
+  params.route.demand_alleys(alley_count, who);
+  params.turning_radius_m =
+      find_turning_radius_m(params.wanted_radius_m, *context.vehicle_description, who);
 }
 
 std::unique_ptr<Planner> make_route_planner(const RoutePlannerParams& params,

@@ -3,6 +3,7 @@
 /// the way to the first alley and for every turn (paper A, section 4.1). Same for every search.
 
 #include <memory>
+#include <optional>
 
 #include "controllers/planning/pose_search.h"
 #include "controllers/planning/row_route.h"
@@ -12,7 +13,8 @@ namespace vinerow {
 
 struct RoutePlannerParams {
   RowRouteParams route;
-  double turning_radius_m = 0.0;  ///< least of the vehicle
+  std::optional<double> wanted_radius_m;  ///< absent: the vehicle's own
+  double turning_radius_m = 0.0;          ///< least of the vehicle, or the one wanted
   double margin_m = 0.05;         ///< room around the footprint
   double pitch_m = 0.25;          ///< of the waypoints
   double speed_mps = 0.0;         ///< on legs; 0 = the follower's own
@@ -22,12 +24,16 @@ struct RoutePlannerParams {
 
 /// Parameters that every route planner has: those of row_route.h, beyond_m, turning_radius_m,
 /// margin_m, waypoint_pitch_m, speed_mps, turn_speed_mps.
-std::vector<ParameterSpec> route_planner_parameters();
+const ParameterTable<RoutePlannerParams>& route_planner_table();
 /// The turning radius is the parameter's, else the vehicle's min_turning_radius_m.
 /// @throws ConfigError for alleys the map does not have, a vehicle without turning radius, or one
 /// that cannot turn so tightly
 RoutePlannerParams read_route_planner_params(const ParameterSet& parameters,
                                              const PlannerContext& context, const std::string& who);
+/// The same where an outer table has read the parameters: checks the alleys, fills in the turning
+/// radius.
+void complete_route_params(const PlannerContext& context, const std::string& who,
+                           RoutePlannerParams& params);
 
 /// Refuses, each with one sentence and the numbers: a start in collision, a leg or its end inside
 /// a row, a turn for which there is no room (with the clearance that is missing).

@@ -252,15 +252,13 @@ std::unique_ptr<Planner> make_row_flight(const ParameterSet& parameters,
                                   context.vehicle_description->type));
   }
   const RowFlightParams params = read_row_flight_params(parameters, context, who);
-  const std::string& turns = parameters.text("turns");
   std::unique_ptr<FlightWay> way;
-  if (turns == "grid") {
+  if (!params.turns) {
     way = make_grid_way(params.route, make_rrt_star_search(parameters, params.route, context),
                         context);
   } else {
-    const TurnKind kind = turns == "dubins" ? TurnKind::kDubins : TurnKind::kThreePointArc;
-    way =
-        make_closed_form_way(params.route, kind, params.radius_m + params.route.margin_m, context);
+    way = make_closed_form_way(params.route, *params.turns,
+                               params.radius_m + params.route.margin_m, context);
   }
   return std::make_unique<RowFlight>(params, std::move(way), context);
 }

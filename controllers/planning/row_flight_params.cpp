@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "controllers/planning/rrt_star.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
@@ -21,32 +22,40 @@ double calc_radius_m(const VehicleDescription& vehicle) {
   return radius_m;
 }
 
+const ParameterTable<RowFlightParams>& row_flight_table() {
+  using P = RowFlightParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("height_m", "m", &P::height_m, kPositive,
+                  "of the vehicle's centre of mass above the map's ground, in rows and "
+                  "turns and on the way to the first row")
+          .number("return_height_m", "m", &P::return_height_m, kPositive,
+                  "least height of the centre of mass above ground and canopies on the way "
+                  "home")
+          .choice("turns", &P::turns,
+                  {{"grid", std::nullopt},
+                   {"dubins", TurnKind::kDubins},
+                   {"three_point_arc", TurnKind::kThreePointArc}},
+                  "grid: searched on the occupancy grid as rrt_star does; dubins and "
+                  "three_point_arc: closed forms, for maps without a grid")
+          .number("smooth_m", "m", &P::smooth_m, between(0.0, 50.0),
+                  "length over which the ground's heights are smoothed")
+          .number("return_smooth_m", "m", &P::return_smooth_m, between(0.0, 50.0),
+                  "on the way home the path rises this far before a canopy to twice this "
+                  "far, from above")
+          .boolean("return_home", &P::returns,
+                   "fly home after the last row; else land at its end")
+          .number("return_speed_mps", "m/s", &P::return_speed_mps, between(0.0, 100.0),
+                  "wanted speed on the way home; 0 = the guidance's own")
+          .include(&P::route, route_planner_table())
+          .limit("waypoint_pitch_m", above(0.0, kCoarsestPitch_m));
+  return table;
+}
+
 }  // namespace
 
 std::vector<ParameterSpec> row_flight_parameters() {
-  std::vector<ParameterSpec> specs = {
-      positive_parameter("height_m", "m", 1.5,
-                         "of the vehicle's centre of mass above the map's ground, in rows and "
-                         "turns and on the way to the first row"),
-      positive_parameter("return_height_m", "m", 3.0,
-                         "least height of the centre of mass above ground and canopies on the way "
-                         "home"),
-      choice_parameter("turns", "grid", {"grid", "dubins", "three_point_arc"},
-                       "grid: searched on the occupancy grid as rrt_star does; dubins and "
-                       "three_point_arc: closed forms, for maps without a grid"),
-      number_parameter("smooth_m", "m", 2.0, 0.0, 50.0,
-                       "length over which the ground's heights are smoothed"),
-      number_parameter("return_smooth_m", "m", 3.0, 0.0, 50.0,
-                       "on the way home the path rises this far before a canopy to twice this "
-                       "far, from above"),
-      boolean_parameter("return_home", true, "fly home after the last row; else land at its end"),
-      number_parameter("return_speed_mps", "m/s", 0.0, 0.0, 100.0,
-                       "wanted speed on the way home; 0 = the guidance's own"),
-  };
-  for (ParameterSpec& parameter : route_planner_parameters()) {
-    if (parameter.name == "waypoint_pitch_m") parameter.max = kCoarsestPitch_m;
-    specs.push_back(std::move(parameter));
-  }
+  std::vector<ParameterSpec> specs = row_flight_table().specs();
   for (ParameterSpec& parameter : rrt_star_search_parameters()) {
     specs.push_back(std::move(parameter));
   }
@@ -56,14 +65,8 @@ std::vector<ParameterSpec> row_flight_parameters() {
 RowFlightParams read_row_flight_params(const ParameterSet& parameters,
                                        const PlannerContext& context, const std::string& who) {
   const VehicleDescription& vehicle = *context.vehicle_description;
-  RowFlightParams params;
-  params.route = read_route_planner_params(parameters, context, who);
-  params.height_m = parameters.number("height_m");
-  params.return_height_m = parameters.number("return_height_m");
-  params.smooth_m = parameters.number("smooth_m");
-  params.return_smooth_m = parameters.number("return_smooth_m");
-  params.return_speed_mps = parameters.number("return_speed_mps");
-  params.returns = parameters.boolean("return_home");
+  RowFlightParams params = row_flight_table().read(parameters, who);
+  complete_route_params(context, who, params.route);
   params.standing_m = vehicle.height_above_ground_m;
   params.radius_m = calc_radius_m(vehicle);
   if (params.height_m <= params.standing_m) {

@@ -1,9 +1,11 @@
 #pragma once
 /// Parameters of planner `row_flight`.
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "controllers/planning/headland_turn.h"
 #include "controllers/planning/route_planner.h"
 
 namespace vinerow {
@@ -12,6 +14,7 @@ struct RowFlightParams {
   RoutePlannerParams route;
   double height_m = 1.5;
   double return_height_m = 3.0;
+  std::optional<TurnKind> turns;  ///< in closed form; absent: searched on the grid
   double smooth_m = 2.0;
   double return_smooth_m = 3.0;
   double return_speed_mps = 0.0;

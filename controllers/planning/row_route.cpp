@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
@@ -37,35 +38,31 @@ Pose2 RouteLeg::exit() const {
   return heading_along(line_W.back(), line_W[line_W.size() - 2], line_W.back());
 }
 
-std::vector<ParameterSpec> row_route_parameters() {
-  ParameterSpec alleys = number_list_parameter(
-      "alleys", "", {}, "indices of the alleys to drive, in order; empty = all of the map");
-  alleys.min = 0.0;
-  return {alleys,
-          choice_parameter("order", "serpentine", {"serpentine", "skip"},
-                           "serpentine: each alley's neighbour next; skip: every second one, the "
-                           "rest on the way back, for wide turns"),
-          number_parameter("straighten_m", "m", 0.02, 0.0, 10.0,
-                           "vertices of an alley's line this near to a straight are left out")};
+const ParameterTable<RowRouteParams>& row_route_table() {
+  using P = RowRouteParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .numbers("alleys", "", &P::alleys, kNotNegative,
+                   "indices of the alleys to drive, in order; empty = all of the map")
+          .choice("order", &P::order,
+                  {{"serpentine", AlleyOrder::kSerpentine}, {"skip", AlleyOrder::kSkip}},
+                  "serpentine: each alley's neighbour next; skip: every second one, the "
+                  "rest on the way back, for wide turns")
+          .number("straighten_m", "m", &P::straighten_m, between(0.0, 10.0),
+                  "vertices of an alley's line this near to a straight are left out");
+  return table;
 }
 
-RowRouteParams read_row_route_params(const ParameterSet& parameters, int alley_count,
-                                     const std::string& who) {
-  RowRouteParams params;
-  params.order = parameters.text("order") == "skip" ? AlleyOrder::kSkip : AlleyOrder::kSerpentine;
-  params.straighten_m = parameters.number("straighten_m");
-  for (const double value : parameters.numbers("alleys")) {
-    const int alley = static_cast<int>(value);
-    if (alley != value || alley < 0 || alley >= alley_count) {
+void RowRouteParams::demand_alleys(int alley_count, const std::string& who) const {
+  for (auto alley = alleys.begin(); alley != alleys.end(); ++alley) {
+    if (*alley < 0 || *alley >= alley_count) {
       throw ConfigError(fmt::format("{}: alleys holds {}, must be whole numbers from 0 to {}", who,
-                                    value, alley_count - 1));
+                                    *alley, alley_count - 1));
     }
-    if (std::count(params.alleys.begin(), params.alleys.end(), alley) > 0) {
-      throw ConfigError(fmt::format("{}: alleys holds {} twice", who, alley));
+    if (std::find(alleys.begin(), alley, *alley) != alley) {
+      throw ConfigError(fmt::format("{}: alleys holds {} twice", who, *alley));
     }
-    params.alleys.push_back(alley);
   }
-  return params;
 }
 
 Result<std::vector<RouteLeg>> make_row_route(const RowMap& map, const RowRouteParams& params,

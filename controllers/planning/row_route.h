@@ -10,7 +10,7 @@
 #include "controllers/parts/pose2.h"
 #include "controllers/planning/alley_order.h"
 #include "engine/api/forward.h"
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/core/result.h"
 
 namespace vinerow {
@@ -28,14 +28,14 @@ struct RowRouteParams {
   AlleyOrder order = AlleyOrder::kSerpentine;
   double straighten_m = 0.02;
   double beyond_m = 0.0;  ///< legs go this far beyond the row ends before and after a turn
+
+  /// @param alley_count  of the map  @param who  for errors, "rover.planner (coverage)"
+  /// @throws ConfigError if an alley is asked that the map does not have, or asked twice
+  void demand_alleys(int alley_count, const std::string& who) const;
 };
 
 /// Parameters of every planner that drives alleys: alleys, order, straighten_m.
-std::vector<ParameterSpec> row_route_parameters();
-/// Reads those three. @param who  for errors, "rover.planner (coverage)"
-/// @throws ConfigError if an alley is asked that the map does not have, or asked twice
-RowRouteParams read_row_route_params(const ParameterSet& parameters, int alley_count,
-                                     const std::string& who);
+const ParameterTable<RowRouteParams>& row_route_table();
 
 /// Legs, each entered from the end nearer to where the one before ended, which makes directions
 /// alternate; the first from the end nearer to `start_W`. The first entrance and the last exit stay

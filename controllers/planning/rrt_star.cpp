@@ -4,44 +4,50 @@
 
 #include "controllers/planning/route_planner.h"
 #include "controllers/planning/rrt_star_search.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 
+namespace {
+
+/// radius_m and check_step_m are those of the route.
+const ParameterTable<RrtStarParams>& rrt_star_table() {
+  using P = RrtStarParams;
+  using Cost = WayCostParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .integer("iterations", &P::iterations, between(0, 1e7),
+                   "of RRT*, for every turn that a shorter way is possible for; 0: the first way "
+                   "stands")
+          .integer("first_iterations", &P::first_iterations, between(1, 1e7),
+                   "of RRT, where no turn in closed form fits; it stops at the first way")
+          .number("range_m", "m", &P::range_m, kPositive, "longest edge of the tree")
+          .number("reach_m", "m", &P::reach_m, kPositive,
+                  "how far around both ends ways are looked for")
+          .number("curvature_reserve", "", &P::curvature_reserve, between(0.0, 1.0),
+                  "turns are wider than the least radius by up to this share where there is room, "
+                  "so that the follower can steer in")
+          .number("clearance_weight", "", inside(&P::cost, &Cost::clearance_weight),
+                  between(0.0, 100.0), "a metre driven at no clearance costs 1 + this")
+          .number("wanted_clearance_m", "m", inside(&P::cost, &Cost::wanted_clearance_m), kPositive,
+                  "from here on clearance costs nothing more")
+          .number("bend_cost_m", "m", inside(&P::cost, &Cost::bend_m), between(0.0, 10.0),
+                  "every change of curvature costs as much as this length");
+  return table;
+}
+
+}  // namespace
+
 std::vector<ParameterSpec> rrt_star_search_parameters() {
-  return {
-      integer_parameter("iterations", 500, 0, 1e7,
-                        "of RRT*, for every turn that a shorter way is possible for; 0: the "
-                        "first way stands"),
-      integer_parameter("first_iterations", 10'000, 1, 1e7,
-                        "of RRT, where no turn in closed form fits; it stops at the first way"),
-      positive_parameter("range_m", "m", 3.0, "longest edge of the tree"),
-      positive_parameter("reach_m", "m", 8.0, "how far around both ends ways are looked for"),
-      number_parameter("curvature_reserve", "", 0.05, 0.0, 1.0,
-                       "turns are wider than the least radius by up to this share where "
-                       "there is room, so that the follower can steer in"),
-      number_parameter("clearance_weight", "", 0.5, 0.0, 100.0,
-                       "a metre driven at no clearance costs 1 + this"),
-      positive_parameter("wanted_clearance_m", "m", 0.3,
-                         "from here on clearance costs nothing more"),
-      number_parameter("bend_cost_m", "m", 0.2, 0.0, 10.0,
-                       "every change of curvature costs as much as this length"),
-  };
+  return rrt_star_table().specs();
 }
 
 std::unique_ptr<PoseSearch> make_rrt_star_search(const ParameterSet& parameters,
                                                  const RoutePlannerParams& route,
                                                  const PartContext& context) {
-  RrtStarParams params;
+  RrtStarParams params = rrt_star_table().read(parameters, context.part);
   params.radius_m = route.turning_radius_m;
   params.check_step_m = route.check_step_m;
-  params.iterations = parameters.integer("iterations");
-  params.first_iterations = parameters.integer("first_iterations");
-  params.range_m = parameters.number("range_m");
-  params.reach_m = parameters.number("reach_m");
-  params.curvature_reserve = parameters.number("curvature_reserve");
-  params.cost.clearance_weight = parameters.number("clearance_weight");
-  params.cost.wanted_clearance_m = parameters.number("wanted_clearance_m");
-  params.cost.bend_m = parameters.number("bend_cost_m");
   const auto random_of = [own = context](int stream) {
     return own.random(fmt::format("turn_{}", stream));
   };
@@ -54,7 +60,7 @@ PartSpec rrt_star_spec() {
   spec.description =
       "Plans legs along the alleys and turns on the occupancy grid: a first turn in closed form, "
       "improved by RRT* (Karaman, Frazzoli 2011) in OMPL for a car-like vehicle (paper A, 4.1).";
-  spec.parameters = route_planner_parameters();
+  spec.parameters = route_planner_table().specs();
   for (ParameterSpec& parameter : rrt_star_search_parameters()) {
     spec.parameters.push_back(std::move(parameter));
   }

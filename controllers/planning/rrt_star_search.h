@@ -12,8 +12,8 @@ namespace vinerow {
 
 struct RrtStarParams {
   double radius_m = 1.0;                   ///< least of the vehicle
-  double curvature_reserve = 0.0;          ///< share by which turns are wider where there is room
-  std::int64_t iterations = 1000;          ///< of RRT*
+  double curvature_reserve = 0.05;         ///< share by which turns are wider where there is room
+  std::int64_t iterations = 500;           ///< of RRT*; 0: the first way stands
   std::int64_t first_iterations = 10'000;  ///< of RRT, where no closed form fits
   double range_m = 3.0;                    ///< longest edge of the tree
   double reach_m = 8.0;                    ///< searched around both ends

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "controllers/parts/pose2.h"
 #include "controllers/planning/lift.h"
 #include "controllers/planning/survey_lanes.h"
 #include "engine/api/file_shelf.h"
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
@@ -18,29 +20,113 @@ namespace {
 
 constexpr double kUsualBank_deg = 35.0;
 
-Polygon2 read_polygon(const ParameterSet& parameters, const PlannerContext& context,
+/// The area as the file states it.
+struct SurveyAreaParams {
+  std::vector<double> x_m, y_m;  ///< of the corners
+  std::string file;              ///< instead of them; empty: none
+  double margin_m = 0.0;
+};
+
+std::string find_fault_in_area(const SurveyAreaParams& p) {
+  if (p.x_m.size() != p.y_m.size()) {
+    return fmt::format("polygon_x_m has {} numbers and polygon_y_m {}, must be as many",
+                       p.x_m.size(), p.y_m.size());
+  }
+  if (!p.file.empty() && !p.x_m.empty()) {
+    return "give the polygon by polygon_file or by polygon_x_m and polygon_y_m, not by both";
+  }
+  return "";
+}
+
+const ParameterTable<SurveyAreaParams>& survey_area_table() {
+  using P = SurveyAreaParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .numbers("polygon_x_m", "m", &P::x_m, kAnyNumber,
+                   "x (east) of the corners of the area; without any polygon the parcel's "
+                   "boundary of the map")
+          .numbers("polygon_y_m", "m", &P::y_m, kAnyNumber, "y (north), as many as polygon_x_m")
+          .path("polygon_file", &P::file,
+                "the area as a GeoJSON file with one polygon in latitude and longitude, or as a "
+                "CSV file with a line x,y in metres for each corner")
+          .number("margin_m", "m", &P::margin_m, between(-1e4, 1e4),
+                  "by which the area is made larger on every side")
+          .rule(find_fault_in_area);
+  return table;
+}
+
+/// The flight as the file states it; what is absent follows from the rest and from the vehicle.
+struct SurveyFlightParams {
+  SurveyRequest request;
+  std::optional<double> height_m, gsd_m;
+  double wind_speed_mps = 0.0;
+  double wind_from_deg = 0.0;              ///< clockwise from north
+  std::optional<double> lane_bearing_deg;  ///< clockwise from north
+  std::optional<double> bank_rad, stall_speed_mps;
+};
+
+const ParameterTable<SurveyFlightParams>& survey_flight_table() {
+  using P = SurveyFlightParams;
+  using R = SurveyRequest;
+  const auto request = [](auto member) { return inside(&P::request, member); };
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("height_m", "m", &P::height_m, kPositive,
+                  "above the ground; 150 m where gsd_m is not given either")
+          .number("gsd_m", "m", &P::gsd_m, kPositive,
+                  "ground sampling distance, which gives the height instead")
+          .number("forward_overlap", "", request(&R::forward_overlap), between(0.0, 0.98),
+                  "of consecutive pictures of a lane, as a share")
+          .number("side_overlap", "", request(&R::side_overlap), between(0.0, 0.98),
+                  "of the pictures of neighbouring lanes, at least, as a share")
+          .number("speed_mps", "m/s", request(&R::speed_mps), kPositive, "through the air")
+          .number("wind_speed_mps", "m/s", &P::wind_speed_mps, between(0.0, 100.0),
+                  "mean wind to be reckoned with: it speeds lanes up, and widens turns")
+          .number("wind_from_deg", "deg", &P::wind_from_deg, between(-360.0, 360.0),
+                  "where it comes from, clockwise from north")
+          .number("lane_bearing_deg", "deg", &P::lane_bearing_deg, between(-360.0, 360.0),
+                  "of the lanes, clockwise from north; absent: that of the fewest "
+                  "lanes")
+          .choice("order", request(&R::order),
+                  {{"best", R::Order::kBest}, {"snake", R::Order::kSnake}},
+                  "best: every lane once with the least added way, skipping lanes where turns "
+                  "do not fit between neighbours; snake: neighbour after neighbour")
+          .degrees("bank_deg", &P::bank_rad, between(1.0, 75.0),
+                   "in turns; absent: 35 deg, or what the vehicle can")
+          .number("stall_speed_mps", "m/s", &P::stall_speed_mps, between(0.0, 100.0),
+                  "slowest speed; absent: the vehicle's, where it tells one")
+          .number("ramp_error_m", "m", request(&R::ramp_error_m), kPositive,
+                  "by which straight ramps between waypoints may miss the wanted height above "
+                  "the terrain")
+          .number("max_slope", "", request(&R::max_slope), between(0.001, 1.0),
+                  "of the way, rise over run; above steeper terrain the flight stays higher")
+          .number("run_out_m", "m", request(&R::run_out_m), between(0.0, 1e4),
+                  "straight on beyond a lane's pictures before and after turns; "
+                  "absent: turn radius and two seconds of flight")
+          .number("end_margin", "", request(&R::end_margin), between(0.0, 2.0),
+                  "by which the pictures of a lane go on beyond the area, as a share of their "
+                  "length; 0.5: the ends are seen as often as the middle")
+          .number("edge_margin", "", request(&R::edge_margin), between(-0.5, 0.5),
+                  "by which the outermost lanes lie beyond the area, as a share of a picture's "
+                  "width; -0.5: pictures end at the edges")
+          .boolean("return_home", request(&R::returns),
+                   "fly back to the start after the last lane")
+          .rule([](const P& p) -> std::string {
+            return p.height_m && p.gsd_m ? "give height_m or gsd_m, not both" : "";
+          });
+  return table;
+}
+
+Polygon2 find_polygon(const SurveyAreaParams& params, const PlannerContext& context,
                       const std::string& who) {
-  const auto& x = parameters.numbers("polygon_x_m");
-  const auto& y = parameters.numbers("polygon_y_m");
-  if (x.size() != y.size()) {
-    throw ConfigError(
-        fmt::format("{}: polygon_x_m has {} numbers and polygon_y_m {}, must be as many", who,
-                    x.size(), y.size()));
-  }
-  const bool has_file = parameters.has("polygon_file");
-  if (has_file && !x.empty()) {
-    throw ConfigError(fmt::format(
-        "{}: give the polygon by polygon_file or by polygon_x_m and polygon_y_m, not by "
-        "both",
-        who));
-  }
+  const std::vector<double>&x = params.x_m, &y = params.y_m;
   Polygon2 polygon;
-  if (has_file) {
-    const std::string& file = parameters.text("polygon_file");
+  if (!params.file.empty()) {
     const GeoOrigin& origin = context.origin;
-    const std::string key = fmt::format("{} {} {} {}", file_mark(file), origin.latitude_rad,
+    const std::string key = fmt::format("{} {} {} {}", file_mark(params.file), origin.latitude_rad,
                                         origin.longitude_rad, origin.altitude_m);
-    polygon = *keep<Polygon2>(context.shelf, key, [&] { return read_survey_area(file, origin); });
+    polygon = *keep<Polygon2>(context.shelf, key,
+                              [&] { return read_survey_area(params.file, origin); });
   } else if (!x.empty()) {
     for (std::size_t i = 0; i < x.size(); ++i) polygon.emplace_back(x[i], y[i]);
   } else if (context.map != nullptr && !context.map->boundary_W.empty()) {
@@ -53,7 +139,7 @@ Polygon2 read_polygon(const ParameterSet& parameters, const PlannerContext& cont
                     who));
   }
   polygon = clean_polygon(polygon);
-  const double margin_m = parameters.number("margin_m");
+  const double margin_m = params.margin_m;
   if (margin_m == 0.0 || find_polygon_fault(polygon)) return polygon;
   const Polygon2 wide = widen_polygon(polygon, margin_m);
   if (wide.empty()) {
@@ -70,123 +156,57 @@ Polygon2 read_polygon(const ParameterSet& parameters, const PlannerContext& cont
   return wide;
 }
 
-double read_bank_rad(const ParameterSet& parameters, const VehicleDescription* vehicle,
+double find_bank_rad(const std::optional<double>& wanted_rad, const VehicleDescription* vehicle,
                      const std::string& who) {
   double most_rad = 0.5 * kPi;
   if (vehicle != nullptr && vehicle->fixed_wing) {
     most_rad = vehicle->need_positive(vehicle->fixed_wing->max_bank_rad, "max_bank_rad", who);
   }
-  if (!parameters.has("bank_deg")) return std::min(rad_from_deg(kUsualBank_deg), most_rad);
-  const double bank_rad = rad_from_deg(parameters.number("bank_deg"));
-  if (bank_rad > most_rad + 1e-9) {
+  if (!wanted_rad) return std::min(rad_from_deg(kUsualBank_deg), most_rad);
+  if (*wanted_rad > most_rad + 1e-9) {
     throw ConfigError(
         fmt::format("{}: bank_deg = {:g} deg, but vehicle type '{}' banks {:.1f} deg at "
                     "most",
-                    who, deg_from_rad(bank_rad), vehicle->type, deg_from_rad(most_rad)));
+                    who, deg_from_rad(*wanted_rad), vehicle->type, deg_from_rad(most_rad)));
   }
-  return bank_rad;
+  return *wanted_rad;
 }
 
 }  // namespace
 
 std::vector<ParameterSpec> survey_parameters() {
-  std::vector<ParameterSpec> specs = {
-      number_list_parameter("polygon_x_m", "m", {},
-                            "x (east) of the corners of the area; without any polygon the parcel's "
-                            "boundary of the map"),
-      number_list_parameter("polygon_y_m", "m", {}, "y (north), as many as polygon_x_m"),
-      path_parameter(
-          "polygon_file",
-          "the area as a GeoJSON file with one polygon in latitude and longitude, or as a "
-          "CSV file with a line x,y in metres for each corner"),
-      number_parameter("margin_m", "m", 0.0, -1e4, 1e4,
-                       "by which the area is made larger on every side"),
-  };
-  for (ParameterSpec& spec : survey_camera_parameters()) specs.push_back(std::move(spec));
-  const std::vector<ParameterSpec> flight = {
-      optional(positive_parameter("height_m", "m", 150.0,
-                                  "above the ground; 150 m where gsd_m is not given either")),
-      optional(positive_parameter("gsd_m", "m", 0.1,
-                                  "ground sampling distance, which gives the height instead")),
-      number_parameter("forward_overlap", "", 0.85, 0.0, 0.98,
-                       "of consecutive pictures of a lane, as a share"),
-      number_parameter("side_overlap", "", 0.66, 0.0, 0.98,
-                       "of the pictures of neighbouring lanes, at least, as a share"),
-      positive_parameter("speed_mps", "m/s", 12.0, "through the air"),
-      number_parameter("wind_speed_mps", "m/s", 0.0, 0.0, 100.0,
-                       "mean wind to be reckoned with: it speeds lanes up, and widens turns"),
-      number_parameter("wind_from_deg", "deg", 0.0, -360.0, 360.0,
-                       "where it comes from, clockwise from north"),
-      optional(number_parameter("lane_bearing_deg", "deg", 0.0, -360.0, 360.0,
-                                "of the lanes, clockwise from north; absent: that of the fewest "
-                                "lanes")),
-      choice_parameter("order", "best", {"best", "snake"},
-                       "best: every lane once with the least added way, skipping lanes where turns "
-                       "do not fit between neighbours; snake: neighbour after neighbour"),
-      optional(number_parameter("bank_deg", "deg", kUsualBank_deg, 1.0, 75.0,
-                                "in turns; absent: 35 deg, or what the vehicle can")),
-      optional(number_parameter("stall_speed_mps", "m/s", 0.0, 0.0, 100.0,
-                                "slowest speed; absent: the vehicle's, where it tells one")),
-      positive_parameter(
-          "ramp_error_m", "m", 2.0,
-          "by which straight ramps between waypoints may miss the wanted height above "
-          "the terrain"),
-      number_parameter("max_slope", "", 0.12, 0.001, 1.0,
-                       "of the way, rise over run; above steeper terrain the flight stays higher"),
-      optional(number_parameter("run_out_m", "m", 0.0, 0.0, 1e4,
-                                "straight on beyond a lane's pictures before and after turns; "
-                                "absent: turn radius and two seconds of flight")),
-      number_parameter("end_margin", "", 0.5, 0.0, 2.0,
-                       "by which the pictures of a lane go on beyond the area, as a share of their "
-                       "length; 0.5: the ends are seen as often as the middle"),
-      number_parameter(
-          "edge_margin", "", 0.0, -0.5, 0.5,
-          "by which the outermost lanes lie beyond the area, as a share of a picture's "
-          "width; -0.5: pictures end at the edges"),
-      boolean_parameter("return_home", true, "fly back to the start after the last lane"),
-  };
-  specs.insert(specs.end(), flight.begin(), flight.end());
+  std::vector<ParameterSpec> specs = survey_area_table().specs();
+  for (const auto& more : {survey_camera_parameters(), survey_flight_table().specs()}) {
+    specs.insert(specs.end(), more.begin(), more.end());
+  }
   return specs;
 }
 
 SurveyRequest read_survey_request(const ParameterSet& parameters, const PlannerContext& context,
                                   const std::string& who) {
   const VehicleDescription* vehicle = context.vehicle_description;
-  SurveyRequest request;
-  request.polygon_W = read_polygon(parameters, context, who);
+  const SurveyFlightParams flight = survey_flight_table().read(parameters, who);
+  SurveyRequest request = flight.request;
+  request.polygon_W = find_polygon(survey_area_table().read(parameters, who), context, who);
   request.camera = read_survey_camera(parameters);
-  if (parameters.has("gsd_m")) {
-    if (parameters.has("height_m")) {
-      throw ConfigError(fmt::format("{}: give height_m or gsd_m, not both", who));
-    }
-    request.height_m = request.camera.height_for_gsd_m(parameters.number("gsd_m"));
-  } else if (parameters.has("height_m")) {
-    request.height_m = parameters.number("height_m");
+  if (flight.gsd_m) {
+    request.height_m = request.camera.height_for_gsd_m(*flight.gsd_m);
+  } else if (flight.height_m) {
+    request.height_m = *flight.height_m;
   }
-  request.forward_overlap = parameters.number("forward_overlap");
-  request.side_overlap = parameters.number("side_overlap");
-  request.speed_mps = parameters.number("speed_mps");
   // Blows to the opposite of where it comes from; bearings run clockwise from north.
-  const double to_rad = rad_from_deg(270.0 - parameters.number("wind_from_deg"));
-  request.wind_W = parameters.number("wind_speed_mps") * direction(to_rad);
-  if (parameters.has("lane_bearing_deg")) {
-    request.lane_yaw_rad = wrap_angle(rad_from_deg(90.0 - parameters.number("lane_bearing_deg")));
+  const double to_rad = rad_from_deg(270.0 - flight.wind_from_deg);
+  request.wind_W = flight.wind_speed_mps * direction(to_rad);
+  if (flight.lane_bearing_deg) {
+    request.lane_yaw_rad = wrap_angle(rad_from_deg(90.0 - *flight.lane_bearing_deg));
   }
-  request.order = parameters.text("order") == "snake" ? SurveyRequest::Order::kSnake
-                                                      : SurveyRequest::Order::kBest;
-  request.bank_rad = read_bank_rad(parameters, vehicle, who);
+  request.bank_rad = find_bank_rad(flight.bank_rad, vehicle, who);
   if (vehicle != nullptr) request.least_radius_m = vehicle->min_turning_radius_m.value_or(0.0);
-  if (parameters.has("stall_speed_mps")) {
-    request.stall_speed_mps = parameters.number("stall_speed_mps");
+  if (flight.stall_speed_mps) {
+    request.stall_speed_mps = *flight.stall_speed_mps;
   } else if (vehicle != nullptr && vehicle->fixed_wing) {
     request.stall_speed_mps = vehicle->fixed_wing->stall_speed_mps;
   }
-  request.ramp_error_m = parameters.number("ramp_error_m");
-  request.max_slope = parameters.number("max_slope");
-  if (parameters.has("run_out_m")) request.run_out_m = parameters.number("run_out_m");
-  request.end_margin = parameters.number("end_margin");
-  request.edge_margin = parameters.number("edge_margin");
-  request.returns = parameters.boolean("return_home");
   request.gravity_mps2 = context.gravity_mps2;
   if (request.ramp_error_m >= 0.5 * request.height_m) {
     throw ConfigError(

@@ -10,7 +10,7 @@
 namespace vinerow {
 
 struct WayCostParams {
-  double clearance_weight = 0.0;    ///< a metre driven at no clearance costs 1 + this
+  double clearance_weight = 0.5;    ///< a metre driven at no clearance costs 1 + this
   double wanted_clearance_m = 0.3;  ///< from here on a metre costs one
   double bend_m = 0.2;              ///< every change of curvature costs as much as this length
   double step_m = 0.25;             ///< between poses looked at

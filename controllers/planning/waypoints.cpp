@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "controllers/parts/path_pieces.h"
@@ -11,6 +12,7 @@
 #include "controllers/planning/row_check.h"
 #include "engine/api/file_shelf.h"
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
 namespace vinerow {
@@ -41,30 +43,58 @@ std::vector<Eigen::Vector2d> read_csv(const std::string& file) {
   return points;
 }
 
+struct WaypointsParams {
+  std::vector<double> x_m, y_m;
+  std::optional<std::vector<double>> z_m;  ///< absent: on the ground
+  std::string file;                        ///< of points, instead of x_m and y_m; empty: none
+  double pitch_m = 0.33;                   ///< 0: straights are not split
+  double speed_mps = 0.0;                  ///< 0: the follower's own
+  double clearance_m = 0.0;
+};
+
+const ParameterTable<WaypointsParams>& waypoints_table() {
+  using P = WaypointsParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .numbers("x_m", "m", &P::x_m, kAnyNumber, "x of the points in W (east)")
+          .numbers("y_m", "m", &P::y_m, kAnyNumber, "y of the points in W (north), as many as x_m")
+          .numbers("z_m", "m", &P::z_m, kAnyNumber,
+                   "heights of the points in W, as many, for what flies: straight "
+                   "in space; default: on the ground")
+          .path("file", &P::file,
+                "CSV file with a line x,y in metres for each point, instead of the lists")
+          .number("waypoint_pitch_m", "m", &P::pitch_m, between(0.0, 1e3),
+                  "straights are split into round(length / pitch) parts; 0 = not at all")
+          .number("speed_mps", "m/s", &P::speed_mps, between(0.0, 100.0),
+                  "wanted speed; 0 = the follower's own")
+          .number("clearance_m", "m", &P::clearance_m, between(0.0, 10.0),
+                  "distance that the planned line keeps from every canopy's footprint")
+          .rule([](const P& p) -> std::string {
+            if (!p.file.empty() || p.x_m.size() == p.y_m.size()) return "";
+            return fmt::format("x_m has {} numbers and y_m {}, must be as many", p.x_m.size(),
+                               p.y_m.size());
+          });
+  return table;
+}
+
 class Waypoints final : public Planner {
  public:
-  Waypoints(const ParameterSet& parameters, const PlannerContext& context)
-      : pitch_m_(parameters.number("waypoint_pitch_m")),
-        speed_mps_(parameters.number("speed_mps")),
-        clearance_m_(parameters.number("clearance_m")),
+  Waypoints(const WaypointsParams& params, const PlannerContext& context, const std::string& who)
+      : pitch_m_(params.pitch_m),
+        speed_mps_(params.speed_mps),
+        clearance_m_(params.clearance_m),
         map_(context.map),
         scene_(context.scene) {
-    const std::string who = context.part + " (waypoints)";
-    if (parameters.has("file")) {
-      const std::string& file = parameters.text("file");
-      points_ = *keep<std::vector<Eigen::Vector2d>>(context.shelf, file_mark(file),
-                                                    [&] { return read_csv(file); });
+    if (!params.file.empty()) {
+      points_ = *keep<std::vector<Eigen::Vector2d>>(context.shelf, file_mark(params.file),
+                                                    [&] { return read_csv(params.file); });
     } else {
-      const auto& x = parameters.numbers("x_m");
-      const auto& y = parameters.numbers("y_m");
-      if (x.size() != y.size()) {
-        throw ConfigError(fmt::format("{}: x_m has {} numbers and y_m {}, must be as many", who,
-                                      x.size(), y.size()));
+      for (std::size_t i = 0; i < params.x_m.size(); ++i) {
+        points_.emplace_back(params.x_m[i], params.y_m[i]);
       }
-      for (std::size_t i = 0; i < x.size(); ++i) points_.emplace_back(x[i], y[i]);
     }
-    if (parameters.has("z_m")) {
-      heights_m_ = parameters.numbers("z_m");
+    if (params.z_m) {
+      heights_m_ = *params.z_m;
       if (heights_m_.size() != points_.size()) {
         throw ConfigError(fmt::format("{}: z_m has {} numbers for {} points, must be as many", who,
                                       heights_m_.size(), points_.size()));
@@ -135,21 +165,7 @@ PartSpec waypoints_spec() {
   spec.description =
       "A path of straights between points given in the scenario or in a CSV file, on the ground or "
       "in the air.";
-  spec.parameters = {
-      number_list_parameter("x_m", "m", {}, "x of the points in W (east)"),
-      number_list_parameter("y_m", "m", {}, "y of the points in W (north), as many as x_m"),
-      optional(
-          number_list_parameter("z_m", "m", {},
-                                "heights of the points in W, as many, for what flies: straight "
-                                "in space; default: on the ground")),
-      path_parameter("file",
-                     "CSV file with a line x,y in metres for each point, instead of the lists"),
-      number_parameter("waypoint_pitch_m", "m", 0.33, 0.0, 1e3,
-                       "straights are split into round(length / pitch) parts; 0 = not at all"),
-      number_parameter("speed_mps", "m/s", 0.0, 0.0, 100.0, "wanted speed; 0 = the follower's own"),
-      number_parameter("clearance_m", "m", 0.0, 0.0, 10.0,
-                       "distance that the planned line keeps from every canopy's footprint"),
-  };
+  spec.parameters = waypoints_table().specs();
   spec.reads = {"estimate"};
   spec.writes = {"plan"};
   return spec;
@@ -157,7 +173,8 @@ PartSpec waypoints_spec() {
 
 std::unique_ptr<Planner> make_waypoints(const ParameterSet& parameters,
                                         const PlannerContext& context) {
-  return std::make_unique<Waypoints>(parameters, context);
+  const std::string who = context.part + " (waypoints)";
+  return std::make_unique<Waypoints>(waypoints_table().read(parameters, who), context, who);
 }
 
 }  // namespace vinerow

@@ -2,40 +2,71 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "controllers/parts/drive_ports.h"
 #include "controllers/pure_pursuit/pure_pursuit_law.h"
+#include "engine/api/parameter_table.h"
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
 
 namespace vinerow {
 namespace {
 
-PurePursuitParams read_params(const ParameterSet& parameters, Duration period) {
-  PurePursuitParams params;
-  params.lookahead_m = parameters.number("lookahead_m");
-  params.crossed_distance_m = parameters.has("crossed_distance_m")
-                                  ? parameters.number("crossed_distance_m")
-                                  : params.lookahead_m;
-  params.speed_mps = parameters.number("speed_mps");
-  params.steering_threshold_rad = rad_from_deg(parameters.number("steering_threshold_deg"));
-  params.largest_angle_rad = rad_from_deg(parameters.number("largest_angle_deg"));
-  const double radius = parameters.number("min_turning_radius_m");
-  params.yaw_rate_limit_radps =
-      radius > 0.0 ? params.speed_mps / radius : std::numeric_limits<double>::infinity();
-  params.turn_gain = parameters.number("turn_gain");
-  params.goal_tolerance_m = parameters.number("goal_tolerance_m");
-  params.aim_at_goal = parameters.boolean("aim_at_goal");
-  params.cycle_s = period.s();
+/// The law's parameters as files have them, and what stands beside the law.
+struct PursuitParams {
+  PurePursuitParams law;
+  std::optional<double> crossed_distance_m;
+  double min_turning_radius_m = 1.0;
+  double stop_mps2 = 0.8;
+};
+
+const ParameterTable<PursuitParams>& pursuit_table() {
+  using P = PursuitParams;
+  using Law = PurePursuitParams;
+  const auto law = [](auto member) { return inside(&P::law, member); };
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("lookahead_m", "m", law(&Law::lookahead_m), kPositive,
+                  "radius LD of the lookahead circle")
+          .number("crossed_distance_m", "m", &P::crossed_distance_m, kPositive,
+                  "a waypoint nearer than this (D_th) is crossed; default lookahead_m, "
+                  "the only choice without endless loops")
+          .number("speed_mps", "m/s", law(&Law::speed_mps), kPositive,
+                  "speed v_t on the straight (7 km/h)")
+          .degrees("steering_threshold_deg", law(&Law::steering_threshold_rad),
+                   between(0.0, 180.0), "smaller steering angles count as zero (table 3: 2.5)")
+          .degrees("largest_angle_deg", law(&Law::largest_angle_rad), kPositive,
+                   "theta_max of the speed law (eq. 7)")
+          .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
+                  "limits the yaw rate to speed / radius (table 1); 0 = no limit")
+          .number("turn_gain", "", law(&Law::turn_gain), kPositive,
+                  "share of the steering angle turned in one cycle; 1 = eq. 6, less for "
+                  "vehicles with inertia")
+          .number("goal_tolerance_m", "m", law(&Law::goal_tolerance_m), kPositive,
+                  "the mission ends this near the last waypoint (or one cycle's way)")
+          .number("stop_mps2", "m/s2", &P::stop_mps2, kPositive,
+                  "braking where a movement authority ends; the paper's law has none")
+          .boolean("aim_at_goal", law(&Law::aim_at_goal),
+                   "aim at the last waypoint once it is within lookahead_m; false = literally "
+                   "the paper, which may never arrive");
+  return table;
+}
+
+PursuitParams read_params(const ParameterSet& parameters, const ControllerContext& context) {
+  PursuitParams params = pursuit_table().read(parameters, context.part + " (pure_pursuit)");
+  const double radius_m = params.min_turning_radius_m;
+  params.law.crossed_distance_m = params.crossed_distance_m.value_or(params.law.lookahead_m);
+  params.law.yaw_rate_limit_radps =
+      radius_m > 0.0 ? params.law.speed_mps / radius_m : std::numeric_limits<double>::infinity();
+  params.law.cycle_s = context.period.s();
   return params;
 }
 
 class PurePursuit final : public Controller {
  public:
-  PurePursuit(const ParameterSet& parameters, const ControllerContext& context)
-      : ports_(context, "pure_pursuit"),
-        law_(read_params(parameters, context.period)),
-        stop_(parameters.number("stop_mps2")) {}
+  PurePursuit(const PursuitParams& params, const ControllerContext& context)
+      : ports_(context, "pure_pursuit"), law_(params.law), stop_(params.stop_mps2) {}
 
   void connect(Ports& ports) override { ports_.connect(ports); }
 
@@ -103,29 +134,7 @@ PartSpec pure_pursuit_spec() {
       "Lookahead follower of Martelli, Mocera, Soma 2024 (eq. 1-7): local goal point on the "
       "lookahead "
       "circle, current index, steering threshold; wheel speeds of a speed-steered vehicle.";
-  spec.parameters = {
-      positive_parameter("lookahead_m", "m", 0.75, "radius LD of the lookahead circle"),
-      optional(
-          positive_parameter("crossed_distance_m", "m", 0.75,
-                             "a waypoint nearer than this (D_th) is crossed; default lookahead_m, "
-                             "the only choice without endless loops")),
-      positive_parameter("speed_mps", "m/s", 7.0 / 3.6, "speed v_t on the straight (7 km/h)"),
-      number_parameter("steering_threshold_deg", "deg", 0.0, 0.0, 180.0,
-                       "smaller steering angles count as zero (table 3: 2.5)"),
-      positive_parameter("largest_angle_deg", "deg", 360.0, "theta_max of the speed law (eq. 7)"),
-      number_parameter("min_turning_radius_m", "m", 1.0, 0.0, 1e3,
-                       "limits the yaw rate to speed / radius (table 1); 0 = no limit"),
-      positive_parameter("turn_gain", "", 1.0,
-                         "share of the steering angle turned in one cycle; 1 = eq. 6, less for "
-                         "vehicles with inertia"),
-      positive_parameter("goal_tolerance_m", "m", 0.1,
-                         "the mission ends this near the last waypoint (or one cycle's way)"),
-      positive_parameter("stop_mps2", "m/s2", 0.8,
-                         "braking where a movement authority ends; the paper's law has none"),
-      boolean_parameter("aim_at_goal", true,
-                        "aim at the last waypoint once it is within lookahead_m; false = literally "
-                        "the paper, which may never arrive"),
-  };
+  spec.parameters = pursuit_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"estimate", "plan", "authority"};
   spec.writes = {"actuators", "command", "follower"};
@@ -134,7 +143,7 @@ PartSpec pure_pursuit_spec() {
 
 std::unique_ptr<Controller> make_pure_pursuit(const ParameterSet& parameters,
                                               const ControllerContext& context) {
-  return std::make_unique<PurePursuit>(parameters, context);
+  return std::make_unique<PurePursuit>(read_params(parameters, context), context);
 }
 
 }  // namespace vinerow

@@ -25,6 +25,7 @@
 #include "controllers/parts/pose2.h"
 #include "engine/api/forward.h"
 #include "engine/api/messages/commands.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
@@ -33,10 +34,10 @@ struct PurePursuitParams {
   double crossed_distance_m = 0.75;  ///< D_th
   double speed_mps = 7.0 / 3.6;      ///< v_t
   double steering_threshold_rad = 0.0;
-  double largest_angle_rad = 2.0 * 3.14159265358979323846;  ///< theta_max
-  double yaw_rate_limit_radps = 7.0 / 3.6;                  ///< infinity = none
-  double turn_gain = 1.0;                                   ///< 1 = eq. 6
-  double cycle_s = 0.025;                                   ///< t
+  double largest_angle_rad = rad_from_deg(360.0);  ///< theta_max
+  double yaw_rate_limit_radps = 7.0 / 3.6;         ///< infinity = none
+  double turn_gain = 1.0;                          ///< 1 = eq. 6
+  double cycle_s = 0.025;                          ///< t
   double goal_tolerance_m = 0.1;
   bool aim_at_goal = true;
 };

@@ -8,11 +8,22 @@
 #include "controllers/quadrotor_mpc/limit_watch.h"
 #include "controllers/quadrotor_mpc/quadrotor_mpc_law.h"
 #include "engine/api/messages/event.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
 
 constexpr const char* kType = "quadrotor_mpc";
+
+std::string describe(const ControllerContext& context) {
+  return fmt::format("{} ({})", context.part, kType);
+}
+
+QuadrotorMpcParams read_params(const ParameterSet& parameters, const ControllerContext& context) {
+  QuadrotorMpcParams params = quadrotor_mpc_table().read(parameters, describe(context));
+  params.period_s = context.period.s();
+  return params;
+}
 
 class QuadrotorMpc final : public Controller {
  public:
@@ -20,8 +31,8 @@ class QuadrotorMpc final : public Controller {
       : part_(context.part),
         period_(context.period),
         ports_(context, kType),
-        params_(read_quadrotor_mpc_params(parameters, context.period.s())),
-        law_(ports_.craft(), params_, fmt::format("{} ({})", context.part, kType)),
+        params_(read_params(parameters, context)),
+        law_(ports_.craft(), params_, describe(context)),
         watch_(params_.limits) {
     preview_.resize(static_cast<std::size_t>(params_.horizon) + 1);
     mpc_values_.names = {"roll_rad",         "pitch_rad",        "tilt_rad",
@@ -170,7 +181,7 @@ PartSpec quadrotor_mpc_spec() {
       "Flies a rotorcraft along a reference by linear model predictive control (Mammarella et al. "
       "2022, section 4.2): 16 states about hover in the frame of the wanted heading, limits of "
       "thrust, torques and tilt, soft limits of the deviation, and a disturbance observer.";
-  spec.parameters = quadrotor_mpc_parameters();
+  spec.parameters = quadrotor_mpc_table().specs();
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "reference"};
   spec.writes = {"actuators", "wrench", "follower", "mpc", "controller_event"};

@@ -2,9 +2,9 @@
 /// Parameters of controller `quadrotor_mpc`, read once.
 
 #include <Eigen/Core>
-#include <vector>
 
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
@@ -19,7 +19,7 @@ struct MpcWeights {
 };
 
 struct MpcLimits {
-  double tilt_rad = 0.436;
+  double tilt_rad = rad_from_deg(25.0);
   double lateral_m = 0.25;
   double altitude_m = 0.15;
   double speed_mps = 0.3;
@@ -38,8 +38,7 @@ struct QuadrotorMpcParams {
   bool learns_torque = true;
 };
 
-std::vector<ParameterSpec> quadrotor_mpc_parameters();
-
-QuadrotorMpcParams read_quadrotor_mpc_params(const ParameterSet& parameters, double period_s);
+/// All but period_s.
+const ParameterTable<QuadrotorMpcParams>& quadrotor_mpc_table();
 
 }  // namespace vinerow

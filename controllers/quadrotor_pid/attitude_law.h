@@ -9,12 +9,14 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "engine/math/angles.h"
+
 namespace vinerow {
 
 struct AttitudeParams {
   double tilt_p_per_s = 8.0;
   double yaw_p_per_s = 2.0;
-  double tilt_rate_limit_radps = 3.8;
+  double tilt_rate_limit_radps = rad_from_deg(220.0);
   double yaw_rate_limit_radps = 1.05;
 };
 

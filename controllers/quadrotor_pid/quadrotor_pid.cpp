@@ -8,24 +8,57 @@
 #include "controllers/quadrotor_pid/attitude_law.h"
 #include "controllers/quadrotor_pid/position_law.h"
 #include "controllers/quadrotor_pid/rate_law.h"
-#include "engine/math/angles.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
 
-Eigen::Vector2d read_pair(const ParameterSet& parameters, const char* name) {
-  const std::vector<double>& values = parameters.numbers(name);
-  return {values[0], values[1]};
+/// What files say; the limits are shared by the loops.
+struct QuadrotorPidParams {
+  PositionParams position;
+  AttitudeParams attitude;
+  RateParams rate;
+  FlightLimitParams limits;
+};
+
+const ParameterTable<QuadrotorPidParams>& quadrotor_pid_table() {
+  using P = QuadrotorPidParams;
+  const auto position = [](auto member) { return inside(&P::position, member); };
+  const auto attitude = [](auto member) { return inside(&P::attitude, member); };
+  const auto rate = [](auto member) { return inside(&P::rate, member); };
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .numbers("position_p", "1/s", position(&PositionParams::position_p_per_s), kNotNegative,
+                   "wanted speed per position error: horizontal, vertical")
+          .numbers("velocity_p", "1/s", position(&PositionParams::velocity_p_per_s), kNotNegative,
+                   "acceleration per speed error: horizontal, vertical")
+          .numbers("velocity_i", "1/s2", position(&PositionParams::velocity_i_per_s2),
+                   kNotNegative,
+                   "acceleration per integrated speed error: horizontal, vertical")
+          .numbers("velocity_d", "", position(&PositionParams::velocity_d), kNotNegative,
+                   "acceleration per measured acceleration: horizontal, vertical")
+          .number("velocity_filter_s", "s", position(&PositionParams::velocity_filter_s), kPositive,
+                  "low pass of the measured acceleration")
+          .number("tilt_p", "1/s", attitude(&AttitudeParams::tilt_p_per_s), kPositive,
+                  "tilt rate per tilt error")
+          .number("yaw_p", "1/s", attitude(&AttitudeParams::yaw_p_per_s), kPositive,
+                  "yaw rate per yaw error")
+          .number("tilt_rate_limit_degps", "deg/s",
+                  attitude(&AttitudeParams::tilt_rate_limit_radps), kPositive,
+                  "largest wanted tilt rate", kDegrees)
+          .numbers("rate_p", "1/s", rate(&RateParams::p_per_s), kNotNegative,
+                   "angular acceleration per rate error: roll and pitch, yaw")
+          .numbers("rate_i", "1/s2", rate(&RateParams::i_per_s2), kNotNegative,
+                   "angular acceleration per integrated rate error: roll and pitch, yaw")
+          .numbers("rate_d", "", rate(&RateParams::d), kNotNegative,
+                   "angular acceleration per measured angular acceleration: roll and pitch, yaw")
+          .number("rate_filter_s", "s", rate(&RateParams::filter_s), kPositive,
+                  "low pass of the measured angular acceleration")
+          .include(&P::limits, flight_limit_table());
+  return table;
 }
 
-PositionParams read_position(const ParameterSet& parameters, const FlightLimits& limits,
-                             Duration period) {
-  PositionParams params;
-  params.position_p_per_s = read_pair(parameters, "position_p");
-  params.velocity_p_per_s = read_pair(parameters, "velocity_p");
-  params.velocity_i_per_s2 = read_pair(parameters, "velocity_i");
-  params.velocity_d = read_pair(parameters, "velocity_d");
-  params.velocity_filter_s = parameters.number("velocity_filter_s");
+PositionParams limit(PositionParams params, const FlightLimits& limits, Duration period) {
   params.correction_speed_mps = {limits.correction_mps, limits.climb_correction_mps};
   params.tilt_limit_rad = limits.tilt_rad;
   params.min_thrust_N = limits.min_thrust_N;
@@ -34,21 +67,12 @@ PositionParams read_position(const ParameterSet& parameters, const FlightLimits&
   return params;
 }
 
-AttitudeParams read_attitude(const ParameterSet& parameters, const FlightLimits& limits) {
-  AttitudeParams params;
-  params.tilt_p_per_s = parameters.number("tilt_p");
-  params.yaw_p_per_s = parameters.number("yaw_p");
-  params.tilt_rate_limit_radps = rad_from_deg(parameters.number("tilt_rate_limit_degps"));
+AttitudeParams limit(AttitudeParams params, const FlightLimits& limits) {
   params.yaw_rate_limit_radps = limits.yaw_rate_radps;
   return params;
 }
 
-RateParams read_rate(const ParameterSet& parameters, const FlightLimits& limits, Duration period) {
-  RateParams params;
-  params.p_per_s = read_pair(parameters, "rate_p");
-  params.i_per_s2 = read_pair(parameters, "rate_i");
-  params.d = read_pair(parameters, "rate_d");
-  params.filter_s = parameters.number("rate_filter_s");
+RateParams limit(RateParams params, const FlightLimits& limits, Duration period) {
   params.torque_limits_Nm = limits.torque_Nm;
   params.period_s = period.s();
   return params;
@@ -56,12 +80,12 @@ RateParams read_rate(const ParameterSet& parameters, const FlightLimits& limits,
 
 class QuadrotorPid final : public Controller {
  public:
-  QuadrotorPid(const ParameterSet& parameters, const ControllerContext& context)
+  QuadrotorPid(const QuadrotorPidParams& params, const ControllerContext& context)
       : ports_(context, "quadrotor_pid"),
-        limits_(read_flight_limits(parameters, ports_.craft(), ports_.mixer())),
-        position_(ports_.craft(), read_position(parameters, limits_, context.period)),
-        attitude_(read_attitude(parameters, limits_)),
-        rate_(ports_.craft(), read_rate(parameters, limits_, context.period)) {}
+        limits_(make_flight_limits(params.limits, ports_.craft(), ports_.mixer())),
+        position_(ports_.craft(), limit(params.position, limits_, context.period)),
+        attitude_(limit(params.attitude, limits_)),
+        rate_(ports_.craft(), limit(params.rate, limits_, context.period)) {}
 
   void connect(Ports& ports) override { ports_.connect(ports); }
 
@@ -114,46 +138,13 @@ class QuadrotorPid final : public Controller {
 }  // namespace
 
 PartSpec quadrotor_pid_spec() {
-  const PositionParams position;
-  const AttitudeParams attitude;
-  const RateParams rate;
-  const auto pair = [](const char* name, const char* unit, const Eigen::Vector2d& values,
-                       const char* description) {
-    ParameterSpec spec =
-        number_list_parameter(name, unit, {values.x(), values.y()}, description, 2);
-    spec.min = 0.0;
-    return spec;
-  };
   PartSpec spec;
   spec.name = "quadrotor_pid";
   spec.description =
       "Cascade of position P, velocity PID, attitude (tilt before yaw, Brescianini, Hehn, D'Andrea "
       "2013) and rate PID for rotorcraft, with the reference's velocity, acceleration and yaw rate "
       "fed forward.";
-  spec.parameters = {
-      pair("position_p", "1/s", position.position_p_per_s,
-           "wanted speed per position error: horizontal, vertical"),
-      pair("velocity_p", "1/s", position.velocity_p_per_s,
-           "acceleration per speed error: horizontal, vertical"),
-      pair("velocity_i", "1/s2", position.velocity_i_per_s2,
-           "acceleration per integrated speed error: horizontal, vertical"),
-      pair("velocity_d", "", position.velocity_d,
-           "acceleration per measured acceleration: horizontal, vertical"),
-      positive_parameter("velocity_filter_s", "s", position.velocity_filter_s,
-                         "low pass of the measured acceleration"),
-      positive_parameter("tilt_p", "1/s", attitude.tilt_p_per_s, "tilt rate per tilt error"),
-      positive_parameter("yaw_p", "1/s", attitude.yaw_p_per_s, "yaw rate per yaw error"),
-      positive_parameter("tilt_rate_limit_degps", "deg/s", 220.0, "largest wanted tilt rate"),
-      pair("rate_p", "1/s", rate.p_per_s,
-           "angular acceleration per rate error: roll and pitch, yaw"),
-      pair("rate_i", "1/s2", rate.i_per_s2,
-           "angular acceleration per integrated rate error: roll and pitch, yaw"),
-      pair("rate_d", "", rate.d,
-           "angular acceleration per measured angular acceleration: roll and pitch, yaw"),
-      positive_parameter("rate_filter_s", "s", rate.filter_s,
-                         "low pass of the measured angular acceleration"),
-  };
-  for (ParameterSpec& limit : flight_limit_parameters()) spec.parameters.push_back(limit);
+  spec.parameters = quadrotor_pid_table().specs();
   spec.default_rate_Hz = 250.0;
   spec.reads = {"estimate", "reference"};
   spec.writes = {"actuators", "wrench", "follower"};
@@ -162,7 +153,8 @@ PartSpec quadrotor_pid_spec() {
 
 std::unique_ptr<Controller> make_quadrotor_pid(const ParameterSet& parameters,
                                                const ControllerContext& context) {
-  return std::make_unique<QuadrotorPid>(parameters, context);
+  return std::make_unique<QuadrotorPid>(
+      quadrotor_pid_table().read(parameters, context.part + " (quadrotor_pid)"), context);
 }
 
 }  // namespace vinerow

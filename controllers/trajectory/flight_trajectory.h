@@ -8,6 +8,7 @@
 #include "controllers/trajectory/time_law.h"
 #include "controllers/trajectory/yaw_move.h"
 #include "engine/api/messages/flight.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
@@ -19,9 +20,9 @@ struct FlightHold {
 
 struct FlightOptions {
   FlightLimits limits;
-  double spin_up_s = 1.0;          ///< rest on the ground before the take-off
-  double landing_reserve_m = 1.0;  ///< how far below the plan's end the landing is continued
-  double sharp_rad = 0.35;         ///< sharper bends are flown by a stop
+  double spin_up_s = 1.0;                 ///< rest on the ground before the take-off
+  double landing_reserve_m = 1.0;         ///< how far below the plan's end the landing goes on
+  double sharp_rad = rad_from_deg(20.0);  ///< sharper bends are flown by a stop
   std::optional<FlightHold> hold;
 };
 

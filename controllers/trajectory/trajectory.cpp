@@ -10,6 +10,7 @@
 #include "controllers/trajectory/simple_flights.h"
 #include "controllers/trajectory/trajectory_params.h"
 #include "engine/api/messages/event.h"
+#include "engine/api/parameter_table.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
@@ -187,7 +188,7 @@ PartSpec trajectory_spec() {
   spec.description =
       "Where a flying vehicle should be over the controller's horizon: a time law along the plan "
       "with 3 m/s in rows, slow turns, climb, way home and landing (paper A, 4.2).";
-  spec.parameters = trajectory_parameters();
+  spec.parameters = trajectory_table().specs();
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "plan", "authority"};
   spec.writes = {"reference", "guidance_event"};

@@ -2,11 +2,10 @@
 /// Parameters of guidance `trajectory`.
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "controllers/trajectory/flight_trajectory.h"
 #include "controllers/trajectory/landing_watch.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {
@@ -21,9 +20,11 @@ struct TrajectoryParams {
   double standing_m = 0.0;  ///< of B above the ground when the vehicle stands
   /// Without a planner: x, y in W and the height above the ground at the take-off.
   std::optional<Eigen::Vector3d> hover_m;
+  std::optional<double> hover_yaw_rad;  ///< heading there; absent: the one it came with
+  double hover_s = 0.0;                 ///< how long; 0: to the end of the run
 };
 
-std::vector<ParameterSpec> trajectory_parameters();
+const ParameterTable<TrajectoryParams>& trajectory_table();
 /// @throws ConfigError for a vehicle without rotors, one that is slower than the wanted speeds, or
 /// hover parameters without hover_m
 TrajectoryParams read_trajectory_params(const ParameterSet& parameters,

@@ -1,40 +1,77 @@
 #include "controllers/trmpc/trmpc.h"
 
+#include <fmt/format.h>
+
+#include <optional>
+
 #include "controllers/parts/aircraft_mpc.h"
-#include "engine/core/error.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
 
 constexpr const char* kType = "trmpc";
 
-TubeLaw read_law(const std::string& name) {
-  if (name == "fixed_start") return TubeLaw::kFixedStart;
-  if (name == "propagated") return TubeLaw::kPropagated;
-  if (name == "printed") return TubeLaw::kPrinted;
-  return TubeLaw::kTube;
+struct TrmpcParams {
+  AircraftTubeParams tube;
+  bool is_gain_given = false;
+  /// Of u = K x, row by row.
+  std::optional<std::vector<double>> longitudinal_gain, lateral_gain;
+};
+
+std::string find_missing_gain(const TrmpcParams& p) {
+  const auto missing = [](const char* name) {
+    return fmt::format("gain is 'given', so {} must be", name);
+  };
+  if (p.is_gain_given && !p.longitudinal_gain) return missing("longitudinal_gain");
+  if (p.is_gain_given && !p.lateral_gain) return missing("lateral_gain");
+  return "";
 }
 
-std::vector<double> read_gain(const ParameterSet& parameters, const char* name,
-                              const std::string& who) {
-  const bool is_wanted = parameters.text("gain") == "given";
-  if (is_wanted && !parameters.has(name)) {
-    throw ConfigError(who + ": gain is 'given', so " + name + " must be");
-  }
-  return is_wanted ? parameters.numbers(name) : std::vector<double>{};
+const ParameterTable<TrmpcParams>& trmpc_table() {
+  using P = TrmpcParams;
+  using Tube = AircraftTubeParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .integer("horizon", inside(&P::tube, &Tube::horizon), between(1, 60),
+                   "N: ticks of the controller that it looks ahead")
+          .number("gust_mps", "m/s", inside(&P::tube, &Tube::gust_mps), kPositive,
+                  "strongest gust along each axis of the body that limits are kept in; one "
+                  "too strong for the limits is refused with the largest feasible one")
+          .choice("law", inside(&P::tube, &Tube::law),
+                  {{"tube", TubeLaw::kTube},
+                   {"fixed_start", TubeLaw::kFixedStart},
+                   {"propagated", TubeLaw::kPropagated},
+                   {"printed", TubeLaw::kPrinted}},
+                  "where the nominal state starts: free within the tube, at the state, by its "
+                  "own model; printed: at the state and K x counted twice, as paper A prints")
+          .choice("tube_shape", inside(&P::tube, &Tube::shape),
+                  {{"invariant", TubeShape::kInvariant}, {"box", TubeShape::kBox}},
+                  "what the state must keep to about the nominal one: an invariant set, or "
+                  "the box around the smallest one, which is faster and promises less")
+          .choice("gain", &P::is_gain_given, {{"lqr", false}, {"given", true}},
+                  "feedback that keeps the tube: LQR of the weights, or the lists given")
+          .numbers("longitudinal_gain", "", &P::longitudinal_gain, kAnyNumber,
+                   "K of u = K x: throttle then elevator (rad), each of u, w "
+                   "(m/s), q (rad/s), theta (rad), h (m)",
+                   10)
+          .numbers("lateral_gain", "", &P::lateral_gain, kAnyNumber,
+                   "K of u = K x: aileron (rad) of v (m/s), p, r (rad/s), phi, "
+                   "psi (rad)",
+                   5)
+          .include(inside(&P::tube, &Tube::weights), aircraft_weight_table())
+          .include(inside(&P::tube, &Tube::limits), aircraft_limit_table())
+          .rule(find_missing_gain);
+  return table;
 }
 
 AircraftTubeParams read(const ParameterSet& parameters, const std::string& who) {
-  AircraftTubeParams params;
-  params.horizon = static_cast<int>(parameters.integer("horizon"));
-  params.gust_mps = parameters.number("gust_mps");
-  params.limits = read_aircraft_limits(parameters);
-  params.weights = read_aircraft_weights(parameters);
-  params.law = read_law(parameters.text("law"));
-  params.shape = parameters.text("tube_shape") == "box" ? TubeShape::kBox : TubeShape::kInvariant;
-  params.longitudinal_gain = read_gain(parameters, "longitudinal_gain", who);
-  params.lateral_gain = read_gain(parameters, "lateral_gain", who);
-  return params;
+  TrmpcParams params = trmpc_table().read(parameters, who);
+  if (params.is_gain_given) {
+    params.tube.longitudinal_gain = *params.longitudinal_gain;
+    params.tube.lateral_gain = *params.lateral_gain;
+  }
+  return params.tube;
 }
 
 }  // namespace
@@ -47,30 +84,7 @@ PartSpec trmpc_spec() {
       "(Mammarella et al. 2022, eq. 8-20, corrected) for vehicles on wings: deviations and "
       "controls "
       "keep their limits in every gust up to a given strength.";
-  spec.parameters = {
-      integer_parameter("horizon", 20, 1, 60, "N: ticks of the controller that it looks ahead"),
-      positive_parameter("gust_mps", "m/s", 1.0,
-                         "strongest gust along each axis of the body that limits are kept in; one "
-                         "too strong for the limits is refused with the largest feasible one"),
-      choice_parameter("law", "tube", {"tube", "fixed_start", "propagated", "printed"},
-                       "where the nominal state starts: free within the tube, at the state, by its "
-                       "own model; printed: at the state and K x counted twice, as paper A prints"),
-      choice_parameter("tube_shape", "invariant", {"invariant", "box"},
-                       "what the state must keep to about the nominal one: an invariant set, or "
-                       "the box around the smallest one, which is faster and promises less"),
-      choice_parameter("gain", "lqr", {"lqr", "given"},
-                       "feedback that keeps the tube: LQR of the weights, or the lists given"),
-      optional(number_list_parameter("longitudinal_gain", "", {},
-                                     "K of u = K x: throttle then elevator (rad), each of u, w "
-                                     "(m/s), q (rad/s), theta (rad), h (m)",
-                                     10)),
-      optional(number_list_parameter("lateral_gain", "", {},
-                                     "K of u = K x: aileron (rad) of v (m/s), p, r (rad/s), phi, "
-                                     "psi (rad)",
-                                     5)),
-      aircraft_weight_parameter(),
-      aircraft_limit_parameter(),
-  };
+  spec.parameters = trmpc_table().specs();
   describe_aircraft_mpc_signals(spec);
   return spec;
 }

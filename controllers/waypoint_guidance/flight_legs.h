@@ -30,8 +30,8 @@ struct FlightLegsOptions {
   double airspeed_mps = 12.0;     ///< where the plan tells none
   double least_airspeed_mps = 0;  ///< below it the plan's speeds are not flown
   double most_airspeed_mps = 1e9;
-  double climb_max_rad = 0.17;
-  double descent_max_rad = 0.17;
+  double climb_max_rad = rad_from_deg(10.0);
+  double descent_max_rad = rad_from_deg(10.0);
 };
 
 struct FlightLegs {

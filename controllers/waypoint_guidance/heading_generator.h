@@ -10,12 +10,14 @@
 
 #include <Eigen/Core>
 
+#include "engine/math/angles.h"
+
 namespace vinerow {
 
 struct TurnLimits {
   double gain_per_s = 1.0;  ///< k
   double bank_rad = 0.0;    ///< phi_max, > 0
-  double bank_rate_radps = 0.0;
+  double bank_rate_radps = rad_from_deg(60.0);
   double bank_lag_s = 0.3;
   double yaw_lag_s = 0.3;  ///< 0: none
   double gravity_mps2 = 9.80665;

@@ -3,31 +3,144 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
 namespace {
 
-double read_or(const ParameterSet& parameters, const char* name, double otherwise) {
-  return parameters.has(name) ? parameters.number(name) : otherwise;
+/// As files have them: what is absent beside the parameters follows from the vehicle.
+struct GivenParams {
+  WaypointGuidanceParams params;
+  std::optional<double> airspeed_mps;
+  std::optional<double> bank_rad;
+  std::optional<double> loiter_radius_m;
+  std::optional<double> approach_mps;
+};
+
+using MissionEnd = WaypointGuidanceParams::End;
+constexpr std::array<Choice<MissionEnd>, 3> kEnds = {{{"land", MissionEnd::kLand},
+                                                      {"loiter", MissionEnd::kLoiter},
+                                                      {"stop", MissionEnd::kStop}}};
+
+std::string find_fault_in_landing(const GivenParams& given) {
+  const WaypointGuidanceParams& p = given.params;
+  const std::pair<const char*, bool> words[] = {
+      {"land_at_m", p.land_at_m.has_value()},
+      {"land_height_m", p.land_height_m.has_value()},
+      {"land_course_deg", p.land_course_rad.has_value()},
+      {"approach_speed_mps", given.approach_mps.has_value()}};
+  for (const auto& [name, is_given] : words) {
+    if (p.end == MissionEnd::kLand || !is_given) continue;
+    return fmt::format("{} says how to land, but end is '{}'", name, name_of(kEnds, p.end));
+  }
+  if (p.flare_m < p.approach_height_m) return "";
+  return fmt::format("flare_height_m = {:.2f} m is not below approach_height_m = {:.2f} m",
+                     p.flare_m, p.approach_height_m);
 }
 
-void read_turns(const ParameterSet& parameters, const ControllerContext& context,
-                const std::string& who, WaypointGuidanceParams& params) {
+const ParameterTable<GivenParams>& given_table() {
+  using G = GivenParams;
+  using P = WaypointGuidanceParams;
+  const auto of = [](auto member) { return inside(&G::params, member); };
+  const auto legs = [](auto... members) { return inside(&G::params, &P::legs, members...); };
+  const auto turn = [](auto member) {
+    return inside(&G::params, &P::legs, &FlightLegsOptions::turn, member);
+  };
+  const auto pilot = [](auto member) { return inside(&G::params, &P::pilot, member); };
+  static const ParameterTable<G> table =
+      ParameterTable<G>()
+          .choice("law", pilot(&LegPilotOptions::is_smooth), {{"smooth", true}, {"paper", false}},
+                  "on a leg: smooth: course chi - atan(e / cross_track_length_m); paper: "
+                  "bearing to the next waypoint where |e| is beyond the tolerance (eq. 1-5)")
+          .choice("turn_start", pilot(&LegPilotOptions::is_predicted),
+                  {{"predicted", true}, {"formula", false}},
+                  "when a turn begins: where flying it ahead in the mean wind leads onto the "
+                  "next leg, or R tan(|dchi|/2) + V (phi/(2 rate) + lags) before the waypoint")
+          .number("cross_track_length_m", "m", pilot(&LegPilotOptions::cross_track_length_m),
+                  kPositive, "of law smooth")
+          .number("tolerance_most_m", "m", pilot(&LegPilotOptions::tolerance_most_m), kPositive,
+                  "law paper: tolerance at a leg's start")
+          .number("tolerance_least_m", "m", pilot(&LegPilotOptions::tolerance_least_m), kPositive,
+                  "law paper: least tolerance")
+          .number("airspeed_mps", "m/s", &G::airspeed_mps, kPositive,
+                  "where the plan tells none; default the vehicle's cruise speed")
+          .number("airspeed_rate_mps2", "m/s2", of(&P::airspeed_rate_mps2), kPositive,
+                  "with which the airspeed changes where the plan or the landing wants another")
+          .degrees("bank_deg", &G::bank_rad, above(0.0, 80.0),
+                   "most, in turns; default 35 deg or what the vehicle can, if that is less")
+          .number("bank_rate_degps", "deg/s", turn(&TurnLimits::bank_rate_radps), kPositive, "most",
+                  kDegrees)
+          .number("bank_lag_s", "s", turn(&TurnLimits::bank_lag_s), kPositive,
+                  "of the vehicle's bank behind what it is told")
+          .number("yaw_lag_s", "s", turn(&TurnLimits::yaw_lag_s), between(0.0, 5.0),
+                  "of the vehicle's turn behind its bank: it slips first")
+          .number("turn_gain_per_s", "1/s", turn(&TurnLimits::gain_per_s), kPositive,
+                  "heading rate wanted per heading difference")
+          .number("kink_m", "m", of(&P::kink_m), between(0.0, 1e3),
+                  "length before and after a waypoint over which the height's slope changes")
+          .text("air_data", of(&P::air_data),
+                "name of the sensor that tells the wind; '' = none is known")
+          .number("wind_s", "s", of(&P::wind_s), kPositive, "time constant of the mean wind")
+          .number("start_s", "s", of(&P::start_s), between(0.0, 1e4),
+                  "earliest launch after the run's start")
+          .degrees("launch_climb_deg", of(&P::launch_climb_rad), above(0.0, 45.0),
+                   "climb angle straight ahead from the launcher")
+          .number("launch_height_m", "m", of(&P::launch_height_m), kPositive,
+                  "above the start, where the launch ends")
+          .degrees("climb_max_deg", legs(&FlightLegsOptions::climb_max_rad), above(0.0, 45.0),
+                   "most upwards; where the way is too short it circles")
+          .degrees("descent_max_deg", legs(&FlightLegsOptions::descent_max_rad), above(0.0, 45.0),
+                   "most downwards")
+          .number("join_m", "m", of(&P::join_m), kPositive,
+                  "a vehicle that is in the air already starts on the plan's first leg "
+                  "where that is nearer than this, else flies to its first waypoint")
+          .number("loiter_radius_m", "m", &G::loiter_radius_m, kPositive,
+                  "of circles; default 1.5 times that of a turn")
+          .choice("loiter_side", of(&P::loiter_side), {{"left", 1.0}, {"right", -1.0}},
+                  "where circles turn to")
+          .number("loiter_s", "s", of(&P::loiter_s), kPositive,
+                  "how long it circles with end: loiter")
+          .choice("end", of(&P::end), kEnds,
+                  "after the last waypoint: land; circle about it for loiter_s and end the "
+                  "mission in the air; end the mission at once. What has ended in the air "
+                  "circles on while others work")
+          .numbers("land_at_m", "m", of(&P::land_at_m), kAnyNumber,
+                   "[x, y] in W of the touchdown; default the start")
+          .number("land_height_m", "m", of(&P::land_height_m), between(-1e4, 1e4),
+                  "z of W of the ground there; default the ground at the start")
+          .degrees("land_course_deg", of(&P::land_course_rad), between(-360.0, 360.0),
+                   "course of the landing; default against the mean wind, below 1 m/s "
+                   "of wind the heading at the start")
+          .number("approach_height_m", "m", of(&P::approach_height_m), kPositive,
+                  "above the ground, where the glide begins; down to it the vehicle "
+                  "circles beside the approach")
+          .number("approach_speed_mps", "m/s", &G::approach_mps, kPositive,
+                  "airspeed of the glide; default airspeed_mps, where the "
+                  "controllers' trims are")
+          .degrees("glide_deg", of(&P::glide_rad), above(0.0, 30.0), "of the glide over ground")
+          .number("flare_height_m", "m", of(&P::flare_m), kPositive,
+                  "above the touchdown, where the sink rate begins to fade")
+          .number("power_off_height_m", "m", of(&P::power_off_m), between(0.0, 1e3),
+                  "above the touchdown, where the propeller stops")
+          .rule(find_fault_in_landing);
+  return table;
+}
+
+void settle_turns(const GivenParams& given, const ControllerContext& context,
+                  const std::string& who, WaypointGuidanceParams& params) {
   const VehicleDescription& vehicle = *context.vehicle_description;
   TurnLimits& turn = params.legs.turn;
   const double most_rad =
       vehicle.need_positive(vehicle.need_fixed_wing(who).max_bank_rad, "max_bank_rad", who);
   turn.gravity_mps2 = context.gravity_mps2;
-  turn.gain_per_s = parameters.number("turn_gain_per_s");
-  turn.bank_rad = parameters.has("bank_deg") ? rad_from_deg(parameters.number("bank_deg"))
-                                             : std::min(rad_from_deg(35.0), most_rad);
-  turn.bank_rate_radps = rad_from_deg(parameters.number("bank_rate_degps"));
-  turn.bank_lag_s = parameters.number("bank_lag_s");
-  turn.yaw_lag_s = parameters.number("yaw_lag_s");
+  turn.bank_rad = given.bank_rad.value_or(std::min(rad_from_deg(35.0), most_rad));
   if (turn.bank_rad > most_rad + 1e-9) {
     throw ConfigError(fmt::format(
         "{}: bank_deg = {:.1f} deg is more than the {:.1f} deg that vehicle type '{}' can fly", who,
@@ -37,7 +150,7 @@ void read_turns(const ParameterSet& parameters, const ControllerContext& context
   const double least_mps = params.stall_mps / std::sqrt(std::cos(turn.bank_rad));
   params.legs.least_airspeed_mps = least_mps;
   params.legs.most_airspeed_mps = vehicle.max_speed_mps.value_or(1e9);
-  const double airspeed_mps = read_or(parameters, "airspeed_mps", params.cruise_mps);
+  const double airspeed_mps = given.airspeed_mps.value_or(params.cruise_mps);
   if (airspeed_mps <= least_mps) {
     throw ConfigError(
         fmt::format("{}: airspeed_mps = {:.2f} m/s is not above the {:.2f} m/s at which vehicle "
@@ -51,7 +164,7 @@ void read_turns(const ParameterSet& parameters, const ControllerContext& context
   }
   params.legs.airspeed_mps = airspeed_mps;
   const double radius_m = turn.radius_m(airspeed_mps);
-  params.loiter_radius_m = read_or(parameters, "loiter_radius_m", 1.5 * radius_m);
+  params.loiter_radius_m = given.loiter_radius_m.value_or(1.5 * radius_m);
   if (params.loiter_radius_m < radius_m) {
     throw ConfigError(fmt::format(
         "{}: loiter_radius_m = {:.1f} m is less than the {:.1f} m of a turn at {:.1f} m/s and "
@@ -60,116 +173,24 @@ void read_turns(const ParameterSet& parameters, const ControllerContext& context
   }
 }
 
-void read_landing(const ParameterSet& parameters, const VehicleDescription& vehicle,
-                  const std::string& who, WaypointGuidanceParams& params) {
-  if (params.end != WaypointGuidanceParams::End::kLand) {
-    for (const char* name :
-         {"land_at_m", "land_height_m", "land_course_deg", "approach_speed_mps"}) {
-      if (!parameters.has(name)) continue;
-      throw ConfigError(fmt::format("{}: {} says how to land, but end is '{}'", who, name,
-                                    parameters.text("end")));
-    }
-  }
-  if (parameters.has("land_at_m")) {
-    const std::vector<double>& place = parameters.numbers("land_at_m");
-    params.land_at_m = Eigen::Vector2d(place[0], place[1]);
-  }
-  if (parameters.has("land_height_m")) params.land_height_m = parameters.number("land_height_m");
-  if (parameters.has("land_course_deg")) {
-    params.land_course_rad = rad_from_deg(parameters.number("land_course_deg"));
-  }
+void settle_landing(const GivenParams& given, const VehicleDescription& vehicle,
+                    const std::string& who, WaypointGuidanceParams& params) {
   const FixedWingAircraft& aircraft = vehicle.need_fixed_wing(who);
   params.standing_m = aircraft.start_height_m.value_or(vehicle.height_above_ground_m);
   params.belly_m = aircraft.belly_height_m;
-  params.glide_rad = rad_from_deg(parameters.number("glide_deg"));
-  params.flare_m = parameters.number("flare_height_m");
-  params.power_off_m = parameters.number("power_off_height_m");
-  params.approach_height_m = parameters.number("approach_height_m");
-  params.approach_mps = read_or(parameters, "approach_speed_mps", params.legs.airspeed_mps);
+  params.approach_mps = given.approach_mps.value_or(params.legs.airspeed_mps);
   if (params.approach_mps <= params.stall_mps) {
     throw ConfigError(fmt::format(
         "{}: approach_speed_mps = {:.2f} m/s is not above the {:.2f} m/s at which vehicle type "
         "'{}' stalls",
         who, params.approach_mps, params.stall_mps, vehicle.type));
   }
-  if (params.flare_m >= params.approach_height_m) {
-    throw ConfigError(
-        fmt::format("{}: flare_height_m = {:.2f} m is not below approach_height_m = {:.2f} m", who,
-                    params.flare_m, params.approach_height_m));
-  }
 }
 
 }  // namespace
 
 std::vector<ParameterSpec> waypoint_guidance_parameters() {
-  const auto angle = [](const char* name, double value, double most, const char* description) {
-    ParameterSpec spec = number_parameter(name, "deg", value, 0.0, most, description);
-    spec.min_exclusive = true;
-    return spec;
-  };
-  return {
-      choice_parameter("law", "smooth", {"smooth", "paper"},
-                       "on a leg: smooth: course chi - atan(e / cross_track_length_m); paper: "
-                       "bearing to the next waypoint where |e| is beyond the tolerance (eq. 1-5)"),
-      choice_parameter(
-          "turn_start", "predicted", {"predicted", "formula"},
-          "when a turn begins: where flying it ahead in the mean wind leads onto the "
-          "next leg, or R tan(|dchi|/2) + V (phi/(2 rate) + lags) before the waypoint"),
-      positive_parameter("cross_track_length_m", "m", 15.0, "of law smooth"),
-      positive_parameter("tolerance_most_m", "m", 4.0, "law paper: tolerance at a leg's start"),
-      positive_parameter("tolerance_least_m", "m", 1.0, "law paper: least tolerance"),
-      optional(positive_parameter("airspeed_mps", "m/s", 12.0,
-                                  "where the plan tells none; default the vehicle's cruise speed")),
-      positive_parameter(
-          "airspeed_rate_mps2", "m/s2", 0.5,
-          "with which the airspeed changes where the plan or the landing wants another"),
-      optional(angle("bank_deg", 35.0, 80.0,
-                     "most, in turns; default 35 deg or what the vehicle can, if that is less")),
-      positive_parameter("bank_rate_degps", "deg/s", 60.0, "most"),
-      positive_parameter("bank_lag_s", "s", 0.3, "of the vehicle's bank behind what it is told"),
-      number_parameter("yaw_lag_s", "s", 0.3, 0.0, 5.0,
-                       "of the vehicle's turn behind its bank: it slips first"),
-      positive_parameter("turn_gain_per_s", "1/s", 1.0,
-                         "heading rate wanted per heading difference"),
-      number_parameter("kink_m", "m", 15.0, 0.0, 1e3,
-                       "length before and after a waypoint over which the height's slope changes"),
-      text_parameter("air_data", "", "name of the sensor that tells the wind; '' = none is known"),
-      positive_parameter("wind_s", "s", 10.0, "time constant of the mean wind"),
-      number_parameter("start_s", "s", 1.0, 0.0, 1e4, "earliest launch after the run's start"),
-      angle("launch_climb_deg", 10.0, 45.0, "climb angle straight ahead from the launcher"),
-      positive_parameter("launch_height_m", "m", 20.0, "above the start, where the launch ends"),
-      angle("climb_max_deg", 10.0, 45.0, "most upwards; where the way is too short it circles"),
-      angle("descent_max_deg", 10.0, 45.0, "most downwards"),
-      positive_parameter("join_m", "m", 60.0,
-                         "a vehicle that is in the air already starts on the plan's first leg "
-                         "where that is nearer than this, else flies to its first waypoint"),
-      optional(positive_parameter("loiter_radius_m", "m", 31.0,
-                                  "of circles; default 1.5 times that of a turn")),
-      choice_parameter("loiter_side", "left", {"left", "right"}, "where circles turn to"),
-      positive_parameter("loiter_s", "s", 60.0, "how long it circles with end: loiter"),
-      choice_parameter("end", "land", {"land", "loiter", "stop"},
-                       "after the last waypoint: land; circle about it for loiter_s and end the "
-                       "mission in the air; end the mission at once. What has ended in the air "
-                       "circles on while others work"),
-      optional(number_list_parameter("land_at_m", "m", {},
-                                     "[x, y] in W of the touchdown; default the start", 2)),
-      optional(number_parameter("land_height_m", "m", 0.0, -1e4, 1e4,
-                                "z of W of the ground there; default the ground at the start")),
-      optional(number_parameter("land_course_deg", "deg", 0.0, -360.0, 360.0,
-                                "course of the landing; default against the mean wind, below 1 m/s "
-                                "of wind the heading at the start")),
-      positive_parameter("approach_height_m", "m", 30.0,
-                         "above the ground, where the glide begins; down to it the vehicle "
-                         "circles beside the approach"),
-      optional(positive_parameter("approach_speed_mps", "m/s", 10.0,
-                                  "airspeed of the glide; default airspeed_mps, where the "
-                                  "controllers' trims are")),
-      angle("glide_deg", 5.0, 30.0, "of the glide over ground"),
-      positive_parameter("flare_height_m", "m", 1.0,
-                         "above the touchdown, where the sink rate begins to fade"),
-      number_parameter("power_off_height_m", "m", 0.1, 0.0, 1e3,
-                       "above the touchdown, where the propeller stops"),
-  };
+  return given_table().specs();
 }
 
 WaypointGuidanceParams read_waypoint_guidance_params(const ParameterSet& parameters,
@@ -177,32 +198,12 @@ WaypointGuidanceParams read_waypoint_guidance_params(const ParameterSet& paramet
   const std::string who = context.part + " (waypoint_guidance)";
   const VehicleDescription& vehicle = *context.vehicle_description;
   const FixedWingAircraft& aircraft = vehicle.need_fixed_wing(who);
-  WaypointGuidanceParams params;
+  const GivenParams given = given_table().read(parameters, who);
+  WaypointGuidanceParams params = given.params;
   params.cruise_mps = vehicle.need_positive(aircraft.cruise_speed_mps, "cruise_speed_mps", who);
   params.stall_mps = vehicle.need_positive(aircraft.stall_speed_mps, "stall_speed_mps", who);
-  read_turns(parameters, context, who, params);
-  params.legs.climb_max_rad = rad_from_deg(parameters.number("climb_max_deg"));
-  params.legs.descent_max_rad = rad_from_deg(parameters.number("descent_max_deg"));
-  params.pilot.is_smooth = parameters.text("law") == "smooth";
-  params.pilot.is_predicted = parameters.text("turn_start") == "predicted";
-  params.pilot.cross_track_length_m = parameters.number("cross_track_length_m");
-  params.pilot.tolerance_most_m = parameters.number("tolerance_most_m");
-  params.pilot.tolerance_least_m = parameters.number("tolerance_least_m");
-  params.kink_m = parameters.number("kink_m");
-  params.air_data = parameters.text("air_data");
-  params.wind_s = parameters.number("wind_s");
-  params.start_s = parameters.number("start_s");
-  params.launch_climb_rad = rad_from_deg(parameters.number("launch_climb_deg"));
-  params.launch_height_m = parameters.number("launch_height_m");
-  params.join_m = parameters.number("join_m");
-  params.airspeed_rate_mps2 = parameters.number("airspeed_rate_mps2");
-  params.loiter_side = parameters.text("loiter_side") == "left" ? 1.0 : -1.0;
-  params.loiter_s = parameters.number("loiter_s");
-  const std::string& end = parameters.text("end");
-  params.end = end == "land"     ? WaypointGuidanceParams::End::kLand
-               : end == "loiter" ? WaypointGuidanceParams::End::kLoiter
-                                 : WaypointGuidanceParams::End::kStop;
-  read_landing(parameters, vehicle, who, params);
+  settle_turns(given, context, who, params);
+  settle_landing(given, vehicle, who, params);
   return params;
 }
 

@@ -8,6 +8,7 @@
 #include "controllers/waypoint_guidance/flight_legs.h"
 #include "controllers/waypoint_guidance/leg_pilot.h"
 #include "engine/api/stepped_parts.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
@@ -21,7 +22,7 @@ struct WaypointGuidanceParams {
   std::string air_data;  ///< name of the sensor, "" = none
   double wind_s = 10.0;
   double start_s = 1.0;
-  double launch_climb_rad = 0.17;
+  double launch_climb_rad = rad_from_deg(10.0);
   double launch_height_m = 20.0;
   double join_m = 60.0;
   double airspeed_rate_mps2 = 0.5;
@@ -36,7 +37,7 @@ struct WaypointGuidanceParams {
   double belly_m = 0.0;     ///< of B above the ground when lying
   double approach_height_m = 30.0;
   double approach_mps = 10.0;
-  double glide_rad = 0.0873;
+  double glide_rad = rad_from_deg(5.0);
   double flare_m = 1.0;
   double power_off_m = 0.1;
 };

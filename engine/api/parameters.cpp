@@ -124,7 +124,9 @@ ParameterSet::Value convert(const ParameterSpec& spec, ParameterSet::Value value
   return value;
 }
 
-void check_value(const ParameterSpec& spec, const ParameterSet::Value& value) {
+}  // namespace
+
+void check_parameter(const ParameterSpec& spec, const ParameterSet::Value& value) {
   switch (spec.kind) {
     case ParameterKind::kNumber:
       check_number(spec, std::get<double>(value), spec.name);
@@ -171,8 +173,6 @@ void check_value(const ParameterSpec& spec, const ParameterSet::Value& value) {
       break;
   }
 }
-
-}  // namespace
 
 ParameterSpec number_parameter(std::string name, std::string unit, double default_value, double min,
                                double max, std::string description) {
@@ -297,7 +297,7 @@ ParameterSet& ParameterSet::set(std::string_view name, Value value, std::string 
                                   did_you_mean(name, names), names.empty() ? "none" : join(names)));
   }
   Value converted = convert(*known, std::move(value));
-  check_value(*known, converted);
+  check_parameter(*known, converted);
   values_.insert_or_assign(known->name, Entry{std::move(converted), std::move(source)});
   return *this;
 }
@@ -314,6 +314,12 @@ void ParameterSet::require_complete() const {
 bool ParameterSet::has(std::string_view name) const {
   static_cast<void>(spec(name));
   return values_.find(name) != values_.end();
+}
+
+const ParameterSet::Value* ParameterSet::find(std::string_view name) const {
+  static_cast<void>(spec(name));
+  const auto found = values_.find(name);
+  return found == values_.end() ? nullptr : &found->second.value;
 }
 
 const ParameterSpec& ParameterSet::spec(std::string_view name) const {

@@ -99,6 +99,8 @@ class ParameterSet {
   void require_complete() const;
 
   bool has(std::string_view name) const;
+  /// @returns nullptr where it has no value
+  const Value* find(std::string_view name) const;
   double number(std::string_view name) const;
   std::int64_t integer(std::string_view name) const;
   bool boolean(std::string_view name) const;
@@ -128,5 +130,9 @@ class ParameterSet {
   std::string owner_;
   std::map<std::string, Entry, std::less<>> values_;
 };
+
+/// Checks a value of the spec's own kind, as ParameterSet::set does.
+/// @throws ConfigError "lookahead_m = -1 m, must be > 0 m"
+void check_parameter(const ParameterSpec& spec, const ParameterSet::Value& value);
 
 }  // namespace vinerow

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
+
 namespace vinerow {
 namespace {
 
@@ -58,39 +60,45 @@ double SurveyCamera::half_angle_along_rad() const {
   return std::atan(0.5 * sensor_height_mm / focal_length_mm);
 }
 
-std::vector<ParameterSpec> survey_camera_parameters() {
+const ParameterTable<SurveyCameraParams>& survey_camera_table() {
   constexpr double kMostPixels = 100000.0;
-  return {
-      choice_parameter("camera", "rededge", {"rededge", "rededge_5p5", "rx100"},
-                       "camera that looks straight down, the longer side of its picture across the "
-                       "track; the numbers below replace its own"),
-      optional(positive_parameter("focal_length_mm", "mm", 5.4, "focal length")),
-      optional(positive_parameter("sensor_width_mm", "mm", 4.8, "sensor, across the track")),
-      optional(positive_parameter("sensor_height_mm", "mm", 3.6, "sensor, along the track")),
-      optional(integer_parameter("image_columns", 1280, 1.0, kMostPixels,
-                                 "pixels of a picture across the track")),
-      optional(integer_parameter("image_rows", 960, 1.0, kMostPixels,
-                                 "pixels of a picture along the track")),
-      optional(positive_parameter("max_rate_Hz", "Hz", 1.0, "pictures per second at most")),
-  };
+  using P = SurveyCameraParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("camera", &P::camera,
+                "camera that looks straight down, the longer side of its picture across the "
+                "track; the numbers below replace its own")
+          .one_of({"rededge", "rededge_5p5", "rx100"})
+          .number("focal_length_mm", "mm", &P::focal_length_mm, kPositive, "focal length")
+          .number("sensor_width_mm", "mm", &P::sensor_width_mm, kPositive,
+                  "sensor, across the track")
+          .number("sensor_height_mm", "mm", &P::sensor_height_mm, kPositive,
+                  "sensor, along the track")
+          .integer("image_columns", &P::columns, between(1.0, kMostPixels),
+                   "pixels of a picture across the track")
+          .integer("image_rows", &P::rows, between(1.0, kMostPixels),
+                   "pixels of a picture along the track")
+          .number("max_rate_Hz", "Hz", &P::max_rate_Hz, kPositive, "pictures per second at most");
+  return table;
+}
+
+SurveyCamera SurveyCameraParams::resolve() const {
+  SurveyCamera made = make_preset(camera);
+  made.focal_length_mm = focal_length_mm.value_or(made.focal_length_mm);
+  made.sensor_width_mm = sensor_width_mm.value_or(made.sensor_width_mm);
+  made.sensor_height_mm = sensor_height_mm.value_or(made.sensor_height_mm);
+  made.columns = columns.value_or(made.columns);
+  made.rows = rows.value_or(made.rows);
+  made.max_rate_Hz = max_rate_Hz.value_or(made.max_rate_Hz);
+  return made;
+}
+
+std::vector<ParameterSpec> survey_camera_parameters() {
+  return survey_camera_table().specs();
 }
 
 SurveyCamera read_survey_camera(const ParameterSet& parameters) {
-  SurveyCamera camera = make_preset(parameters.text("camera"));
-  const auto replace = [&](const char* name, double& value) {
-    if (parameters.has(name)) value = parameters.number(name);
-  };
-  replace("focal_length_mm", camera.focal_length_mm);
-  replace("sensor_width_mm", camera.sensor_width_mm);
-  replace("sensor_height_mm", camera.sensor_height_mm);
-  replace("max_rate_Hz", camera.max_rate_Hz);
-  if (parameters.has("image_columns")) {
-    camera.columns = static_cast<int>(parameters.integer("image_columns"));
-  }
-  if (parameters.has("image_rows")) {
-    camera.rows = static_cast<int>(parameters.integer("image_rows"));
-  }
-  return camera;
+  return survey_camera_table().read(parameters, "").resolve();
 }
 
 }  // namespace vinerow

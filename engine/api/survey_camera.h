@@ -9,9 +9,11 @@
 /// lanes at most (1 - p) h w / f apart. Paper A, section 2; corrected numbers in its reference:
 /// 104.2 mm at 150 m with f = 5.4 mm (the paper's 102 mm is f = 5.5 mm).
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/parameters.h"
 
 namespace vinerow {
@@ -40,8 +42,23 @@ struct SurveyCamera {
   double half_angle_along_rad() const;
 };
 
+/// A camera by name, and what of it is replaced.
+struct SurveyCameraParams {
+  std::string camera = "rededge";
+  std::optional<double> focal_length_mm;
+  std::optional<double> sensor_width_mm;
+  std::optional<double> sensor_height_mm;
+  std::optional<int> columns;
+  std::optional<int> rows;
+  std::optional<double> max_rate_Hz;
+
+  SurveyCamera resolve() const;
+};
+
 /// `camera` (rededge | rededge_5p5 | rx100) and what overrides it: focal_length_mm,
 /// sensor_width_mm, sensor_height_mm, image_columns, image_rows, max_rate_Hz.
+const ParameterTable<SurveyCameraParams>& survey_camera_table();
+/// The specs of that table, and a camera of its parameters.
 std::vector<ParameterSpec> survey_camera_parameters();
 SurveyCamera read_survey_camera(const ParameterSet& parameters);
 

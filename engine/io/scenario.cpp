@@ -6,6 +6,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/io/scenario_criterion.h"
@@ -84,17 +85,17 @@ class ScenarioReader {
     }
     ReadParameters read = read_parameters(root_, file_, "", fields, "scenario");
     resolved_ = std::move(read.resolved);
-    const ParameterSet& values = read.values;
-    scenario_.name = values.text("name");
+    const Scenario values = scenario_table().read(read.values, "").scenario;
+    scenario_.name = values.name;
     if (scenario_.name.empty()) {
       scenario_.name = default_name;
       resolved_.put("name", yaml_text(default_name));
     }
-    scenario_.description = values.text("description");
-    scenario_.seed = static_cast<std::uint64_t>(values.integer("seed"));
-    scenario_.duration_s = values.number("duration_s");
-    scenario_.stop_when_finished = values.boolean("stop_when_finished");
-    scenario_.gravity_mps2 = values.number("gravity_mps2");
+    scenario_.description = values.description;
+    scenario_.seed = values.seed;
+    scenario_.duration_s = values.duration_s;
+    scenario_.stop_when_finished = values.stop_when_finished;
+    scenario_.gravity_mps2 = values.gravity_mps2;
   }
 
   /// A structural group such as `record`; all defaults where it is absent.
@@ -120,7 +121,7 @@ class ScenarioReader {
   }
 
   void read_physics() {
-    const double step_s = read_group("physics").number("step_s");
+    const double step_s = physics_table().read(read_group("physics"), "").step_s;
     const Duration step = duration_from_s(step_s);
     // The step counts nanoseconds; what rounding to double may cost is far below one of them.
     if (step.ns <= 0 || std::abs(step.s() - step_s) > 1e-6 * 1e-9) {
@@ -215,11 +216,7 @@ class ScenarioReader {
   }
 
   void read_record() {
-    const ParameterSet record = read_group("record");
-    scenario_.record.enabled = record.boolean("enabled");
-    scenario_.record.truth_rate_Hz = record.number("truth_rate_Hz");
-    scenario_.record.sensor_rate_limit_Hz = record.number("sensor_rate_limit_Hz");
-    scenario_.record.compression = record.text("compression");
+    scenario_.record = record_table().read(read_group("record"), "");
     check_rate(scenario_.record.truth_rate_Hz, scenario_.physics_step,
                mark_of("record", "truth_rate_Hz"), "record.truth_rate_Hz");
   }

@@ -12,6 +12,7 @@
 #include "engine/api/registry.h"
 #include "engine/core/time.h"
 #include "engine/io/source_mark.h"
+#include "engine/math/angles.h"
 
 namespace vinerow::io {
 
@@ -80,7 +81,7 @@ struct CameraConfig {
   Eigen::Vector3d offset_B = {0.3, 0, 0.6};  ///< on board
   double yaw_rad = 0.0;    ///< yaw_deg: chase, orbit angle from behind; on board, view direction
   double pitch_rad = 0.0;  ///< pitch_deg: on board, positive looks down
-  double fov_rad = 0.96;   ///< fov_deg, vertical
+  double fov_rad = rad_from_deg(55.0);  ///< fov_deg, vertical
   bool show_sensor_rays = false;
   bool show_trail = true;
   bool show_plan = true;
@@ -89,7 +90,7 @@ struct CameraConfig {
   bool show_estimate = false;     ///< the estimates of vehicles and observers
   bool show_map = false;          ///< the row meshes of vehicles' own maps
   std::string sensor = "camera";  ///< shots: whose pictures are drawn
-  int every = 1;                  ///< shots: those whose index is a multiple of it
+  int every = 10;                 ///< shots: those whose index is a multiple of it
   SourceMark where;
 };
 
@@ -151,7 +152,7 @@ struct WeatherWindow {
   double max_wind_mps = 0.0;  ///< mean over `over_s`
   double height_m = 10.0;     ///< above the ground in the middle of the parcel
   double over_s = 30.0;
-  double wait_s = 0.0;  ///< after so long without such a window the phase fails
+  double wait_s = 600.0;  ///< after so long without such a window the phase fails
 };
 
 /// A node of the mission's graph: vehicles at work, or a job.

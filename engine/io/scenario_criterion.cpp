@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/api/parameter_table.h"
 #include "engine/io/scenario_keys.h"
 #include "engine/io/scenario_part.h"
 
@@ -25,13 +26,15 @@ void check_metric(const std::string& metric, const SourceMark& mark, const std::
 Criterion read_criterion(const YamlNode& node, const std::string& path, const CriterionScope& scope,
                          YamlNode& written) {
   require_mapping(node, path, "{metric: rover.cross_track_rms_m, max: 0.05}");
-  check_keys(node, path, names_of(criterion_fields()), "", nullptr);
-  ReadParameters read = read_parameters(node, node.mark, path, criterion_fields(), "criteria");
+  check_keys(node, path, names_of(criterion_table().specs()), "", nullptr);
+  ReadParameters read =
+      read_parameters(node, node.mark, path, criterion_table().specs(), "criteria");
+  const CriterionParams params = criterion_table().read(read.values, "");
   Criterion criterion;
   criterion.where = node.mark;
-  criterion.metric = read.values.text("metric");
-  if (read.values.has("min")) criterion.min = read.values.number("min");
-  if (read.values.has("max")) criterion.max = read.values.number("max");
+  criterion.metric = params.metric;
+  criterion.min = params.min;
+  criterion.max = params.max;
   check_metric(criterion.metric, node.find("metric")->mark, path, scope);
   if (!criterion.min && !criterion.max) {
     fail_at(node.mark, fmt::format("{}: min or max must be given", path));
@@ -40,7 +43,7 @@ Criterion read_criterion(const YamlNode& node, const std::string& path, const Cr
     fail_at(node.mark,
             fmt::format("{}: min = {} is above max = {}", path, *criterion.min, *criterion.max));
   }
-  criterion.name = read.values.has("name") ? read.values.text("name") : "";
+  criterion.name = params.name.value_or("");
   if (criterion.name.empty()) {
     criterion.name = criterion.metric;
     if (criterion.min) criterion.name += fmt::format(" >= {}", *criterion.min);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/core/constants.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/suggest.h"
 
 namespace vinerow::io {
@@ -10,11 +10,6 @@ namespace {
 
 StructuralKey parameter(ParameterSpec spec) {
   return {std::move(spec), KeyShape::kParameter, PartKind::kWorld, false};
-}
-
-StructuralKey group(const char* name, std::vector<ParameterSpec> fields, const char* description) {
-  return {group_parameter(name, std::move(fields), description), KeyShape::kGroup, PartKind::kWorld,
-          false};
 }
 
 StructuralKey shaped(const char* name, KeyShape shape, const char* description) {
@@ -38,61 +33,115 @@ StructuralKey required_key(StructuralKey key) {
   return key;
 }
 
-std::vector<ParameterSpec> record_fields() {
-  ParameterSpec truth_rate = positive_parameter(
-      "truth_rate_Hz", "Hz", 20.0, "how often true poses, links and wheel states are logged");
-  truth_rate.max = 1e6;
-  ParameterSpec limit =
-      positive_parameter("sensor_rate_limit_Hz", "Hz", 100.0,
-                         "faster sensors are thinned in the log, never in the simulation");
-  limit.max = 1e6;
-  return {boolean_parameter("enabled", true, "whether a log is written"), truth_rate, limit,
-          choice_parameter("compression", "zstd", {"zstd", "lz4", "none"}, "of the log's chunks")};
+StructuralKey group(const char* name, std::vector<ParameterSpec> fields, const char* description) {
+  StructuralKey key = shaped(name, KeyShape::kGroup, description);
+  key.spec.fields = std::move(fields);
+  return key;
 }
 
-std::vector<ParameterSpec> traffic_fields() {
-  return {text_list_parameter("reserve_alleys", {},
-                              "vehicles that enter an alley only when no other of them has it; of "
-                              "two that ask at once the first named is served"),
-          number_parameter("stop_before_m", "m", 1.0, 0.0, 100.0,
-                           "so far before an alley that another has they wait")};
+StructuralKey group_list(const char* name, std::vector<ParameterSpec> fields,
+                         const char* description) {
+  StructuralKey key = group(name, std::move(fields), description);
+  key.spec.kind = ParameterKind::kGroupList;
+  key.shape = KeyShape::kGroupList;
+  return key;
 }
 
-ParameterSpec list_in_range(const char* name, const char* unit, double max,
-                            const char* description) {
-  ParameterSpec spec = number_list_parameter(name, unit, {}, description);
-  spec.min = 0.0;
-  spec.max = max;
-  return spec;
-}
-
-ParameterSpec point(const char* name, std::vector<double> value, const char* description) {
-  return number_list_parameter(name, "m", std::move(value), description, 3);
+std::vector<StructuralKey> parameters_of(std::vector<ParameterSpec> specs) {
+  std::vector<StructuralKey> keys;
+  for (ParameterSpec& spec : specs) keys.push_back(parameter(std::move(spec)));
+  return keys;
 }
 
 }  // namespace
 
+const ParameterTable<ScenarioValues>& scenario_table() {
+  using P = ScenarioValues;
+  const auto of = [](auto member) { return inside(&P::scenario, member); };
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .integer("vinerow", &P::format, between(kFormatVersion, kFormatVersion),
+                   "version of the file format")
+          .required()
+          .text("name", of(&Scenario::name), "of the scenario; default: the file's name")
+          .text("description", of(&Scenario::description), "what the scenario shows")
+          .integer("seed", of(&Scenario::seed), between(0, 9223372036854775807.0),
+                   "of every random stream of the run")
+          .number("duration_s", "s", of(&Scenario::duration_s), above(0.0, 1e7),
+                  "the run ends here at the latest")
+          .boolean("stop_when_finished", of(&Scenario::stop_when_finished),
+                   "end when every controller has finished")
+          .number("gravity_mps2", "m/s2", of(&Scenario::gravity_mps2), between(0.0, 30.0),
+                  "gravitational acceleration");
+  return table;
+}
+
+const ParameterTable<PhysicsParams>& physics_table() {
+  using P = PhysicsParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>().number("step_s", "s", &P::step_s, above(0.0, 0.1),
+                                 "physics step; every part's period is a multiple");
+  return table;
+}
+
+const ParameterTable<TrafficConfig>& traffic_table() {
+  using P = TrafficConfig;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .texts("reserve_alleys", &P::vehicles,
+                 "vehicles that enter an alley only when no other of them has it; of "
+                 "two that ask at once the first named is served")
+          .number("stop_before_m", "m", &P::stop_before_m, between(0.0, 100.0),
+                  "so far before an alley that another has they wait");
+  return table;
+}
+
+const ParameterTable<RecordConfig>& record_table() {
+  using P = RecordConfig;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .boolean("enabled", &P::enabled, "whether a log is written")
+          .number("truth_rate_Hz", "Hz", &P::truth_rate_Hz, above(0.0, 1e6),
+                  "how often true poses, links and wheel states are logged")
+          .number("sensor_rate_limit_Hz", "Hz", &P::sensor_rate_limit_Hz, above(0.0, 1e6),
+                  "faster sensors are thinned in the log, never in the simulation")
+          .text("compression", &P::compression, "of the log's chunks")
+          .one_of({"zstd", "lz4", "none"});
+  return table;
+}
+
+const ParameterTable<VehicleConfig>& vehicle_table() {
+  using P = VehicleConfig;
+  static const ParameterTable<P> table =
+      ParameterTable<P>().choice("on_crash", &P::on_crash,
+                                 {{"end", OnCrash::kEnd}, {"fail", OnCrash::kFail}},
+                                 "what a crash of the vehicle does beside failing the run: it ends "
+                                 "there, or goes on for the others");
+  return table;
+}
+
+const ParameterTable<PicturesConfig>& pictures_table() {
+  using P = PicturesConfig;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .integer("width", &P::width, between(16, 8192), "pixels")
+          .integer("height", &P::height, between(16, 8192), "pixels")
+          .integer("samples", &P::samples, between(1, 8), "antialiasing samples per pixel")
+          .number("every_s", "s", &P::every_s, between(0.0, 1e7), "a frame every so often; 0 = not")
+          .numbers("times_s", "s", &P::times_s, between(0.0, 1e7), "frames at these times")
+          .texts("moments", &P::moment_texts,
+                 "frames at moments of a mission: '<phase> + <seconds>'")
+          .numbers("shares", "", &P::shares, between(0.0, 1.0),
+                   "frames at these shares of the run; default [1] where no other moment is "
+                   "given");
+  return table;
+}
+
 const std::vector<StructuralKey>& scenario_keys() {
   static const std::vector<StructuralKey> keys = [] {
-    ParameterSpec duration =
-        positive_parameter("duration_s", "s", 60.0, "the run ends here at the latest");
-    duration.max = 1e7;
-    ParameterSpec step =
-        positive_parameter("step_s", "s", 0.001, "physics step; every part's period is a multiple");
-    step.max = 0.1;
-    return std::vector<StructuralKey>{
-        parameter(required(integer_parameter("vinerow", kFormatVersion, kFormatVersion,
-                                             kFormatVersion, "version of the file format"))),
-        parameter(text_parameter("name", "", "of the scenario; default: the file's name")),
-        parameter(text_parameter("description", "", "what the scenario shows")),
-        parameter(integer_parameter("seed", 1, 0, 9223372036854775807.0,
-                                    "of every random stream of the run")),
-        parameter(duration),
-        parameter(boolean_parameter("stop_when_finished", true,
-                                    "end when every controller has finished")),
-        parameter(number_parameter("gravity_mps2", "m/s2", 9.80665, 0.0, 30.0,
-                                   "gravitational acceleration")),
-        group("physics", {step}, "settings of the physics"),
+    std::vector<StructuralKey> all = parameters_of(scenario_table().specs());
+    const std::vector<StructuralKey> more = {
+        group("physics", physics_table().specs(), "settings of the physics"),
         shaped("plugins", KeyShape::kPathList, "shared libraries that bring parts of their own"),
         required_key(part("world", KeyShape::kPart, PartKind::kWorld, false,
                           "terrain, rows and everything else that stands in it")),
@@ -100,13 +149,14 @@ const std::vector<StructuralKey>& scenario_keys() {
         shaped("phases", KeyShape::kPhases,
                "the mission's graph: vehicles at work, and jobs; absent: every vehicle starts at "
                "once"),
-        group("traffic", traffic_fields(), "how vehicles share the alleys"),
+        group("traffic", traffic_table().specs(), "how vehicles share the alleys"),
         part("metrics", KeyShape::kNamedParts, PartKind::kMetric, false,
              "what is measured for every vehicle; default: every known metric"),
-        {group_list_parameter("criteria", criterion_fields(), "limits that the run must meet"),
-         KeyShape::kGroupList, PartKind::kWorld, false},
-        group("record", record_fields(), "what goes into the log"),
+        group_list("criteria", criterion_table().specs(), "limits that the run must meet"),
+        group("record", record_table().specs(), "what goes into the log"),
         shaped("pictures", KeyShape::kPictures, "frames that the run renders")};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
   }();
   return keys;
 }
@@ -114,9 +164,7 @@ const std::vector<StructuralKey>& scenario_keys() {
 const std::vector<StructuralKey>& vehicle_keys() {
   static const std::vector<StructuralKey> keys = {
       required_key(shaped("spawn", KeyShape::kSpawn, "where the vehicle starts")),
-      parameter(choice_parameter("on_crash", "end", {"end", "fail"},
-                                 "what a crash of the vehicle does beside failing the run: it ends "
-                                 "there, or goes on for the others")),
+      parameter(vehicle_table().specs().front()),
       part("map", KeyShape::kPart, PartKind::kMap, true,
            "what the vehicle is told of the world; absent: the true rows"),
       part("sensors", KeyShape::kNamedParts, PartKind::kSensor, true, "the sensors by name"),
@@ -134,60 +182,56 @@ const std::vector<StructuralKey>& vehicle_keys() {
 }
 
 const std::vector<StructuralKey>& pictures_keys() {
-  static const std::vector<StructuralKey> keys = {
-      parameter(integer_parameter("width", 1280, 16, 8192, "pixels")),
-      parameter(integer_parameter("height", 720, 16, 8192, "pixels")),
-      parameter(integer_parameter("samples", 4, 1, 8, "antialiasing samples per pixel")),
-      parameter(number_parameter("every_s", "s", 0.0, 0.0, 1e7, "a frame every so often; 0 = not")),
-      parameter(list_in_range("times_s", "s", 1e7, "frames at these times")),
-      parameter(text_list_parameter("moments", {},
-                                    "frames at moments of a mission: '<phase> + <seconds>'")),
-      parameter(
-          list_in_range("shares", "", 1.0,
-                        "frames at these shares of the run; default [1] where no other moment is "
-                        "given")),
-      shaped("cameras", KeyShape::kCameras,
-             "the cameras by name; default: one that chases the first vehicle")};
+  static const std::vector<StructuralKey> keys = [] {
+    std::vector<StructuralKey> all = parameters_of(pictures_table().specs());
+    all.push_back(shaped("cameras", KeyShape::kCameras,
+                         "the cameras by name; default: one that chases the first vehicle"));
+    return all;
+  }();
   return keys;
 }
 
-const std::vector<ParameterSpec>& criterion_fields() {
-  static const std::vector<ParameterSpec> fields = {
-      required(text_parameter("metric", "", "<vehicle>.<metric>, e.g. rover.cross_track_rms_m")),
-      optional(
-          number_parameter("min", "", 0.0, -kInfinity, kInfinity, "the metric must reach this")),
-      optional(number_parameter("max", "", 0.0, -kInfinity, kInfinity,
-                                "the metric must not exceed this")),
-      optional(text_parameter("name", "", "in reports; default: the metric and its limits"))};
-  return fields;
+const ParameterTable<CriterionParams>& criterion_table() {
+  using P = CriterionParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("metric", &P::metric, "<vehicle>.<metric>, e.g. rover.cross_track_rms_m")
+          .required()
+          .number("min", "", &P::min, kAnyNumber, "the metric must reach this")
+          .number("max", "", &P::max, kAnyNumber, "the metric must not exceed this")
+          .text("name", &P::name, "in reports; default: the metric and its limits");
+  return table;
 }
 
-const std::vector<ParameterSpec>& phase_fields() {
-  static const std::vector<ParameterSpec> fields = [] {
-    ParameterSpec weather = group_parameter(
-        "weather",
-        {required(positive_parameter("max_wind_mps", "m/s", 5.0, "mean wind to begin in, at most")),
-         number_parameter("height_m", "m", 10.0, 0.5, 500.0,
-                          "above the ground in the middle of the rows, where it is measured"),
-         positive_parameter("over_s", "s", 30.0, "time over which the mean is taken"),
-         number_parameter("wait_s", "s", 600.0, 0.0, 1e7,
-                          "the phase fails where no such window came in this time")},
-        "the phase begins in a window of weak wind");
-    return std::vector<ParameterSpec>{
-        text_list_parameter("vehicles", {}, "that work in this phase, each by its own controller"),
-        text_list_parameter("after", {},
-                            "phases that must have succeeded before, beside those whose products "
-                            "it takes"),
-        number_parameter("timeout_s", "s", 0.0, 0.0, 1e7,
-                         "vehicles that have not finished by then have failed; 0: as long as the "
-                         "run"),
-        number_parameter("duration_s", "s", 0.0, 0.0, 1e7, "simulated time that a job takes"),
-        choice_parameter("on_failure", "abort", {"abort", "continue"},
-                         "a failure ends the mission, or phases that do not wait for this one go "
-                         "on"),
-        optional(weather)};
-  }();
-  return fields;
+const ParameterTable<PhaseConfig>& phase_table() {
+  using P = PhaseConfig;
+  using W = WeatherWindow;
+  static const ParameterTable<W> weather_table =
+      ParameterTable<W>()
+          .number("max_wind_mps", "m/s", &W::max_wind_mps, kPositive,
+                  "mean wind to begin in, at most")
+          .required()
+          .number("height_m", "m", &W::height_m, between(0.5, 500.0),
+                  "above the ground in the middle of the rows, where it is measured")
+          .number("over_s", "s", &W::over_s, kPositive, "time over which the mean is taken")
+          .number("wait_s", "s", &W::wait_s, between(0.0, 1e7),
+                  "the phase fails where no such window came in this time");
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .texts("vehicles", &P::vehicles, "that work in this phase, each by its own controller")
+          .texts("after", &P::after,
+                 "phases that must have succeeded before, beside those whose products "
+                 "it takes")
+          .number("timeout_s", "s", &P::timeout_s, between(0.0, 1e7),
+                  "vehicles that have not finished by then have failed; 0: as long as the run")
+          .number("duration_s", "s", &P::duration_s, between(0.0, 1e7),
+                  "simulated time that a job takes")
+          .choice("on_failure", &P::on_failure,
+                  {{"abort", OnFailure::kAbort}, {"continue", OnFailure::kContinue}},
+                  "a failure ends the mission, or phases that do not wait for this one go on")
+          .group("weather", &P::weather, weather_table,
+                 "the phase begins in a window of weak wind");
+  return table;
 }
 
 std::vector<ProductPort> product_ports(const Registry& registry) {
@@ -204,19 +248,64 @@ std::vector<ProductPort> product_ports(const Registry& registry) {
   return ports;
 }
 
+namespace {
+
+const ParameterTable<SpawnConfig>& alley_spawn_table() {
+  using P = SpawnConfig;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .integer("alley", &P::alley, between(0, 1e6), "start at this alley's entrance (id)")
+          .required()
+          .number("offset_m", "m", &P::offset_m, between(-1e6, 1e6),
+                  "so far before the alley's first point")
+          .boolean("reverse", &P::reverse, "start at the last point, driving to the first");
+  return table;
+}
+
+struct PlacedSpawn {
+  Eigen::Vector2d p_W = Eigen::Vector2d::Zero();
+  double yaw_rad = 0.0;
+};
+
+const ParameterTable<PlacedSpawn>& placed_spawn_table() {
+  using P = PlacedSpawn;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("x_m", "m", [](P& p) -> double& { return p.p_W.x(); }, between(-1e7, 1e7),
+                  "east of the world's origin")
+          .required()
+          .number("y_m", "m", [](P& p) -> double& { return p.p_W.y(); }, between(-1e7, 1e7),
+                  "north of the world's origin")
+          .required()
+          .degrees("yaw_deg", &P::yaw_rad, between(-360.0, 360.0),
+                   "heading, from east, positive to the left");
+  return table;
+}
+
+const ParameterTable<SpawnConfig>& point_spawn_table() {
+  using P = SpawnConfig;
+  static const ParameterTable<P> table =
+      ParameterTable<P>().text("point", &P::point, "name of a spawn point of the world").required();
+  return table;
+}
+
+}  // namespace
+
 const std::vector<SpawnForm>& spawn_forms() {
-  static const std::vector<SpawnForm> forms = {
-      {"alley",
-       {required(integer_parameter("alley", 0, 0, 1e6, "start at this alley's entrance (id)")),
-        number_parameter("offset_m", "m", 0.0, -1e6, 1e6, "so far before the alley's first point"),
-        boolean_parameter("reverse", false, "start at the last point, driving to the first")}},
-      {"x_m",
-       {required(number_parameter("x_m", "m", 0.0, -1e7, 1e7, "east of the world's origin")),
-        required(number_parameter("y_m", "m", 0.0, -1e7, 1e7, "north of the world's origin")),
-        number_parameter("yaw_deg", "deg", 0.0, -360.0, 360.0,
-                         "heading, from east, positive to the left")}},
-      {"point", {required(text_parameter("point", "", "name of a spawn point of the world"))}}};
+  static const std::vector<SpawnForm> forms = {{"alley", alley_spawn_table().specs()},
+                                               {"x_m", placed_spawn_table().specs()},
+                                               {"point", point_spawn_table().specs()}};
   return forms;
+}
+
+SpawnConfig read_spawn_form(const std::string& form, const ParameterSet& values) {
+  if (form == "alley") return alley_spawn_table().read(values, "");
+  if (form == "point") return point_spawn_table().read(values, "");
+  const PlacedSpawn placed = placed_spawn_table().read(values, "");
+  SpawnConfig spawn;
+  spawn.p_W = placed.p_W;
+  spawn.yaw_rad = placed.yaw_rad;
+  return spawn;
 }
 
 std::string spawn_form_of(const YamlNode& spawn) {
@@ -239,57 +328,111 @@ std::string spawn_forms_text() {
   return text;
 }
 
+namespace {
+
+/// The defaults of a kind.
+CameraConfig make_camera(CameraKind kind) {
+  CameraConfig camera;
+  camera.kind = kind;
+  if (kind == CameraKind::kTop) camera.height_m = 0.0;
+  // What a survey camera sees is known, and lines over the ground are none of it.
+  if (kind == CameraKind::kShots) camera.show_trail = camera.show_plan = false;
+  return camera;
+}
+
+template <CameraKind kKind>
+struct CameraFields {
+  std::optional<std::string> vehicle;
+  CameraConfig camera = make_camera(kKind);
+};
+
+template <CameraKind kKind>
+ParameterTable<CameraFields<kKind>> make_camera_table() {
+  using P = CameraFields<kKind>;
+  using C = CameraConfig;
+  const auto of = [](auto member) { return inside(&P::camera, member); };
+  ParameterTable<P> table;
+  if constexpr (kKind == CameraKind::kFixed) {
+    table
+        .numbers("position_m", "m", of(&C::p_W), kAnyNumber, "x, y and height above the ground")
+        .required()
+        .numbers("look_at_m", "m", of(&C::target_W), kAnyNumber, "x, y and height above the ground")
+        .required();
+  } else {
+    table.text("vehicle", &P::vehicle,
+               kKind == CameraKind::kTop
+                   ? "the vehicle it stays above; absent: the middle of the world"
+                   : "the vehicle it belongs to; default: the first");
+  }
+  if constexpr (kKind == CameraKind::kChase) {
+    table.number("distance_m", "m", of(&C::distance_m), between(0.1, 1e4), "behind the vehicle")
+        .number("height_m", "m", of(&C::height_m), between(-1e4, 1e4), "above the vehicle")
+        .degrees("yaw_deg", of(&C::yaw_rad), between(-360.0, 360.0),
+                 "orbit angle from behind, positive to the left");
+  } else if constexpr (kKind == CameraKind::kTop) {
+    table
+        .numbers("centre_m", "m", of(&C::centre_W), kAnyNumber,
+                 "x and y in the middle of the picture, instead of a vehicle")
+        .number("height_m", "m", of(&C::height_m), between(0.0, 1e5),
+                "what the picture shows from south to north; 0 = the whole world");
+  } else if constexpr (kKind == CameraKind::kShots) {
+    table.text("sensor", of(&C::sensor), "the camera_trigger whose pictures are drawn")
+        .integer("every", of(&C::every), between(1, 1e6),
+                 "pictures whose index is a multiple of it");
+  } else if constexpr (kKind == CameraKind::kOnBoard) {
+    table
+        .numbers("offset_m", "m", of(&C::offset_B), kAnyNumber,
+                 "in the body frame: forward, left, up")
+        .degrees("yaw_deg", of(&C::yaw_rad), between(-360.0, 360.0), "view direction, to the left")
+        .degrees("pitch_deg", of(&C::pitch_rad), between(-90.0, 90.0), "positive looks down");
+  }
+  if constexpr (kKind != CameraKind::kShots) {
+    table.degrees("fov_deg", of(&C::fov_rad), between(1.0, 170.0), "vertical field of view");
+  }
+  table.boolean("show_sensor_rays", of(&C::show_sensor_rays), "draw the rays of range sensors")
+      .boolean("show_trail", of(&C::show_trail), "draw where the vehicles have been")
+      .boolean("show_plan", of(&C::show_plan), "draw the planned paths")
+      .boolean("show_grid", of(&C::show_grid), "draw the occupancy grid")
+      .boolean("show_tree", of(&C::show_tree), "draw what the planners searched")
+      .boolean("show_estimate", of(&C::show_estimate),
+               "draw where estimator and observers think the vehicles are")
+      .boolean("show_map", of(&C::show_map), "draw the vehicles' own maps");
+  return table;
+}
+
+template <CameraKind kKind>
+const ParameterTable<CameraFields<kKind>>& camera_table() {
+  static const ParameterTable<CameraFields<kKind>> table = make_camera_table<kKind>();
+  return table;
+}
+
+/// Calls `use` with the table of a kind; of an unknown one, with that of a camera on board.
+template <class Use>
+auto with_camera_table(const std::string& kind, Use&& use) {
+  if (kind == "fixed") return use(camera_table<CameraKind::kFixed>());
+  if (kind == "chase") return use(camera_table<CameraKind::kChase>());
+  if (kind == "top") return use(camera_table<CameraKind::kTop>());
+  if (kind == "shots") return use(camera_table<CameraKind::kShots>());
+  return use(camera_table<CameraKind::kOnBoard>());
+}
+
+}  // namespace
+
 const std::vector<std::string>& camera_kinds() {
   static const std::vector<std::string> kinds = {"fixed", "chase", "top", "on_board", "shots"};
   return kinds;
 }
 
 std::vector<ParameterSpec> camera_fields(const std::string& kind) {
-  const ParameterSpec vehicle =
-      optional(text_parameter("vehicle", "", "the vehicle it belongs to; default: the first"));
-  std::vector<ParameterSpec> fields;
-  if (kind == "fixed") {
-    fields = {required(point("position_m", {}, "x, y and height above the ground")),
-              required(point("look_at_m", {}, "x, y and height above the ground"))};
-  } else if (kind == "chase") {
-    fields = {vehicle, number_parameter("distance_m", "m", 6.0, 0.1, 1e4, "behind the vehicle"),
-              number_parameter("height_m", "m", 2.5, -1e4, 1e4, "above the vehicle"),
-              number_parameter("yaw_deg", "deg", 0.0, -360.0, 360.0,
-                               "orbit angle from behind, positive to the left")};
-  } else if (kind == "top") {
-    ParameterSpec followed = vehicle;
-    followed.description = "the vehicle it stays above; absent: the middle of the world";
-    fields = {followed,
-              optional(number_list_parameter("centre_m", "m", {},
-                                             "x and y in the middle of the picture, instead of a "
-                                             "vehicle",
-                                             2)),
-              number_parameter("height_m", "m", 0.0, 0.0, 1e5,
-                               "what the picture shows from south to north; 0 = the whole world")};
-  } else if (kind == "shots") {
-    fields = {vehicle,
-              text_parameter("sensor", "camera", "the camera_trigger whose pictures are drawn"),
-              integer_parameter("every", 10, 1, 1e6, "pictures whose index is a multiple of it")};
-  } else {
-    fields = {vehicle, point("offset_m", {0.3, 0.0, 0.6}, "in the body frame: forward, left, up"),
-              number_parameter("yaw_deg", "deg", 0.0, -360.0, 360.0, "view direction, to the left"),
-              number_parameter("pitch_deg", "deg", 0.0, -90.0, 90.0, "positive looks down")};
-  }
-  // What a survey camera sees is known, and lines over the ground are none of it.
-  const bool is_plain = kind == "shots";
-  if (!is_plain) {
-    fields.push_back(
-        number_parameter("fov_deg", "deg", 55.0, 1.0, 170.0, "vertical field of view"));
-  }
-  fields.push_back(boolean_parameter("show_sensor_rays", false, "draw the rays of range sensors"));
-  fields.push_back(boolean_parameter("show_trail", !is_plain, "draw where the vehicles have been"));
-  fields.push_back(boolean_parameter("show_plan", !is_plain, "draw the planned paths"));
-  fields.push_back(boolean_parameter("show_grid", false, "draw the occupancy grid"));
-  fields.push_back(boolean_parameter("show_tree", false, "draw what the planners searched"));
-  fields.push_back(boolean_parameter("show_estimate", false,
-                                     "draw where estimator and observers think the vehicles are"));
-  fields.push_back(boolean_parameter("show_map", false, "draw the vehicles' own maps"));
-  return fields;
+  return with_camera_table(kind, [](const auto& table) { return table.specs(); });
+}
+
+CameraConfig read_camera_fields(const std::string& kind, const ParameterSet& values) {
+  return with_camera_table(kind, [&](const auto& table) {
+    auto fields = table.read(values, "");
+    fields.camera.vehicle = fields.vehicle.value_or("");
+    return fields.camera;
+  });
 }
 
 bool has_rate(PartKind kind) {
@@ -302,12 +445,19 @@ bool follows_controller(PartKind kind) {
          kind == PartKind::kPayload || kind == PartKind::kMetric;
 }
 
+const ParameterTable<RateParams>& rate_table() {
+  using P = RateParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>().number("rate_Hz", "Hz", &P::rate_Hz, between(1e-6, 1e6),
+                                 "how often it runs; its period is a multiple of the physics step");
+  return table;
+}
+
 ParameterSpec rate_field(PartKind kind, const PartSpec& part) {
-  ParameterSpec spec = number_parameter("rate_Hz", "Hz", part.default_rate_Hz, 1e-6, 1e6,
-                                        "how often it runs; its period is a multiple of the "
-                                        "physics step");
-  if (part.default_rate_Hz <= 0.0) {
-    spec = optional(spec);
+  ParameterSpec spec = rate_table().specs().front();
+  if (part.default_rate_Hz > 0.0) {
+    spec.default_value = part.default_rate_Hz;
+  } else {
     spec.description = follows_controller(kind) ? "how often it runs; default: like the controller"
                                                 : "how often it runs; default: every physics step";
   }

@@ -3,10 +3,13 @@
 /// the JSON Schema.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/registry.h"
+#include "engine/io/scenario.h"
 #include "engine/io/yaml.h"
 
 namespace vinerow::io {
@@ -40,9 +43,31 @@ const std::vector<StructuralKey>& scenario_keys();
 /// Keys of a vehicle beside its type's own parameters.
 const std::vector<StructuralKey>& vehicle_keys();
 const std::vector<StructuralKey>& pictures_keys();
-const std::vector<ParameterSpec>& criterion_fields();
+/// The values at a scenario's top level; of `scenario` only those.
+struct ScenarioValues {
+  std::int64_t format = kFormatVersion;
+  Scenario scenario;
+};
+const ParameterTable<ScenarioValues>& scenario_table();
+struct PhysicsParams {
+  double step_s = 0.001;
+};
+const ParameterTable<PhysicsParams>& physics_table();
+const ParameterTable<TrafficConfig>& traffic_table();
+const ParameterTable<RecordConfig>& record_table();
+/// Values of a vehicle beside its type's own.
+const ParameterTable<VehicleConfig>& vehicle_table();
+/// Values of `pictures` beside the cameras.
+const ParameterTable<PicturesConfig>& pictures_table();
+struct CriterionParams {
+  std::string metric;
+  std::optional<double> min;
+  std::optional<double> max;
+  std::optional<std::string> name;
+};
+const ParameterTable<CriterionParams>& criterion_table();
 /// Keys of a phase beside `job`, `criteria` and those of the products it takes.
-const std::vector<ParameterSpec>& phase_fields();
+const ParameterTable<PhaseConfig>& phase_table();
 /// Products that phases take, by key: `map` and `plan` of vehicles, and those of every known job.
 std::vector<ProductPort> product_ports(const Registry& registry);
 
@@ -53,6 +78,8 @@ struct SpawnForm {
   std::vector<ParameterSpec> fields;
 };
 const std::vector<SpawnForm>& spawn_forms();
+/// Where the vehicle starts by the values of the form's fields.
+SpawnConfig read_spawn_form(const std::string& form, const ParameterSet& values);
 /// Name of the first form of which the mapping has a key, or "".
 std::string spawn_form_of(const YamlNode& spawn);
 /// "{alley, offset_m, reverse}, {x_m, y_m, yaw_deg} or {point}".
@@ -61,6 +88,8 @@ std::string spawn_forms_text();
 /// Values of a camera's `kind`, and the keys that each has beside it.
 const std::vector<std::string>& camera_kinds();
 std::vector<ParameterSpec> camera_fields(const std::string& kind);
+/// A camera by the values of its kind's fields; its vehicle is empty where none is given.
+CameraConfig read_camera_fields(const std::string& kind, const ParameterSet& values);
 
 /// Whether parts of a kind have a `rate_Hz`.
 bool has_rate(PartKind kind);
@@ -69,6 +98,11 @@ bool has_rate(PartKind kind);
 bool follows_controller(PartKind kind);
 /// `rate_Hz` of a part, with the part's default.
 ParameterSpec rate_field(PartKind kind, const PartSpec& part);
+struct RateParams {
+  std::optional<double> rate_Hz;
+};
+/// Reads what rate_field() specifies.
+const ParameterTable<RateParams>& rate_table();
 
 /// Names of vehicles, sensors, metrics and cameras, as a regular expression that JSON Schema and
 /// the loader share.

@@ -6,11 +6,11 @@
 #include <map>
 
 #include "engine/api/observer.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/io/scenario_keys.h"
 #include "engine/io/yaml_include.h"
-#include "engine/math/angles.h"
 
 namespace vinerow::io {
 namespace {
@@ -77,20 +77,10 @@ SpawnConfig read_spawn(const YamlEntry& entry, const std::string& path, YamlNode
   resolved = std::move(read.resolved);
   resolved.flow = true;
 
-  SpawnConfig spawn;
+  SpawnConfig spawn = read_spawn_form(form_name, read.values);
   spawn.where = entry.mark;
-  if (form_name == "alley") {
-    spawn.alley = static_cast<int>(read.values.integer("alley"));
-    spawn.offset_m = read.values.number("offset_m");
-    spawn.reverse = read.values.boolean("reverse");
-  } else if (form_name == "x_m") {
-    spawn.p_W = Eigen::Vector2d(read.values.number("x_m"), read.values.number("y_m"));
-    spawn.yaw_rad = rad_from_deg(read.values.number("yaw_deg"));
-  } else {
-    spawn.point = read.values.text("point");
-    if (spawn.point.empty()) {
-      fail_at(node.find("point")->mark, path + ".point = '', must be the name of a spawn point");
-    }
+  if (form_name == "point" && spawn.point.empty()) {
+    fail_at(node.find("point")->mark, path + ".point = '', must be the name of a spawn point");
   }
   return spawn;
 }
@@ -185,9 +175,9 @@ ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kin
     for (YamlEntry& written : rate.resolved.entries) {
       part.resolved.put(written.key, std::move(written.value));
     }
-    if (rate.values.has("rate_Hz")) {
+    if (const std::optional<double> rate_Hz = rate_table().read(rate.values, "").rate_Hz) {
       const YamlEntry* given = entry.value.find_entry("rate_Hz");
-      part.config.rate_Hz = rate.values.number("rate_Hz");
+      part.config.rate_Hz = *rate_Hz;
       check_rate(part.config.rate_Hz, context.physics_step, given ? given->mark : entry.mark,
                  join_path(path, "rate_Hz"));
     } else if (!follows_controller(kind)) {
@@ -239,7 +229,7 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
     const std::string key_path = join_path(path, key.spec.name);
     if (key.shape == KeyShape::kParameter) {
       ReadParameters read = read_parameters(entry.value, entry.mark, path, {key.spec}, path);
-      vehicle.on_crash = read.values.text("on_crash") == "end" ? OnCrash::kEnd : OnCrash::kFail;
+      vehicle.on_crash = vehicle_table().read(read.values, "").on_crash;
       for (YamlEntry& written : read.resolved.entries) {
         resolved.put(written.key, std::move(written.value));
       }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/suggest.h"
 #include "engine/io/scenario_criterion.h"
 #include "engine/io/scenario_keys.h"
@@ -26,9 +27,9 @@ std::string vehicle_of(const PhaseConfig& phase, const Registry& registry) {
   if (!phase.job) return {};
   const bool works_for_one =
       holds(names_of(registry.spec(PartKind::kJob, phase.job->type).parameters), "vehicle");
-  return works_for_one && phase.job->parameters.has("vehicle")
-             ? phase.job->parameters.text("vehicle")
-             : "";
+  const ParameterSet::Value* vehicle =
+      works_for_one ? phase.job->parameters.find("vehicle") : nullptr;
+  return vehicle ? std::get<std::string>(*vehicle) : "";
 }
 
 const PhaseConfig* find_phase(const std::vector<PhaseConfig>& phases, const std::string& name) {
@@ -127,7 +128,7 @@ class PhaseReader {
   }
 
   void check_phase_keys(const YamlNode& node, const std::string& path, const PhaseConfig& phase) {
-    std::vector<std::string> known = names_of(phase_fields());
+    std::vector<std::string> known = names_of(phase_table().specs());
     known.insert(known.end(), {"job", "criteria"});
     for (const ProductPort& port : ports_of(phase, context_.registry)) known.push_back(port.key);
     check_keys(node, path, known, phase.job ? fmt::format("job '{}'", phase.job->type) : "",
@@ -136,20 +137,15 @@ class PhaseReader {
 
   void read_values(const YamlEntry& entry, const std::string& path, PhaseConfig& phase,
                    YamlNode& written) {
-    ReadParameters read =
-        read_parameters(entry.value, entry.mark, path, phase_fields(), "phase " + phase.name);
-    const ParameterSet& values = read.values;
-    phase.vehicles = values.texts("vehicles");
-    phase.after = values.texts("after");
-    phase.timeout_s = values.number("timeout_s");
-    phase.duration_s = values.number("duration_s");
-    phase.on_failure =
-        values.text("on_failure") == "abort" ? OnFailure::kAbort : OnFailure::kContinue;
-    if (values.has("weather")) {
-      const ParameterSet& weather = values.group("weather");
-      phase.weather = WeatherWindow{weather.number("max_wind_mps"), weather.number("height_m"),
-                                    weather.number("over_s"), weather.number("wait_s")};
-    }
+    ReadParameters read = read_parameters(entry.value, entry.mark, path, phase_table().specs(),
+                                          "phase " + phase.name);
+    PhaseConfig values = phase_table().read(read.values, "");
+    phase.vehicles = std::move(values.vehicles);
+    phase.after = std::move(values.after);
+    phase.timeout_s = values.timeout_s;
+    phase.duration_s = values.duration_s;
+    phase.on_failure = values.on_failure;
+    phase.weather = values.weather;
     for (YamlEntry& resolved : read.resolved.entries) {
       written.put(resolved.key, std::move(resolved.value));
     }
@@ -366,9 +362,7 @@ std::vector<PhaseConfig> read_phases(const YamlEntry* entry,
 
 TrafficConfig read_traffic(const ParameterSet& values, const SourceMark& where,
                            const std::vector<std::string>& vehicles) {
-  TrafficConfig traffic;
-  traffic.vehicles = values.texts("reserve_alleys");
-  traffic.stop_before_m = values.number("stop_before_m");
+  TrafficConfig traffic = traffic_table().read(values, "");
   traffic.where = where;
   std::vector<std::string> seen;
   for (const std::string& vehicle : traffic.vehicles) {

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/suggest.h"
 #include "engine/io/scenario_keys.h"
 #include "engine/io/scenario_part.h"
 #include "engine/io/yaml_include.h"
-#include "engine/math/angles.h"
 
 namespace vinerow::io {
 namespace {
-
-Eigen::Vector3d vector_parameter(const ParameterSet& values, const char* name) {
-  const std::vector<double>& v = values.numbers(name);
-  return {v[0], v[1], v[2]};
-}
 
 /// The kind of a camera; chase where it is not said.
 std::string read_kind(const YamlNode& camera, const std::string& path) {
@@ -52,50 +47,15 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
   known.push_back("kind");
   check_keys(node, path, known, fmt::format("camera of kind '{}'", kind), nullptr);
   ReadParameters read = read_parameters(node, entry.mark, path, fields, path);
-  const ParameterSet& values = read.values;
-
-  CameraConfig camera;
+  CameraConfig camera = read_camera_fields(kind, read.values);
   camera.name = entry.key;
   camera.where = entry.mark;
-  if (kind != "shots") camera.fov_rad = rad_from_deg(values.number("fov_deg"));
-  camera.show_sensor_rays = values.boolean("show_sensor_rays");
-  camera.show_trail = values.boolean("show_trail");
-  camera.show_plan = values.boolean("show_plan");
-  camera.show_grid = values.boolean("show_grid");
-  camera.show_tree = values.boolean("show_tree");
-  camera.show_estimate = values.boolean("show_estimate");
-  camera.show_map = values.boolean("show_map");
-  if (kind == "fixed") {
-    camera.kind = CameraKind::kFixed;
-    camera.p_W = vector_parameter(values, "position_m");
-    camera.target_W = vector_parameter(values, "look_at_m");
-  } else if (kind == "chase") {
-    camera.kind = CameraKind::kChase;
-    camera.distance_m = values.number("distance_m");
-    camera.height_m = values.number("height_m");
-    camera.yaw_rad = rad_from_deg(values.number("yaw_deg"));
-  } else if (kind == "top") {
-    camera.kind = CameraKind::kTop;
-    camera.height_m = values.number("height_m");
-    if (const YamlEntry* centre = node.find_entry("centre_m")) {
-      check_centre(node, *centre, path, camera.height_m);
-      const std::vector<double>& p = values.numbers("centre_m");
-      camera.centre_W = Eigen::Vector2d(p[0], p[1]);
-    }
-  } else if (kind == "shots") {
-    camera.kind = CameraKind::kShots;
-    camera.sensor = values.text("sensor");
-    camera.every = static_cast<int>(values.integer("every"));
-  } else {
-    camera.kind = CameraKind::kOnBoard;
-    camera.offset_B = vector_parameter(values, "offset_m");
-    camera.yaw_rad = rad_from_deg(values.number("yaw_deg"));
-    camera.pitch_rad = rad_from_deg(values.number("pitch_deg"));
+  if (const YamlEntry* centre = node.find_entry("centre_m"); centre && kind == "top") {
+    check_centre(node, *centre, path, camera.height_m);
   }
   const bool follows = kind == "chase" || kind == "on_board" || kind == "shots";
   const YamlEntry* named = node.find_entry("vehicle");
   if (named) {
-    camera.vehicle = values.text("vehicle");
     check_vehicle(camera.vehicle, vehicles, named->value.mark, path + ".vehicle");
   } else if (follows) {
     if (vehicles.empty()) {
@@ -165,14 +125,7 @@ PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::stri
   ReadParameters read = read_parameters(node, where, "pictures", fields, "pictures");
   resolved = std::move(read.resolved);
 
-  PicturesConfig pictures;
-  pictures.width = static_cast<int>(read.values.integer("width"));
-  pictures.height = static_cast<int>(read.values.integer("height"));
-  pictures.samples = static_cast<int>(read.values.integer("samples"));
-  pictures.times_s = read.values.numbers("times_s");
-  pictures.every_s = read.values.number("every_s");
-  pictures.shares = read.values.numbers("shares");
-  pictures.moment_texts = read.values.texts("moments");
+  PicturesConfig pictures = pictures_table().read(read.values, "");
   if (pictures.moment_texts.empty()) resolved.erase("moments");
 
   const YamlNode* given = node.find("cameras");

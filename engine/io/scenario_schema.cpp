@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "engine/api/parameter_table.h"
 #include "engine/io/scenario.h"
 #include "engine/io/scenario_keys.h"
 #include "engine/io/scenario_reader.h"
@@ -291,7 +292,7 @@ class SchemaBuilder {
   /// @param of_vehicle  "<vehicle>.<metric>", as the loader splits it; else a job's number, too
   Json criteria_schema(bool of_vehicle) const {
     const auto make = [of_vehicle](bool partial) {
-      Json schema = group_schema(criterion_fields(), partial);
+      Json schema = group_schema(criterion_table().specs(), partial);
       schema["properties"]["metric"] = {{"type", "string"},
                                         {"pattern", of_vehicle ? "^[^.]+[.].+$" : "."}};
       if (!partial) schema["anyOf"] = {{{"required", {"min"}}}, {{"required", {"max"}}}};
@@ -302,7 +303,7 @@ class SchemaBuilder {
 
   /// Which of the keys fit a job or vehicles is the loader's to say.
   Json phase_schema(bool partial) const {
-    Json properties = properties_of(phase_fields(), partial, "");
+    Json properties = properties_of(phase_table().specs(), partial, "");
     properties["job"] = reference(name_of("job", partial));
     properties["criteria"] = criteria_schema(false);
     for (const ProductPort& port : product_ports(registry_)) {

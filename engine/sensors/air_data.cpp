@@ -8,17 +8,41 @@
 namespace vinerow {
 namespace {
 
+/// Defaults are assumptions, of no data sheet: noise of one degree of the vanes at 12 m/s, a lag
+/// of one tick, no scale error, and a speed below which vanes do not turn.
+struct AirDataParams {
+  double noise_std_mps = 0.2;
+  double lag_s = 0.05;
+  double scale_error = 0.0;
+  double min_airspeed_mps = 2.0;
+};
+
+const ParameterTable<AirDataParams>& air_data_table() {
+  using P = AirDataParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("noise_std_mps", "m/s", &P::noise_std_mps, between(0.0, 50.0),
+                  "white noise of each axis")
+          .number("lag_s", "s", &P::lag_s, between(0.0, 60.0),
+                  "time constant of the tube and the vanes")
+          .number("scale_error", "", &P::scale_error, between(-0.5, 0.5),
+                  "share by which it reads too much")
+          .number("min_airspeed_mps", "m/s", &P::min_airspeed_mps, between(0.0, 100.0),
+                  "below this airspeed it reads zero");
+  return table;
+}
+
 class AirDataProbe final : public ReadingSensor<AirData> {
  public:
   AirDataProbe(const ParameterSet& parameters, const SensorContext& context)
       : ReadingSensor(parameters, context),
         vehicle_(context.vehicle_truth),
-        random_(context.random()),
-        noise_std_mps_(parameters.number("noise_std_mps")),
-        scale_(1.0 + parameters.number("scale_error")),
-        least_airspeed_mps_(parameters.number("min_airspeed_mps")) {
-    const double lag_s = parameters.number("lag_s");
-    kept_share_ = lag_s > 0.0 ? std::exp(-context.period.s() / lag_s) : 0.0;
+        random_(context.random()) {
+    const AirDataParams params = air_data_table().read(parameters, context.part);
+    noise_std_mps_ = params.noise_std_mps;
+    scale_ = 1.0 + params.scale_error;
+    least_airspeed_mps_ = params.min_airspeed_mps;
+    kept_share_ = params.lag_s > 0.0 ? std::exp(-context.period.s() / params.lag_s) : 0.0;
   }
 
   void step(Time now) override {
@@ -39,9 +63,9 @@ class AirDataProbe final : public ReadingSensor<AirData> {
  private:
   const Vehicle* vehicle_;
   RandomStream random_;
-  double noise_std_mps_;
-  double scale_;
-  double least_airspeed_mps_;
+  double noise_std_mps_ = 0.0;
+  double scale_ = 1.0;
+  double least_airspeed_mps_ = 0.0;
   double kept_share_ = 0.0;  ///< of the last reading's difference from the truth
   Eigen::Vector3d lagged_B_ = Eigen::Vector3d::Zero();
   bool has_last_ = false;
@@ -50,17 +74,10 @@ class AirDataProbe final : public ReadingSensor<AirData> {
 }  // namespace
 
 PartSpec air_data_spec() {
-  // Defaults are assumptions, of no data sheet: noise of one degree of the vanes at 12 m/s, a lag
-  // of one tick, no scale error, and a speed below which vanes do not turn.
   PartSpec spec = reading_sensor_spec<AirData>(
       "air_data",
       "Pitot tube and vanes: velocity through the air with white noise, lag, delay and scale error",
-      20.0,
-      {number_parameter("noise_std_mps", "m/s", 0.2, 0.0, 50.0, "white noise of each axis"),
-       number_parameter("lag_s", "s", 0.05, 0.0, 60.0, "time constant of the tube and the vanes"),
-       number_parameter("scale_error", "", 0.0, -0.5, 0.5, "share by which it reads too much"),
-       number_parameter("min_airspeed_mps", "m/s", 2.0, 0.0, 100.0,
-                        "below this airspeed it reads zero")});
+      20.0, air_data_table().specs());
   spec.reads = {"the vehicle's true velocity through the air"};
   return spec;
 }

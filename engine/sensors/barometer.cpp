@@ -12,24 +12,57 @@
 namespace vinerow {
 namespace {
 
+/// Defaults: Bosch BMP388, see assets/sensors/bmp388.yaml.
+struct BarometerParams {
+  double sea_level_pressure_Pa = kSeaLevelPressure_Pa;
+  double noise_std_Pa = 1.3;
+  double drift_std_Pa = 4.0;
+  double drift_time_s = 600.0;
+  double bias_std_Pa = 25.0;
+  double resolution_Pa = 0.0;
+  double dynamic_pressure_share = 0.0;
+};
+
+const ParameterTable<BarometerParams>& barometer_table() {
+  using P = BarometerParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("sea_level_pressure_Pa", "Pa", &P::sea_level_pressure_Pa,
+                  between(80'000.0, 120'000.0),
+                  "the day's pressure at mean sea level; scales the standard atmosphere")
+          .number("noise_std_Pa", "Pa", &P::noise_std_Pa, between(0.0, 1e4),
+                  "white noise of a reading")
+          .number("drift_std_Pa", "Pa", &P::drift_std_Pa, between(0.0, 1e4), "1 sigma of the drift")
+          .number("drift_time_s", "s", &P::drift_time_s, kPositive, "correlation time of the drift")
+          .number("bias_std_Pa", "Pa", &P::bias_std_Pa, between(0.0, 1e4),
+                  "bias, drawn once per run")
+          .number("resolution_Pa", "Pa", &P::resolution_Pa, between(0.0, 1e4),
+                  "step of the reading; 0: none")
+          .number("dynamic_pressure_share", "", &P::dynamic_pressure_share, between(-2.0, 2.0),
+                  "share of the dynamic pressure that the housing lets in");
+  return table;
+}
+
 class Barometer final : public MountedSensor<PressureSample> {
  public:
   Barometer(const ParameterSet& parameters, const SensorContext& context)
+      : Barometer(barometer_table().read(parameters, context.part), parameters, context) {}
+  Barometer(const BarometerParams& params, const ParameterSet& parameters,
+            const SensorContext& context)
       : MountedSensor(parameters, context),
         vehicle_(context.vehicle_truth),
         origin_altitude_m_(context.world->origin.altitude_m),
-        weather_(parameters.number("sea_level_pressure_Pa") / kSeaLevelPressure_Pa),
-        noise_std_Pa_(parameters.number("noise_std_Pa")),
-        dynamic_share_(parameters.number("dynamic_pressure_share")),
-        resolution_Pa_(parameters.number("resolution_Pa")),
-        drift_Pa_(parameters.number("drift_std_Pa"), parameters.number("drift_time_s"),
-                  context.period.s()),
+        weather_(params.sea_level_pressure_Pa / kSeaLevelPressure_Pa),
+        noise_std_Pa_(params.noise_std_Pa),
+        dynamic_share_(params.dynamic_pressure_share),
+        resolution_Pa_(params.resolution_Pa),
+        drift_Pa_(params.drift_std_Pa, params.drift_time_s, context.period.s()),
         random_(context.random()) {
-    const double bias_std_Pa = parameters.number("bias_std_Pa");
-    bias_Pa_ = bias_std_Pa * random_.normal();
+    bias_Pa_ = params.bias_std_Pa * random_.normal();
     drift_Pa_.start(random_);
-    stated_std_Pa_ = std::sqrt(noise_std_Pa_ * noise_std_Pa_ + bias_std_Pa * bias_std_Pa +
-                               std::pow(parameters.number("drift_std_Pa"), 2));
+    stated_std_Pa_ =
+        std::sqrt(noise_std_Pa_ * noise_std_Pa_ + params.bias_std_Pa * params.bias_std_Pa +
+                  std::pow(params.drift_std_Pa, 2));
   }
 
   void step(Time now) override {
@@ -65,17 +98,7 @@ PartSpec barometer_spec() {
   PartSpec spec = mounted_sensor_spec<PressureSample>(
       "barometer",
       "Static pressure by the US Standard Atmosphere 1976 with noise, drift, bias and wind error",
-      50.0,
-      {// Defaults: Bosch BMP388, see assets/sensors/bmp388.yaml.
-       number_parameter("sea_level_pressure_Pa", "Pa", kSeaLevelPressure_Pa, 80'000.0, 120'000.0,
-                        "the day's pressure at mean sea level; scales the standard atmosphere"),
-       number_parameter("noise_std_Pa", "Pa", 1.3, 0.0, 1e4, "white noise of a reading"),
-       number_parameter("drift_std_Pa", "Pa", 4.0, 0.0, 1e4, "1 sigma of the drift"),
-       positive_parameter("drift_time_s", "s", 600.0, "correlation time of the drift"),
-       number_parameter("bias_std_Pa", "Pa", 25.0, 0.0, 1e4, "bias, drawn once per run"),
-       number_parameter("resolution_Pa", "Pa", 0.0, 0.0, 1e4, "step of the reading; 0: none"),
-       number_parameter("dynamic_pressure_share", "", 0.0, -2.0, 2.0,
-                        "share of the dynamic pressure that the housing lets in")});
+      50.0, barometer_table().specs());
   spec.reads.push_back("the vehicle's true velocity through the air");
   return spec;
 }

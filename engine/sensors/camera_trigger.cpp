@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "engine/api/messages/sensors.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/api/survey_camera.h"
-#include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/camera_gimbal.h"
 #include "engine/sensors/mounted_sensor.h"
@@ -21,36 +21,84 @@ namespace {
 constexpr double kFarthest_m = 10'000.0;
 constexpr SurfaceMask kGround = mask_of(SurfaceClass::kTerrain);
 
+struct CameraTriggerParams {
+  SurveyCameraParams camera;
+  std::optional<double> interval_s;  ///< default: as fast as the camera can
+  std::optional<double> distance_m;  ///< instead of interval_s
+  bool is_on_lanes = true;
+  bool has_gimbal = false;
+  // Chosen: travel of small servo gimbals; a lag a little above that of small digital servos
+  // (0.04 s), since the gimbal measures the attitude first. Direct drives are much faster.
+  double gimbal_limit_rad = rad_from_deg(30.0);
+  double gimbal_lag_s = 0.05;
+};
+
+std::string find_fault_in_trigger(const CameraTriggerParams& p) {
+  if (p.distance_m && p.interval_s) {
+    return fmt::format(
+        "interval_s = {} s and distance_m = {} m are both given, must be one of them",
+        *p.interval_s, *p.distance_m);
+  }
+  const SurveyCamera camera = p.camera.resolve();
+  const double shortest_s = 1.0 / camera.max_rate_Hz;
+  if (!p.interval_s || *p.interval_s >= shortest_s - 1e-9) return "";
+  return fmt::format(
+      "interval_s = {} s, must be at least {:.4g} s: camera '{}' takes at most {} pictures per "
+      "second",
+      *p.interval_s, shortest_s, camera.name, camera.max_rate_Hz);
+}
+
+const ParameterTable<CameraTriggerParams>& camera_trigger_table() {
+  using P = CameraTriggerParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .include(&P::camera, survey_camera_table())
+          .number("interval_s", "s", &P::interval_s, kPositive,
+                  "time between pictures; default: as fast as the camera can")
+          .number("distance_m", "m", &P::distance_m, kPositive,
+                  "distance over ground between pictures, instead of interval_s")
+          .choice("on", &P::is_on_lanes, {{"lanes", true}, {"always", false}},
+                  "where it takes pictures: on the plan's legs only, or all the time")
+          .choice("mount", &P::has_gimbal, {{"fixed", false}, {"gimbal", true}},
+                  "gimbal: a stabilised mount takes the vehicle's roll and pitch out of "
+                  "rotation_deg")
+          .degrees("gimbal_limit_deg", &P::gimbal_limit_rad, between(0.0, 90.0),
+                   "roll and pitch that the gimbal takes out at most")
+          .number("gimbal_lag_s", "s", &P::gimbal_lag_s, between(0.0, 10.0),
+                  "time constant with which the gimbal follows; 0: at once")
+          .rule(find_fault_in_trigger);
+  return table;
+}
+
+/// Straight down, upper edge of the picture ahead.
+struct CameraMountingParams {
+  MountingParams mounting{.rotation_rad = {0.0, rad_from_deg(90.0), 0.0}};
+};
+
+const ParameterTable<CameraMountingParams>& camera_mounting_table() {
+  using P = CameraMountingParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>().include(&P::mounting, mounting_table());
+  return table;
+}
+
 class CameraTrigger final : public MountedSensor<CameraShot> {
  public:
   CameraTrigger(const ParameterSet& parameters, const SensorContext& context)
+      : CameraTrigger(camera_trigger_table().read(parameters, context.part), parameters, context) {
+  }
+  CameraTrigger(const CameraTriggerParams& params, const ParameterSet& parameters,
+                const SensorContext& context)
       : MountedSensor(parameters, context),
         scene_(context.scene),
-        camera_(read_survey_camera(parameters)),
-        on_lanes_(parameters.text("on") == "lanes"),
-        has_gimbal_(parameters.text("mount") == "gimbal"),
-        gimbal_(rad_from_deg(parameters.number("gimbal_limit_deg")),
-                parameters.number("gimbal_lag_s")) {
+        camera_(params.camera.resolve()),
+        on_lanes_(params.is_on_lanes),
+        has_gimbal_(params.has_gimbal),
+        gimbal_(params.gimbal_limit_rad, params.gimbal_lag_s),
+        distance_m_(params.distance_m.value_or(0.0)) {
     const double shortest_s = 1.0 / camera_.max_rate_Hz;
-    if (parameters.has("distance_m")) {
-      if (parameters.has("interval_s")) {
-        throw ConfigError(fmt::format(
-            "{}: interval_s = {} s and distance_m = {} m are both given, must be one "
-            "of them",
-            context.part, parameters.number("interval_s"), parameters.number("distance_m")));
-      }
-      distance_m_ = parameters.number("distance_m");
-    }
-    double interval_s = shortest_s;
-    if (parameters.has("interval_s")) interval_s = parameters.number("interval_s");
-    if (interval_s < shortest_s - 1e-9) {
-      throw ConfigError(fmt::format(
-          "{}: interval_s = {} s, must be at least {:.4g} s: camera '{}' takes at most {} pictures "
-          "per second",
-          context.part, interval_s, shortest_s, camera_.name, camera_.max_rate_Hz));
-    }
     fastest_ = duration_from_s(shortest_s);
-    interval_ = duration_from_s(std::max(interval_s, shortest_s));
+    interval_ = duration_from_s(std::max(params.interval_s.value_or(shortest_s), shortest_s));
     const double across = std::tan(camera_.half_angle_across_rad());
     const double along = std::tan(camera_.half_angle_along_rad());
     corners_S_ = {Eigen::Vector3d(1, across, along), Eigen::Vector3d(1, -across, along),
@@ -130,7 +178,7 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
   Time last_;  ///< tick
   Duration fastest_;
   Duration interval_;
-  double distance_m_ = 0.0;  ///< 0: by time
+  double distance_m_;  ///< 0: by time
   std::array<Eigen::Vector3d, 4> corners_S_;
   CameraShot shot_;  ///< the last
   Time shot_at_;
@@ -148,32 +196,7 @@ PartSpec camera_trigger_spec() {
       "Survey camera: pictures by time or by distance, each with its pose and its footprint on the "
       "ground",
       20.0,
-      join_parameters(
-          {survey_camera_parameters(),
-           {optional(
-                positive_parameter("interval_s", "s", 1.0,
-                                   "time between pictures; default: as fast as the camera can")),
-            optional(
-                positive_parameter("distance_m", "m", 10.0,
-                                   "distance over ground between pictures, instead of interval_s")),
-            choice_parameter("on", "lanes", {"lanes", "always"},
-                             "where it takes pictures: on the plan's legs only, or all the time"),
-            choice_parameter("mount", "fixed", {"fixed", "gimbal"},
-                             "gimbal: a stabilised mount takes the vehicle's roll and pitch out of "
-                             "rotation_deg"),
-            // Chosen: travel of small servo gimbals; a lag a little above that of small digital
-            // servos (0.04 s), since the gimbal measures the attitude first. Direct drives are
-            // much faster.
-            number_parameter("gimbal_limit_deg", "deg", 30.0, 0.0, 90.0,
-                             "roll and pitch that the gimbal takes out at most"),
-            number_parameter("gimbal_lag_s", "s", 0.05, 0.0, 10.0,
-                             "time constant with which the gimbal follows; 0: at once")}}));
-  for (ParameterSpec& parameter : spec.parameters) {
-    // Straight down, upper edge of the picture ahead.
-    if (parameter.name == "rotation_deg") {
-      parameter.default_value = std::vector<double>{0.0, 90.0, 0.0};
-    }
-  }
+      camera_trigger_table().specs(), camera_mounting_table().specs());
   spec.reads.push_back("plan (where on: lanes)");
   spec.gives = ProductKind::kPictures;
   return spec;

@@ -4,43 +4,34 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/math/angles.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 
-std::vector<ParameterSpec> echo_parameters() {
-  const auto share = [](const char* name, double value, const char* text) {
-    return number_parameter(name, "", value, 0.0, 1.0, text);
-  };
-  return {
-      number_parameter("echo_threshold", "", 0.0, 0.0, 1e6,
-                       "weakest echo that is heard, of a perfect reflector that fills the cone at "
-                       "1 m; 0: every return is heard"),
-      positive_parameter("echo_pulse_m", "m", 0.034, "returns nearer to each other add up"),
-      positive_parameter("beam_half_power_deg", "deg", 15.0,
-                         "off the axis the echo, out and back, has half of its power"),
-      number_parameter("absorption_db_per_m", "dB/m", 1.3, 0.0, 100.0, "of sound in the air"),
-      share("canopy_scatter", 0.2, "echo of leaves, of a perfect reflector's"),
-      share("ground_scatter", 0.05, "echo of soil and grass seen from above"),
-      share("stem_scatter", 0.2, "echo of posts and trunks"),
-      share("smooth_scatter", 0.01, "echo of hard smooth surfaces aside of the mirrored one"),
-      positive_parameter("smooth_lobe_deg", "deg", 7.0,
-                         "incidence at which a hard smooth surface mirrors 1/e of the sound back"),
-  };
-}
-
-EchoParams read_echo(const ParameterSet& parameters) {
-  EchoParams params;
-  params.threshold = parameters.number("echo_threshold");
-  params.pulse_m = parameters.number("echo_pulse_m");
-  params.beam_half_power_rad = rad_from_deg(parameters.number("beam_half_power_deg"));
-  params.absorption_db_per_m = parameters.number("absorption_db_per_m");
-  params.canopy_scatter = parameters.number("canopy_scatter");
-  params.ground_scatter = parameters.number("ground_scatter");
-  params.stem_scatter = parameters.number("stem_scatter");
-  params.smooth_scatter = parameters.number("smooth_scatter");
-  params.smooth_lobe_rad = rad_from_deg(parameters.number("smooth_lobe_deg"));
-  return params;
+const ParameterTable<EchoParams>& echo_table() {
+  using P = EchoParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("echo_threshold", "", &P::threshold, between(0.0, 1e6),
+                  "weakest echo that is heard, of a perfect reflector that fills the cone at "
+                  "1 m; 0: every return is heard")
+          .number("echo_pulse_m", "m", &P::pulse_m, kPositive,
+                  "returns nearer to each other add up")
+          .degrees("beam_half_power_deg", &P::beam_half_power_rad, kPositive,
+                   "off the axis the echo, out and back, has half of its power")
+          .number("absorption_db_per_m", "dB/m", &P::absorption_db_per_m, between(0.0, 100.0),
+                  "of sound in the air")
+          .number("canopy_scatter", "", &P::canopy_scatter, between(0.0, 1.0),
+                  "echo of leaves, of a perfect reflector's")
+          .number("ground_scatter", "", &P::ground_scatter, between(0.0, 1.0),
+                  "echo of soil and grass seen from above")
+          .number("stem_scatter", "", &P::stem_scatter, between(0.0, 1.0),
+                  "echo of posts and trunks")
+          .number("smooth_scatter", "", &P::smooth_scatter, between(0.0, 1.0),
+                  "echo of hard smooth surfaces aside of the mirrored one")
+          .degrees("smooth_lobe_deg", &P::smooth_lobe_rad, kPositive,
+                   "incidence at which a hard smooth surface mirrors 1/e of the sound back");
+  return table;
 }
 
 double beam_pattern(const EchoParams& params, double off_axis_rad) {

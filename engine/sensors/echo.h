@@ -21,26 +21,26 @@
 #include <span>
 #include <vector>
 
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/surface.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
 struct EchoParams {
   double threshold = 0.0;  ///< 0: every return is heard
   double pulse_m = 0.034;  ///< half of the pulse's length in air
-  double beam_half_power_rad = 0.2618;
+  double beam_half_power_rad = rad_from_deg(15.0);
   double absorption_db_per_m = 1.3;
   double canopy_scatter = 0.2;
   double ground_scatter = 0.05;
   double stem_scatter = 0.2;  ///< posts and trunks
   double smooth_scatter = 0.01;
-  double smooth_lobe_rad = 0.1222;
+  double smooth_lobe_rad = rad_from_deg(7.0);
 };
 
 /// `echo_threshold`, `echo_pulse_m` and the other names of EchoParams.
-std::vector<ParameterSpec> echo_parameters();
-EchoParams read_echo(const ParameterSet& parameters);
+const ParameterTable<EchoParams>& echo_table();
 
 /// Two-way beam pattern, 1 on the axis.
 double beam_pattern(const EchoParams& params, double off_axis_rad);

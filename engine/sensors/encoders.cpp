@@ -23,16 +23,36 @@ struct Channel {
   }
 };
 
+/// Defaults: a 12-bit absolute magnetic encoder on the steering axle (AMS AS5600 data sheet: 4096
+/// steps a turn, 0.015 deg noise in the slow filter), and a motor's hall-sensor speed estimate
+/// (chosen: 0.01 rad/s at the wheel).
+struct EncodersParams {
+  Channel angle{0.00153398, 0.00026};
+  Channel speed{0.005, 0.01};
+};
+
+const ParameterTable<EncodersParams>& encoders_table() {
+  using P = EncodersParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("angle_resolution_rad", "rad", inside(&P::angle, &Channel::resolution),
+                  between(0.0, 1.0), "step of angle readings; 0 = none")
+          .number("angle_noise_std_rad", "rad", inside(&P::angle, &Channel::noise_std),
+                  between(0.0, 1.0), "white noise of angle readings")
+          .number("speed_resolution_radps", "rad/s", inside(&P::speed, &Channel::resolution),
+                  between(0.0, 10.0), "step of speed readings; 0 = none")
+          .number("speed_noise_std_radps", "rad/s", inside(&P::speed, &Channel::noise_std),
+                  between(0.0, 10.0), "white noise of speed readings");
+  return table;
+}
+
 class Encoders final : public ReadingSensor<NamedValues> {
  public:
   Encoders(const ParameterSet& parameters, const SensorContext& context)
       : ReadingSensor(parameters, context),
         vehicle_(context.vehicle_truth),
         random_(context.random()) {
-    const Channel angle{parameters.number("angle_resolution_rad"),
-                        parameters.number("angle_noise_std_rad")};
-    const Channel speed{parameters.number("speed_resolution_radps"),
-                        parameters.number("speed_noise_std_radps")};
+    const EncodersParams params = encoders_table().read(parameters, context.part);
     const VehicleDescription& about = vehicle_->description();
     if (vehicle_->actuator_states().empty()) {
       throw ConfigError(
@@ -46,7 +66,7 @@ class Encoders final : public ReadingSensor<NamedValues> {
             fmt::format("{}: actuator '{}' is in {}; encoders measure rad and rad/s only",
                         context.part, actuator.name, actuator.unit));
       }
-      channels_.push_back(actuator.unit == "rad" ? angle : speed);
+      channels_.push_back(actuator.unit == "rad" ? params.angle : params.speed);
       reading_.names.push_back(actuator.name);
     }
     reading_.values.assign(channels_.size(), 0.0);
@@ -76,20 +96,9 @@ class Encoders final : public ReadingSensor<NamedValues> {
 }  // namespace
 
 PartSpec encoders_spec() {
-  // Defaults: a 12-bit absolute magnetic encoder on the steering axle (AMS AS5600 data sheet: 4096
-  // steps a turn, 0.015 deg noise in the slow filter), and a motor's hall-sensor speed estimate
-  // (chosen: 0.01 rad/s at the wheel).
   return reading_sensor_spec<NamedValues>(
       "encoders", "Steering angles and wheel speeds of the actuators, with noise and resolution",
-      50.0,
-      {number_parameter("angle_resolution_rad", "rad", 0.00153398, 0.0, 1.0,
-                        "step of angle readings; 0 = none"),
-       number_parameter("angle_noise_std_rad", "rad", 0.00026, 0.0, 1.0,
-                        "white noise of angle readings"),
-       number_parameter("speed_resolution_radps", "rad/s", 0.005, 0.0, 10.0,
-                        "step of speed readings; 0 = none"),
-       number_parameter("speed_noise_std_radps", "rad/s", 0.01, 0.0, 10.0,
-                        "white noise of speed readings")});
+      50.0, encoders_table().specs());
 }
 
 std::unique_ptr<Sensor> make_encoders(const ParameterSet& parameters,

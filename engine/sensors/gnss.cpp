@@ -15,6 +15,59 @@
 namespace vinerow {
 namespace {
 
+struct JammingParams {
+  TimeWindowParams window;
+  double drop_dB = 0.0;
+  double ramp_s = 0.0;
+};
+
+std::string find_fault_in_ramp(const JammingParams& p) {
+  const TimeWindow window = p.window.window();
+  const double length_s = (window.end - window.begin).s();
+  if (2.0 * p.ramp_s <= length_s) return "";
+  return fmt::format("ramp_s = {} s, must be at most half of the window from {} s to {} s",
+                     p.ramp_s, p.window.begin_s, p.window.end_s);
+}
+
+const ParameterTable<JammingParams>& jamming_table() {
+  using P = JammingParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .include(&P::window, time_window_table())
+          .reword("begin_s", "start of the jamming")
+          .reword("end_s", "end of the jamming")
+          .number("drop_dB", "dB", &P::drop_dB, between(0.0, 200.0),
+                  "loss of carrier-to-noise density at its strongest")
+          .required()
+          .number("ramp_s", "s", &P::ramp_s, between(0.0, 1e6),
+                  "how long it takes to rise, and to fall")
+          .rule(find_fault_in_ramp);
+  return table;
+}
+
+struct GnssParams {
+  std::vector<std::string> constellations = {"gps", "galileo"};
+  std::string epoch_utc = "2024-06-15T10:00:00";
+  GnssModeRules modes;
+  GnssSignals signals;
+  GnssErrorParams errors;
+  std::vector<JammingParams> jamming;
+};
+
+const ParameterTable<GnssParams>& gnss_table() {
+  using P = GnssParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .texts("constellations", &P::constellations, "satellites it receives: gps, galileo")
+          .text("epoch_utc", &P::epoch_utc,
+                "date and time at the start of the run, which say where satellites stand")
+          .include(&P::modes, gnss_mode_table())
+          .include(&P::signals, gnss_signal_table())
+          .include(&P::errors, gnss_error_table())
+          .groups("jamming", &P::jamming, jamming_table(), "time windows of disturbed reception");
+  return table;
+}
+
 struct Jamming {
   TimeWindow window;
   double drop_dB;
@@ -28,28 +81,17 @@ struct Jamming {
   }
 };
 
-std::vector<Jamming> read_jamming(const ParameterSet& parameters, const std::string& part) {
+std::vector<Jamming> make_jamming(const std::vector<JammingParams>& params) {
   std::vector<Jamming> all;
-  for (const ParameterSet& entry : parameters.groups("jamming")) {
-    const Jamming jamming{read_time_window(entry, part + ": jamming"), entry.number("drop_dB"),
-                          entry.number("ramp_s")};
-    const double length_s = (jamming.window.end - jamming.window.begin).s();
-    if (2.0 * jamming.ramp_s > length_s) {
-      throw ConfigError(
-          fmt::format("{}: jamming: ramp_s = {} s, must be at most half of the "
-                      "window from {} s to {} s",
-                      part, jamming.ramp_s, entry.number("begin_s"), entry.number("end_s")));
-    }
-    all.push_back(jamming);
-  }
+  for (const JammingParams& p : params) all.push_back({p.window.window(), p.drop_dB, p.ramp_s});
   return all;
 }
 
-GnssSky read_sky(const ParameterSet& parameters, const SensorContext& context) {
+GnssSky make_sky(const GnssParams& params, const SensorContext& context) {
   static const std::vector<std::string> kKnown = {"gps", "galileo"};
   std::vector<CircularOrbit> orbits;
   std::vector<std::string> seen;
-  for (const std::string& name : parameters.texts("constellations")) {
+  for (const std::string& name : params.constellations) {
     if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
       throw ConfigError(fmt::format("{}: constellations: unknown constellation '{}'{} (known: {})",
                                     context.part, name, did_you_mean(name, kKnown), join(kKnown)));
@@ -66,20 +108,20 @@ GnssSky read_sky(const ParameterSet& parameters, const SensorContext& context) {
                                   join(kKnown)));
   }
   return GnssSky(context.world->origin, std::move(orbits),
-                 read_utc(parameters.text("epoch_utc"), context.part + ": epoch_utc"));
+                 read_utc(params.epoch_utc, context.part + ": epoch_utc"));
 }
 
 class Gnss final : public SatelliteReceiver {
  public:
   Gnss(const ParameterSet& parameters, const SensorContext& context)
+      : Gnss(gnss_table().read(parameters, context.part), parameters, context) {}
+  Gnss(const GnssParams& params, const ParameterSet& parameters, const SensorContext& context)
       : SatelliteReceiver(parameters, context),
-        jamming_(read_jamming(parameters, context.part)),
-        tracking_(read_gnss_signals(parameters, context.part), read_sky(parameters, context),
-                  *context.scene, context.period.s(), is_running_at_start(parameters),
-                  context.random("fading")),
-        modes_(read_gnss_mode_rules(parameters, context.part), context.period.s(),
-               is_running_at_start(parameters)),
-        error_(read_gnss_errors(parameters), context.period.s(), context.random()) {}
+        jamming_(make_jamming(params.jamming)),
+        tracking_(params.signals, make_sky(params, context), *context.scene, context.period.s(),
+                  params.modes.is_running_at_start, context.random("fading")),
+        modes_(params.modes, context.period.s()),
+        error_(params.errors.resolve(), context.period.s(), context.random()) {}
 
   void step(Time now) override {
     const GnssFix exact = exact_fix();
@@ -118,26 +160,11 @@ class Gnss final : public SatelliteReceiver {
 }  // namespace
 
 PartSpec gnss_spec() {
-  const std::vector<ParameterSpec> jamming = join_parameters(
-      {time_window_fields("the jamming"),
-       {required(number_parameter("drop_dB", "dB", 20.0, 0.0, 200.0,
-                                  "loss of carrier-to-noise density at its strongest")),
-        number_parameter("ramp_s", "s", 0.0, 0.0, 1e6, "how long it takes to rise, and to fall")}});
   return mounted_sensor_spec<GnssFix>(
       "gnss",
       "Satellite receiver, standalone to RTK, whose fix and error follow from the satellites it "
       "sees past ground, posts and leaves",
-      5.0,
-      join_parameters(
-          {{text_list_parameter("constellations", {"gps", "galileo"},
-                                "satellites it receives: gps, galileo"),
-            text_parameter("epoch_utc", "2024-06-15T10:00:00",
-                           "date and time at the start of the run, which say where satellites "
-                           "stand")},
-           gnss_mode_parameters(),
-           gnss_signal_parameters(),
-           gnss_error_parameters(),
-           {group_list_parameter("jamming", jamming, "time windows of disturbed reception")}}));
+      5.0, gnss_table().specs());
 }
 
 std::unique_ptr<Sensor> make_gnss(const ParameterSet& parameters, const SensorContext& context) {

@@ -9,34 +9,53 @@
 /// per km of `baseline_m` (ZED-F9P data sheet: 1 ppm).
 
 #include <array>
-#include <string>
-#include <vector>
 
 #include "engine/api/messages/sensors.h"
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/core/random.h"
 #include "engine/sensors/gauss_markov.h"
 #include "engine/sensors/gnss_geometry.h"
 
 namespace vinerow {
 
+/// Horizontal (each axis), vertical.
+using GnssPair = std::array<double, 2>;
+
 /// Of one mode, at the usual dilution.
 struct GnssModeError {
-  double white_std_m[2];  ///< horizontal (each axis), vertical
-  double walk_std_m[2];
+  GnssPair white_std_m;
+  GnssPair walk_std_m;
   double walk_time_s;
   double velocity_std_mps;
-  double usual_dop[2];  ///< horizontal, vertical, at which these hold
+  GnssPair usual_dop{};  ///< at which these hold
 };
 
 /// Indexed by mode - 1: standalone, SBAS, float, fixed.
 using GnssModeErrors = std::array<GnssModeError, 4>;
 
+/// Defaults: u-blox ZED-F9P-04B data sheet (UBX-21044850 R05), table 3, GPS + Galileo. Circular
+/// error probable / 1.1774 and median of the height's error / 0.6745 are standard deviations: PVT
+/// 1.5 m and 2.0 m, SBAS 1.0 m and 1.5 m, RTK 0.01 m and 0.01 m; velocity 0.05 m/s (50 %) / 1.1774.
+/// Shares: white noise by code and 1100 s from Beard, McLain, Small Unmanned Aircraft, 2012, table
+/// 7.1; other times, float, and the white share of fixed are chosen. Dilutions: means over ten days
+/// under an open sky at 38 to 53 deg of latitude, with the other defaults.
+struct GnssErrorParams {
+  GnssModeErrors modes{{{{0.21, 0.40}, {1.257, 2.938}, 1100.0, 0.042},
+                        {{0.21, 0.40}, {0.823, 2.188}, 300.0, 0.042},
+                        {{0.02, 0.04}, {0.25, 0.40}, 60.0, 0.042},
+                        {{0.005, 0.009}, {0.0069, 0.0118}, 60.0, 0.042}}};
+  GnssPair code_usual_dop{0.8, 1.2};
+  GnssPair carrier_usual_dop{1.0, 1.45};
+  double baseline_m = 1000.0;
+
+  /// The modes, each with its usual dilution and, by RTK, with what the baseline adds.
+  GnssModeErrors resolve() const;
+};
+
 /// `standalone_white_std_m` [horizontal, vertical], `standalone_walk_std_m`,
 /// `standalone_walk_time_s`, `standalone_velocity_std_mps`, the same of `sbas`, `float` and
 /// `fixed`; `code_usual_dop` [horizontal, vertical], `carrier_usual_dop`, `baseline_m`.
-std::vector<ParameterSpec> gnss_error_parameters();
-GnssModeErrors read_gnss_errors(const ParameterSet& parameters);
+const ParameterTable<GnssErrorParams>& gnss_error_table();
 
 class GnssError {
  public:

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/core/error.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
@@ -10,61 +10,57 @@ namespace {
 constexpr double kLong_s = 1e9;
 constexpr double kRounding_s = 1e-9;
 
+std::string find_fault_in_satellites(const GnssModeRules& p) {
+  if (p.fixed_satellites >= p.float_satellites) return "";
+  return fmt::format("fixed_satellites = {}, must be >= float_satellites = {}", p.fixed_satellites,
+                     p.float_satellites);
+}
+
+std::string find_fault_in_fixing(const GnssModeRules& p) {
+  if (p.time_to_refix_s <= p.time_to_fix_s) return "";
+  return fmt::format("time_to_refix_s = {} s, must be <= time_to_fix_s = {} s", p.time_to_refix_s,
+                     p.time_to_fix_s);
+}
+
 }  // namespace
 
-std::vector<ParameterSpec> gnss_mode_parameters() {
-  return {
-      choice_parameter("corrections", "rtk", {"none", "sbas", "rtk"},
-                       "what the receiver is told: nothing, SBAS, or a base station's RTK"),
-      choice_parameter("start", "running", {"running", "cold"},
-                       "running: it has had its best solution for long; cold: switched on now"),
-      number_parameter("cold_start_s", "s", 25.0, 0.0, 1e4, "time to first fix, start: cold"),
-      number_parameter("max_pdop", "", 25.0, 1.0, 1e3, "largest dilution of a position by code"),
-      number_parameter("sbas_s", "s", 6.0, 0.0, 1e4, "until corrections are there"),
-      integer_parameter("float_satellites", 5, 4, 50, "least number for carrier phase, float"),
-      integer_parameter("fixed_satellites", 6, 4, 50, "least number for carrier phase, fixed"),
-      number_parameter("max_rtk_pdop", "", 5.0, 1.0, 1e3,
-                       "largest dilution of a position by carrier phase"),
-      number_parameter("time_to_fix_s", "s", 10.0, 0.0, 1e4, "from float to fixed, first time"),
-      number_parameter("time_to_refix_s", "s", 4.0, 0.0, 1e4, "from float to fixed again"),
-  };
+const ParameterTable<GnssModeRules>& gnss_mode_table() {
+  using P = GnssModeRules;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .choice("corrections", &P::corrections,
+                  {{"none", GnssCorrections::kNone},
+                   {"sbas", GnssCorrections::kSbas},
+                   {"rtk", GnssCorrections::kRtk}},
+                  "what the receiver is told: nothing, SBAS, or a base station's RTK")
+          .choice("start", &P::is_running_at_start, {{"running", true}, {"cold", false}},
+                  "running: it has had its best solution for long; cold: switched on now")
+          .number("cold_start_s", "s", &P::cold_start_s, between(0.0, 1e4),
+                  "time to first fix, start: cold")
+          .number("max_pdop", "", &P::max_pdop, between(1.0, 1e3),
+                  "largest dilution of a position by code")
+          .number("sbas_s", "s", &P::sbas_s, between(0.0, 1e4), "until corrections are there")
+          .integer("float_satellites", &P::float_satellites, between(4, 50),
+                   "least number for carrier phase, float")
+          .integer("fixed_satellites", &P::fixed_satellites, between(4, 50),
+                   "least number for carrier phase, fixed")
+          .number("max_rtk_pdop", "", &P::max_rtk_pdop, between(1.0, 1e3),
+                  "largest dilution of a position by carrier phase")
+          .number("time_to_fix_s", "s", &P::time_to_fix_s, between(0.0, 1e4),
+                  "from float to fixed, first time")
+          .number("time_to_refix_s", "s", &P::time_to_refix_s, between(0.0, 1e4),
+                  "from float to fixed again")
+          .rule(find_fault_in_satellites)
+          .rule(find_fault_in_fixing);
+  return table;
 }
 
-GnssModeRules read_gnss_mode_rules(const ParameterSet& parameters, const std::string& part) {
-  GnssModeRules rules;
-  const std::string& corrections = parameters.text("corrections");
-  rules.corrections = corrections == "rtk"    ? GnssCorrections::kRtk
-                      : corrections == "sbas" ? GnssCorrections::kSbas
-                                              : GnssCorrections::kNone;
-  rules.max_pdop = parameters.number("max_pdop");
-  rules.cold_start_s = parameters.number("cold_start_s");
-  rules.sbas_s = parameters.number("sbas_s");
-  rules.float_satellites = static_cast<int>(parameters.integer("float_satellites"));
-  rules.fixed_satellites = static_cast<int>(parameters.integer("fixed_satellites"));
-  rules.max_rtk_pdop = parameters.number("max_rtk_pdop");
-  rules.time_to_fix_s = parameters.number("time_to_fix_s");
-  rules.time_to_refix_s = parameters.number("time_to_refix_s");
-  if (rules.fixed_satellites < rules.float_satellites) {
-    throw ConfigError(fmt::format("{}: fixed_satellites = {}, must be >= float_satellites = {}",
-                                  part, rules.fixed_satellites, rules.float_satellites));
-  }
-  if (rules.time_to_refix_s > rules.time_to_fix_s) {
-    throw ConfigError(fmt::format("{}: time_to_refix_s = {} s, must be <= time_to_fix_s = {} s",
-                                  part, rules.time_to_refix_s, rules.time_to_fix_s));
-  }
-  return rules;
-}
-
-bool is_running_at_start(const ParameterSet& parameters) {
-  return parameters.text("start") == "running";
-}
-
-GnssModes::GnssModes(const GnssModeRules& rules, double period_s, bool running)
+GnssModes::GnssModes(const GnssModeRules& rules, double period_s)
     : rules_(rules),
       period_s_(period_s),
-      on_s_(running ? kLong_s : -period_s),
-      code_s_(running ? kLong_s : -period_s),
-      fixable_s_(running ? kLong_s : -period_s),
+      on_s_(rules.is_running_at_start ? kLong_s : -period_s),
+      code_s_(rules.is_running_at_start ? kLong_s : -period_s),
+      fixable_s_(rules.is_running_at_start ? kLong_s : -period_s),
       has_been_fixed_(false) {}
 
 GnssFix::Mode GnssModes::step(double code_pdop, int carrier_count, double carrier_pdop) {

@@ -12,38 +12,34 @@
 ///               it had been fixed and was at least float ever since
 /// A condition that fails takes its mode away at once.
 
-#include <vector>
-
 #include "engine/api/messages/sensors.h"
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 
 namespace vinerow {
 
 enum class GnssCorrections { kNone, kSbas, kRtk };
 
 struct GnssModeRules {
-  GnssCorrections corrections;
-  double max_pdop;
-  double cold_start_s;  ///< 0: runs already
-  double sbas_s;
-  int float_satellites;
-  int fixed_satellites;
-  double max_rtk_pdop;
-  double time_to_fix_s;
-  double time_to_refix_s;
+  GnssCorrections corrections = GnssCorrections::kRtk;
+  bool is_running_at_start = true;  ///< for long already
+  double cold_start_s = 25.0;       ///< where it is not
+  double max_pdop = 25.0;
+  double sbas_s = 6.0;
+  int float_satellites = 5;
+  int fixed_satellites = 6;
+  double max_rtk_pdop = 5.0;
+  double time_to_fix_s = 10.0;
+  double time_to_refix_s = 4.0;
 };
 
-std::vector<ParameterSpec> gnss_mode_parameters();
-/// @param part  for errors  @throws ConfigError if fixed needs fewer satellites than float, or
-/// fixing anew takes longer than fixing first
-GnssModeRules read_gnss_mode_rules(const ParameterSet& parameters, const std::string& part);
-/// Whether the receiver has run for long at the start.
-bool is_running_at_start(const ParameterSet& parameters);
+/// Refuses rules by which fixed needs fewer satellites than float, or fixing anew takes longer than
+/// fixing first.
+const ParameterTable<GnssModeRules>& gnss_mode_table();
 
 class GnssModes {
  public:
-  /// @param running  begins as if all conditions had held for long
-  GnssModes(const GnssModeRules& rules, double period_s, bool running);
+  /// A receiver that runs at the start begins as if all conditions had held for long.
+  GnssModes(const GnssModeRules& rules, double period_s);
 
   /// One tick. @param code_pdop,carrier_pdop  infinity where there is no position
   GnssFix::Mode step(double code_pdop, int carrier_count, double carrier_pdop);

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/error.h"
-#include "engine/math/angles.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
@@ -26,65 +25,54 @@ constexpr int kMostCrossings = 12;
 constexpr double kLoneLeaves_m = 0.3;
 constexpr double kNoSignal_dBHz = -std::numeric_limits<double>::infinity();
 
-}  // namespace
-
-std::vector<ParameterSpec> gnss_signal_parameters() {
-  return {
-      number_parameter("mask_deg", "deg", 10.0, 0.0, 60.0,
-                       "satellites lower than this are not used"),
-      number_parameter("zenith_cn0_dBHz", "dB-Hz", 48.0, 0.0, 60.0,
-                       "carrier-to-noise density of a satellite at the zenith"),
-      number_parameter("horizon_cn0_dBHz", "dB-Hz", 38.0, 0.0, 60.0,
-                       "carrier-to-noise density at the horizon, by the antenna's pattern"),
-      number_parameter("usual_cn0_dBHz", "dB-Hz", 45.0, 0.0, 60.0,
-                       "from here on a satellite has its full weight"),
-      number_parameter("code_noise_share", "", 0.1, 0.0, 1.0,
-                       "share of noise in the variance of a code's range at the usual C/N0"),
-      number_parameter("carrier_noise_share", "", 1.0, 0.0, 1.0, "the same of carrier phase"),
-      number_parameter("code_cn0_dBHz", "dB-Hz", 20.0, 0.0, 60.0, "least for a position by code"),
-      number_parameter("carrier_cn0_dBHz", "dB-Hz", 32.0, 0.0, 60.0,
-                       "least for a position by carrier phase"),
-      number_parameter("leaves_dB_per_m", "dB/m", 6.0, 0.0, 100.0,
-                       "loss in canopy; tree crowns have 2 in the L band"),
-      number_parameter("fading_share", "", 0.4, 0.0, 2.0,
-                       "standard deviation of that loss as leaves and antenna move, as a share"),
-      positive_parameter("fading_time_s", "s", 1.0, "correlation time of that"),
-      number_parameter("reacquisition_s", "s", 2.0, 0.0, 600.0,
-                       "until a satellite that was lost serves again"),
-      number_parameter("bridged_gap_s", "s", 1.0, 0.0, 60.0,
-                       "gaps of a signal up to this need no reacquisition"),
-      number_parameter("carrier_lock_s", "s", 2.0, 0.0, 600.0,
-                       "until the carrier phase of a satellite serves after any gap"),
-  };
+std::string find_fault_in_code(const GnssSignals& p) {
+  if (p.carrier_cn0_dBHz >= p.code_cn0_dBHz) return "";
+  return fmt::format("carrier_cn0_dBHz = {} dB-Hz, must be >= code_cn0_dBHz = {} dB-Hz",
+                     p.carrier_cn0_dBHz, p.code_cn0_dBHz);
 }
 
-GnssSignals read_gnss_signals(const ParameterSet& parameters, const std::string& part) {
-  GnssSignals signals;
-  signals.mask_rad = rad_from_deg(parameters.number("mask_deg"));
-  signals.zenith_cn0_dBHz = parameters.number("zenith_cn0_dBHz");
-  signals.horizon_cn0_dBHz = parameters.number("horizon_cn0_dBHz");
-  signals.usual_cn0_dBHz = parameters.number("usual_cn0_dBHz");
-  signals.code_noise_share = parameters.number("code_noise_share");
-  signals.carrier_noise_share = parameters.number("carrier_noise_share");
-  signals.code_cn0_dBHz = parameters.number("code_cn0_dBHz");
-  signals.carrier_cn0_dBHz = parameters.number("carrier_cn0_dBHz");
-  signals.leaves_dB_per_m = parameters.number("leaves_dB_per_m");
-  signals.fading_share = parameters.number("fading_share");
-  signals.fading_time_s = parameters.number("fading_time_s");
-  signals.reacquisition_s = parameters.number("reacquisition_s");
-  signals.bridged_gap_s = parameters.number("bridged_gap_s");
-  signals.carrier_lock_s = parameters.number("carrier_lock_s");
-  if (signals.carrier_cn0_dBHz < signals.code_cn0_dBHz) {
-    throw ConfigError(
-        fmt::format("{}: carrier_cn0_dBHz = {} dB-Hz, must be >= code_cn0_dBHz = {} dB-Hz", part,
-                    signals.carrier_cn0_dBHz, signals.code_cn0_dBHz));
-  }
-  if (signals.zenith_cn0_dBHz < signals.horizon_cn0_dBHz) {
-    throw ConfigError(
-        fmt::format("{}: zenith_cn0_dBHz = {} dB-Hz, must be >= horizon_cn0_dBHz = {} dB-Hz", part,
-                    signals.zenith_cn0_dBHz, signals.horizon_cn0_dBHz));
-  }
-  return signals;
+std::string find_fault_in_zenith(const GnssSignals& p) {
+  if (p.zenith_cn0_dBHz >= p.horizon_cn0_dBHz) return "";
+  return fmt::format("zenith_cn0_dBHz = {} dB-Hz, must be >= horizon_cn0_dBHz = {} dB-Hz",
+                     p.zenith_cn0_dBHz, p.horizon_cn0_dBHz);
+}
+
+}  // namespace
+
+const ParameterTable<GnssSignals>& gnss_signal_table() {
+  using P = GnssSignals;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .degrees("mask_deg", &P::mask_rad, between(0.0, 60.0),
+                   "satellites lower than this are not used")
+          .number("zenith_cn0_dBHz", "dB-Hz", &P::zenith_cn0_dBHz, between(0.0, 60.0),
+                  "carrier-to-noise density of a satellite at the zenith")
+          .number("horizon_cn0_dBHz", "dB-Hz", &P::horizon_cn0_dBHz, between(0.0, 60.0),
+                  "carrier-to-noise density at the horizon, by the antenna's pattern")
+          .number("usual_cn0_dBHz", "dB-Hz", &P::usual_cn0_dBHz, between(0.0, 60.0),
+                  "from here on a satellite has its full weight")
+          .number("code_noise_share", "", &P::code_noise_share, between(0.0, 1.0),
+                  "share of noise in the variance of a code's range at the usual C/N0")
+          .number("carrier_noise_share", "", &P::carrier_noise_share, between(0.0, 1.0),
+                  "the same of carrier phase")
+          .number("code_cn0_dBHz", "dB-Hz", &P::code_cn0_dBHz, between(0.0, 60.0),
+                  "least for a position by code")
+          .number("carrier_cn0_dBHz", "dB-Hz", &P::carrier_cn0_dBHz, between(0.0, 60.0),
+                  "least for a position by carrier phase")
+          .number("leaves_dB_per_m", "dB/m", &P::leaves_dB_per_m, between(0.0, 100.0),
+                  "loss in canopy; tree crowns have 2 in the L band")
+          .number("fading_share", "", &P::fading_share, between(0.0, 2.0),
+                  "standard deviation of that loss as leaves and antenna move, as a share")
+          .number("fading_time_s", "s", &P::fading_time_s, kPositive, "correlation time of that")
+          .number("reacquisition_s", "s", &P::reacquisition_s, between(0.0, 600.0),
+                  "until a satellite that was lost serves again")
+          .number("bridged_gap_s", "s", &P::bridged_gap_s, between(0.0, 60.0),
+                  "gaps of a signal up to this need no reacquisition")
+          .number("carrier_lock_s", "s", &P::carrier_lock_s, between(0.0, 600.0),
+                  "until the carrier phase of a satellite serves after any gap")
+          .rule(find_fault_in_code)
+          .rule(find_fault_in_zenith);
+  return table;
 }
 
 GnssTracking::GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQuery& scene,

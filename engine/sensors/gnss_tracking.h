@@ -22,9 +22,10 @@
 
 #include <vector>
 
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/scene_query.h"
 #include "engine/core/random.h"
+#include "engine/math/angles.h"
 #include "engine/sensors/gauss_markov.h"
 #include "engine/sensors/gnss_geometry.h"
 #include "engine/sensors/gnss_sky.h"
@@ -32,27 +33,25 @@
 namespace vinerow {
 
 struct GnssSignals {
-  double mask_rad;
-  double zenith_cn0_dBHz;
-  double horizon_cn0_dBHz;
-  double usual_cn0_dBHz;
-  double code_noise_share;
-  double carrier_noise_share;
-  double code_cn0_dBHz;
-  double carrier_cn0_dBHz;
-  double leaves_dB_per_m;
-  double fading_share;
-  double fading_time_s;
-  double reacquisition_s;
-  double bridged_gap_s;
-  double carrier_lock_s;
+  double mask_rad = rad_from_deg(10.0);
+  double zenith_cn0_dBHz = 48.0;
+  double horizon_cn0_dBHz = 38.0;
+  double usual_cn0_dBHz = 45.0;
+  double code_noise_share = 0.1;
+  double carrier_noise_share = 1.0;
+  double code_cn0_dBHz = 20.0;
+  double carrier_cn0_dBHz = 32.0;
+  double leaves_dB_per_m = 6.0;
+  double fading_share = 0.4;
+  double fading_time_s = 1.0;
+  double reacquisition_s = 2.0;
+  double bridged_gap_s = 1.0;
+  double carrier_lock_s = 2.0;
 };
 
-std::vector<ParameterSpec> gnss_signal_parameters();
-/// @param part  for errors
-/// @throws ConfigError if carrier phase needs less signal than code, or there is less of it at the
-/// zenith than at the horizon
-GnssSignals read_gnss_signals(const ParameterSet& parameters, const std::string& part);
+/// Refuses signals of which carrier phase needs less than code, or of which there is less at the
+/// zenith than at the horizon.
+const ParameterTable<GnssSignals>& gnss_signal_table();
 
 /// What one look at the sky gave.
 struct GnssView {

@@ -9,21 +9,52 @@ namespace {
 
 enum class ErrorModel { kIdeal, kUniform, kGaussian };
 
+struct GpsParams {
+  ErrorModel error = ErrorModel::kGaussian;
+  double accuracy_m = 0.02;
+  double horizontal_std_m = 0.01;
+  double vertical_std_m = 0.02;
+  double velocity_std_mps = 0.03;
+  double walk_std_m = 0.0;
+  double walk_time_s = 60.0;
+};
+
+const ParameterTable<GpsParams>& gps_table() {
+  using P = GpsParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .choice("error", &P::error,
+                  {{"ideal", ErrorModel::kIdeal},
+                   {"uniform", ErrorModel::kUniform},
+                   {"gaussian", ErrorModel::kGaussian}},
+                  "error model; uniform is paper B's location error")
+          .number("accuracy_m", "m", &P::accuracy_m, between(0.0, 100.0),
+                  "uniform: largest error on east and on north")
+          .number("horizontal_std_m", "m", &P::horizontal_std_m, between(0.0, 100.0),
+                  "gaussian: white error, east and north")
+          .number("vertical_std_m", "m", &P::vertical_std_m, between(0.0, 100.0),
+                  "gaussian: white error, up")
+          .number("velocity_std_mps", "m/s", &P::velocity_std_mps, between(0.0, 100.0),
+                  "gaussian: white error of the velocity")
+          .number("walk_std_m", "m", &P::walk_std_m, between(0.0, 100.0),
+                  "gaussian: slowly moving part of the error")
+          .number("walk_time_s", "s", &P::walk_time_s, kPositive,
+                  "gaussian: correlation time of that part");
+  return table;
+}
+
 class Gps final : public SatelliteReceiver {
  public:
   Gps(const ParameterSet& parameters, const SensorContext& context)
       : SatelliteReceiver(parameters, context), random_(context.random()) {
-    const std::string& error = parameters.text("error");
-    model_ = error == "uniform"    ? ErrorModel::kUniform
-             : error == "gaussian" ? ErrorModel::kGaussian
-                                   : ErrorModel::kIdeal;
-    accuracy_m_ = parameters.number("accuracy_m");
-    const double horizontal = parameters.number("horizontal_std_m");
-    white_std_m_ = {horizontal, horizontal, parameters.number("vertical_std_m")};
-    velocity_std_mps_ = parameters.number("velocity_std_mps");
-    walk_std_m_ = parameters.number("walk_std_m");
+    const GpsParams params = gps_table().read(parameters, context.part);
+    model_ = params.error;
+    accuracy_m_ = params.accuracy_m;
+    white_std_m_ = {params.horizontal_std_m, params.horizontal_std_m, params.vertical_std_m};
+    velocity_std_mps_ = params.velocity_std_mps;
+    walk_std_m_ = params.walk_std_m;
     // Exact discretisation of the Gauss-Markov process keeps its variance whatever the rate.
-    walk_decay_ = std::exp(-context.period.s() / parameters.number("walk_time_s"));
+    walk_decay_ = std::exp(-context.period.s() / params.walk_time_s);
     for (int axis = 0; axis < 3; ++axis) walk_m_[axis] = walk_std_m_ * random_.normal();
   }
 
@@ -88,19 +119,7 @@ class Gps final : public SatelliteReceiver {
 PartSpec gps_spec() {
   return mounted_sensor_spec<GnssFix>(
       "gps", "Satellite positioning with paper B's uniform error or a white + Gauss-Markov one",
-      5.0,
-      {choice_parameter("error", "gaussian", {"ideal", "uniform", "gaussian"},
-                        "error model; uniform is paper B's location error"),
-       number_parameter("accuracy_m", "m", 0.02, 0.0, 100.0,
-                        "uniform: largest error on east and on north"),
-       number_parameter("horizontal_std_m", "m", 0.01, 0.0, 100.0,
-                        "gaussian: white error, east and north"),
-       number_parameter("vertical_std_m", "m", 0.02, 0.0, 100.0, "gaussian: white error, up"),
-       number_parameter("velocity_std_mps", "m/s", 0.03, 0.0, 100.0,
-                        "gaussian: white error of the velocity"),
-       number_parameter("walk_std_m", "m", 0.0, 0.0, 100.0,
-                        "gaussian: slowly moving part of the error"),
-       positive_parameter("walk_time_s", "s", 60.0, "gaussian: correlation time of that part")});
+      5.0, gps_table().specs());
 }
 
 std::unique_ptr<Sensor> make_gps(const ParameterSet& parameters, const SensorContext& context) {

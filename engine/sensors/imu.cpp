@@ -12,19 +12,40 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
+constexpr double kRadps_per_dph = rad_from_deg(1.0) / 3600.0;
+constexpr ParameterConversion kDegreesPerHour = {
+    [](double value) { return kRadps_per_dph * value; },
+    [](double member) { return member / kRadps_per_dph; }};
+
 TriadNames gyro_names() {
-  return {"gyro",
-          "deg/s",
-          "dps",
-          "deg/s2",
-          "dps2",
-          "deg/h",
-          "dph",
-          rad_from_deg(1.0),
-          rad_from_deg(1.0) / 3600.0};
+  return {"gyro",  "deg/s", "dps",    "deg/s2",       "dps2",
+          "deg/h", "dph",   kDegrees, kDegreesPerHour};
 }
 TriadNames accelerometer_names() {
-  return {"accel", "m/s2", "mps2", "m/s3", "mps3", "m/s2", "mps2", 1.0, 1.0};
+  return {"accel", "m/s2", "mps2", "m/s3", "mps3", "m/s2", "mps2", {}, {}};
+}
+
+/// Defaults: white noise and ranges of the VectorNav VN-100/VN-200 (gyro 0.0035 deg/s/rtHz,
+/// accelerometer 0.14 mg/rtHz, 2000 deg/s, 16 g); all else is off.
+struct ImuParams {
+  TriadFigures gyro{.allan = {.white_u_rtHz = rad_from_deg(0.0035)},
+                    .range_u = rad_from_deg(2000.0)};
+  double gyro_g_sensitivity_std_radps = 0.0;  ///< per g
+  TriadFigures accelerometer{.allan = {.white_u_rtHz = 0.00137}, .range_u = 156.9};
+};
+
+const ParameterTable<ImuParams>& imu_table() {
+  using P = ImuParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .include(&P::gyro, make_triad_table(gyro_names()))
+          .number("gyro_g_sensitivity_std_dps_per_g", "deg/s/g", &P::gyro_g_sensitivity_std_radps,
+                  between(0.0, 10.0),
+                  "rate read per specific force, drawn once per run for each gyro and "
+                  "each direction",
+                  kDegrees)
+          .include(&P::accelerometer, make_triad_table(accelerometer_names()));
+  return table;
 }
 
 /// Rotation vector of a unit quaternion, the shorter way round.
@@ -38,15 +59,17 @@ Vector3d rotation_vector(const Quaterniond& q) {
 class Imu final : public MountedSensor<ImuSample> {
  public:
   Imu(const ParameterSet& parameters, const SensorContext& context)
+      : Imu(imu_table().read(parameters, context.part), parameters, context) {}
+  Imu(const ImuParams& params, const ParameterSet& parameters, const SensorContext& context)
       : MountedSensor(parameters, context),
         vehicle_(context.vehicle_truth),
         gravity_W_(0.0, 0.0, context.gravity_mps2),
         period_s_(context.period.s()),
-        gyro_(gyro_names(), parameters, context),
-        accelerometer_(accelerometer_names(), parameters, context) {
+        gyro_(gyro_names(), params.gyro, context),
+        accelerometer_(accelerometer_names(), params.accelerometer, context) {
     RandomStream device = context.random("g_sensitivity");
     const double std_radps_per_mps2 =
-        rad_from_deg(parameters.number("gyro_g_sensitivity_std_dps_per_g")) / kStandardGravity_mps2;
+        params.gyro_g_sensitivity_std_radps / kStandardGravity_mps2;
     for (int i = 0; i < 9; ++i) g_sensitivity_(i) = std_radps_per_mps2 * device.normal();
   }
 
@@ -95,19 +118,11 @@ class Imu final : public MountedSensor<ImuSample> {
 }  // namespace
 
 PartSpec imu_spec() {
-  // Defaults: white noise and ranges of the VectorNav VN-100/VN-200 (gyro 0.0035 deg/s/rtHz,
-  // accelerometer 0.14 mg/rtHz, 2000 deg/s, 16 g); all else is off.
   return mounted_sensor_spec<ImuSample>(
       "imu",
       "Rate gyro and accelerometer: white noise, bias instability and random walk by their Allan "
       "deviation, turn-on bias, scale, misalignment, saturation",
-      100.0,
-      join_parameters(
-          {triad_parameters(gyro_names(), 0.0035, 2000.0),
-           {number_parameter("gyro_g_sensitivity_std_dps_per_g", "deg/s/g", 0.0, 0.0, 10.0,
-                             "rate read per specific force, drawn once per run for each gyro and "
-                             "each direction")},
-           triad_parameters(accelerometer_names(), 0.00137, 156.9)}));
+      100.0, imu_table().specs());
 }
 
 std::unique_ptr<Sensor> make_imu(const ParameterSet& parameters, const SensorContext& context) {

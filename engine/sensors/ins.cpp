@@ -12,19 +12,68 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
+struct MixedErrorParams {
+  double white_share = 0.0;  ///< of its variance
+  double time_s = 60.0;      ///< correlation time of the rest, 0: white as well
+};
+
+const ParameterTable<MixedErrorParams>& mixed_error_table() {
+  using P = MixedErrorParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("white_share", "", &P::white_share, between(0.0, 1.0),
+                  "share of its variance that is fresh at every reading")
+          .number("time_s", "s", &P::time_s, between(0.0, 1e5),
+                  "correlation time of the rest; 0: white as well");
+  return table;
+}
+
+/// Defaults: paper C, table 2 (VectorNav VN-200); see assets/sensors/vn200_ins.yaml.
+struct InsParams {
+  double horizontal_std_m = 1.0;
+  double vertical_std_m = 1.5;
+  MixedErrorParams position{0.0, 60.0};
+  double velocity_std_mps = 0.05;
+  MixedErrorParams velocity{0.0, 5.0};
+  double roll_pitch_std_rad = rad_from_deg(0.03);
+  double yaw_std_rad = rad_from_deg(0.2);
+  MixedErrorParams attitude{0.0, 60.0};
+  double rate_noise_radps_rtHz = rad_from_deg(0.0035);
+};
+
+const ParameterTable<InsParams>& ins_table() {
+  using P = InsParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("horizontal_std_m", "m", &P::horizontal_std_m, between(0.0, 1e3),
+                  "1 sigma of the position to the east and to the north, each")
+          .number("vertical_std_m", "m", &P::vertical_std_m, between(0.0, 1e3),
+                  "1 sigma of the height")
+          .include(&P::position, mixed_error_table(), {.prefix = "position_"})
+          .number("velocity_std_mps", "m/s", &P::velocity_std_mps, between(0.0, 1e3),
+                  "1 sigma of each component of the velocity in W")
+          .include(&P::velocity, mixed_error_table(), {.prefix = "velocity_"})
+          .degrees("roll_pitch_std_deg", &P::roll_pitch_std_rad, between(0.0, 1e3),
+                   "1 sigma of roll and of pitch")
+          .degrees("yaw_std_deg", &P::yaw_std_rad, between(0.0, 1e3), "1 sigma of yaw")
+          .include(&P::attitude, mixed_error_table(), {.prefix = "attitude_"})
+          .number("rate_noise_dps_rtHz", "deg/s/sqrt(Hz)", &P::rate_noise_radps_rtHz,
+                  between(0.0, 1e3), "white noise density of the angular rate", kDegrees);
+  return table;
+}
+
 /// Three independent errors, partly white and partly Gauss-Markov.
 class MixedError {
  public:
   /// @param std  of the whole, each component
-  /// @param quantity  "position" for position_white_share and position_time_s
-  MixedError(const Vector3d& std, const std::string& quantity, const ParameterSet& parameters,
+  /// @param quantity  names its random stream
+  MixedError(const Vector3d& std, const MixedErrorParams& params, const std::string& quantity,
              const SensorContext& context)
       : random_(context.random(quantity)) {
-    const double white_share = parameters.number(quantity + "_white_share");
-    const double time_s = parameters.number(quantity + "_time_s");
-    white_std_ = std::sqrt(white_share) * std;
+    white_std_ = std::sqrt(params.white_share) * std;
     for (int i = 0; i < 3; ++i) {
-      slow_[i] = GaussMarkov(std::sqrt(1.0 - white_share) * std[i], time_s, context.period.s());
+      slow_[i] = GaussMarkov(std::sqrt(1.0 - params.white_share) * std[i], params.time_s,
+                             context.period.s());
       slow_[i].start(random_);
     }
   }
@@ -52,18 +101,17 @@ Quaterniond turn_by(const Vector3d& rotation) {
 class Ins final : public ReadingSensor<Odometry> {
  public:
   Ins(const ParameterSet& parameters, const SensorContext& context)
+      : Ins(ins_table().read(parameters, context.part), parameters, context) {}
+  Ins(const InsParams& params, const ParameterSet& parameters, const SensorContext& context)
       : ReadingSensor(parameters, context),
-        position_std_m_(parameters.number("horizontal_std_m"),
-                        parameters.number("horizontal_std_m"), parameters.number("vertical_std_m")),
-        attitude_std_rad_(rad_from_deg(parameters.number("roll_pitch_std_deg")),
-                          rad_from_deg(parameters.number("roll_pitch_std_deg")),
-                          rad_from_deg(parameters.number("yaw_std_deg"))),
-        rate_std_radps_(rad_from_deg(parameters.number("rate_noise_dps_rtHz")) /
-                        std::sqrt(context.period.s())),
-        position_(position_std_m_, "position", parameters, context),
-        velocity_(Vector3d::Constant(parameters.number("velocity_std_mps")), "velocity", parameters,
+        position_std_m_(params.horizontal_std_m, params.horizontal_std_m, params.vertical_std_m),
+        attitude_std_rad_(params.roll_pitch_std_rad, params.roll_pitch_std_rad,
+                          params.yaw_std_rad),
+        rate_std_radps_(params.rate_noise_radps_rtHz / std::sqrt(context.period.s())),
+        position_(position_std_m_, params.position, "position", context),
+        velocity_(Vector3d::Constant(params.velocity_std_mps), params.velocity, "velocity",
                   context),
-        attitude_(attitude_std_rad_, "attitude", parameters, context),
+        attitude_(attitude_std_rad_, params.attitude, "attitude", context),
         rate_random_(context.random("rate")) {}
 
   void connect(Ports& ports) override {
@@ -95,35 +143,13 @@ class Ins final : public ReadingSensor<Odometry> {
   SignalReader<Odometry> truth_;
 };
 
-void add_error(const std::string& quantity, double white_share, double time_s,
-               std::vector<ParameterSpec>& parameters) {
-  parameters.push_back(number_parameter(quantity + "_white_share", "", white_share, 0.0, 1.0,
-                                        "share of its variance that is fresh at every reading"));
-  parameters.push_back(number_parameter(quantity + "_time_s", "s", time_s, 0.0, 1e5,
-                                        "correlation time of the rest; 0: white as well"));
-}
-
 }  // namespace
 
 PartSpec ins_spec() {
-  // Defaults: paper C, table 2 (VectorNav VN-200); see assets/sensors/vn200_ins.yaml.
-  std::vector<ParameterSpec> list;
-  const auto add = [&](const char* name, const char* unit, double value, const char* text) {
-    list.push_back(number_parameter(name, unit, value, 0.0, 1e3, text));
-  };
-  add("horizontal_std_m", "m", 1.0, "1 sigma of the position to the east and to the north, each");
-  add("vertical_std_m", "m", 1.5, "1 sigma of the height");
-  add_error("position", 0.0, 60.0, list);
-  add("velocity_std_mps", "m/s", 0.05, "1 sigma of each component of the velocity in W");
-  add_error("velocity", 0.0, 5.0, list);
-  add("roll_pitch_std_deg", "deg", 0.03, "1 sigma of roll and of pitch");
-  add("yaw_std_deg", "deg", 0.2, "1 sigma of yaw");
-  add_error("attitude", 0.0, 60.0, list);
-  add("rate_noise_dps_rtHz", "deg/s/sqrt(Hz)", 0.0035, "white noise density of the angular rate");
   PartSpec spec = reading_sensor_spec<Odometry>(
       "ins",
       "Aided inertial unit as a black box: pose and velocity with the errors of its data sheet",
-      100.0, std::move(list));
+      100.0, ins_table().specs());
   spec.reads = {"truth"};
   return spec;
 }

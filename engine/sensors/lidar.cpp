@@ -7,7 +7,6 @@
 
 #include "engine/api/messages/sensors.h"
 #include "engine/core/constants.h"
-#include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/sensors/mounted_sensor.h"
 
@@ -17,63 +16,122 @@ namespace {
 constexpr int kMostBeams = 20'000;
 constexpr int kMostSubRays = 15;
 
-int count_beams(const ParameterSet& parameters) {
-  const double field_deg = parameters.number("field_of_view_deg");
-  const double step_deg = parameters.number("angle_step_deg");
-  const double count = std::floor(field_deg / step_deg + 1e-6) + 1.0;
-  if (count > kMostBeams) {
-    throw ConfigError(fmt::format(
-        "angle_step_deg = {} deg makes {:.0f} beams of field_of_view_deg = {} deg, must be at most "
-        "{}",
-        step_deg, count, field_deg, kMostBeams));
-  }
-  return static_cast<int>(count);
+/// Defaults: the geometry of a Hokuyo UST-10LX with ideal readings. Real ones: assets/sensors.
+struct LidarParams {
+  double field_of_view_deg = 270.0;
+  double angle_step_deg = 0.25;
+  double min_range_m = 0.06;
+  double max_range_m = 10.0;
+  double accuracy_m = 0.0;
+  double noise_std_m = 0.01;
+  double noise_growth = 0.0;
+  double dark_range_m = 1000.0;
+  double beam_dropout_share = 0.0;
+  double canopy_reflectance = 0.45;
+  double ground_reflectance = 0.25;
+  double stem_reflectance = 0.35;
+  double obstacle_reflectance = 0.4;
+  double divergence_rad = 0.0;
+  int sub_rays = 1;
+  bool is_mixed = false;
+  double pulse_m = 0.75;
+
+  double count_beams() const { return std::floor(field_of_view_deg / angle_step_deg + 1e-6) + 1.0; }
+};
+
+std::string find_fault_in_beams(const LidarParams& p) {
+  if (p.count_beams() <= kMostBeams) return "";
+  return fmt::format(
+      "angle_step_deg = {} deg makes {:.0f} beams of field_of_view_deg = {} deg, must be at most "
+      "{}",
+      p.angle_step_deg, p.count_beams(), p.field_of_view_deg, kMostBeams);
 }
 
-int read_sub_rays(const ParameterSet& parameters) {
-  const auto count = static_cast<int>(parameters.integer("sub_rays"));
-  if (count % 2 == 0) {
-    throw ConfigError(fmt::format("sub_rays = {}, must be odd: one lies in the middle", count));
-  }
-  return count;
+std::string find_fault_in_sub_rays(const LidarParams& p) {
+  if (p.sub_rays % 2 != 0) return "";
+  return fmt::format("sub_rays = {}, must be odd: one lies in the middle", p.sub_rays);
+}
+
+std::string find_fault_in_laser_range(const LidarParams& p) {
+  if (p.min_range_m < p.max_range_m) return "";
+  return fmt::format("min_range_m = {} m, must be < max_range_m = {} m", p.min_range_m,
+                     p.max_range_m);
+}
+
+const ParameterTable<LidarParams>& lidar_table() {
+  using P = LidarParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("field_of_view_deg", "deg", &P::field_of_view_deg, between(0.0, 360.0),
+                  "between the first and the last beam")
+          .number("angle_step_deg", "deg", &P::angle_step_deg, kPositive, "between beams")
+          .number("min_range_m", "m", &P::min_range_m, kPositive, "shortest distance it tells")
+          .number("max_range_m", "m", &P::max_range_m, kPositive, "longest distance it tells")
+          .number("accuracy_m", "m", &P::accuracy_m, between(0.0, 10.0),
+                  "largest constant error; the device's own is drawn once, uniformly")
+          .number("noise_std_m", "m", &P::noise_std_m, between(0.0, 10.0),
+                  "white noise of a range at 0 m")
+          .number("noise_growth", "m/m", &P::noise_growth, between(0.0, 1.0),
+                  "what that grows by with distance")
+          .number("dark_range_m", "m", &P::dark_range_m, kPositive,
+                  "where a surface of 10 % reflectance, met head on, is detected nine "
+                  "times in ten; large: nothing is lost")
+          .number("beam_dropout_share", "", &P::beam_dropout_share, between(0.0, 1.0),
+                  "share of the beams that are lost whatever they meet")
+          .number("canopy_reflectance", "", &P::canopy_reflectance, between(0.0, 1.0),
+                  "near infrared, of leaves")
+          .number("ground_reflectance", "", &P::ground_reflectance, between(0.0, 1.0),
+                  "near infrared, of soil and grass")
+          .number("stem_reflectance", "", &P::stem_reflectance, between(0.0, 1.0),
+                  "near infrared, of posts and trunks")
+          .number("obstacle_reflectance", "", &P::obstacle_reflectance, between(0.0, 1.0),
+                  "near infrared, of all else")
+          .degrees("divergence_deg", &P::divergence_rad, between(0.0, 5.0), "full width of a beam")
+          .integer("sub_rays", &P::sub_rays, between(1, kMostSubRays),
+                   "rays across a beam's width, an odd number")
+          .choice("edge", &P::is_mixed, {{"nearest", false}, {"mixed", true}},
+                  "what a beam tells that meets two surfaces: the nearer one, or their mean "
+                  "weighted by power")
+          .number("pulse_m", "m", &P::pulse_m, kPositive,
+                  "surfaces of a beam nearer to each other make one echo")
+          .rule(find_fault_in_beams)
+          .rule(find_fault_in_sub_rays)
+          .rule(find_fault_in_laser_range);
+  return table;
 }
 
 class Lidar final : public MountedSensor<LaserScan> {
  public:
   Lidar(const ParameterSet& parameters, const SensorContext& context)
+      : Lidar(lidar_table().read(parameters, ""), parameters, context) {}
+  Lidar(const LidarParams& params, const ParameterSet& parameters, const SensorContext& context)
       : MountedSensor(parameters, context),
         scene_(context.scene),
         random_(context.random()),
-        beams_(count_beams(parameters)),
-        sub_rays_(read_sub_rays(parameters)),
-        is_mixed_(parameters.text("edge") == "mixed"),
-        pulse_m_(parameters.number("pulse_m")),
-        dark_range_m_(parameters.number("dark_range_m")),
-        noise_std_m_(parameters.number("noise_std_m")),
-        noise_growth_(parameters.number("noise_growth")),
-        dropout_share_(parameters.number("beam_dropout_share")),
+        beams_(static_cast<int>(params.count_beams())),
+        sub_rays_(params.sub_rays),
+        is_mixed_(params.is_mixed),
+        pulse_m_(params.pulse_m),
+        dark_range_m_(params.dark_range_m),
+        noise_std_m_(params.noise_std_m),
+        noise_growth_(params.noise_growth),
+        dropout_share_(params.beam_dropout_share),
         reflectance_{} {
-    set_reflectances(parameters);
-    const double accuracy_m = parameters.number("accuracy_m");
-    offset_m_ = context.random("offset").uniform(-accuracy_m, accuracy_m);
-    scan_.min_range_m = parameters.number("min_range_m");
-    scan_.max_range_m = parameters.number("max_range_m");
-    if (!(scan_.min_range_m < scan_.max_range_m)) {
-      throw ConfigError(fmt::format("min_range_m = {} m, must be < max_range_m = {} m",
-                                    scan_.min_range_m, scan_.max_range_m));
-    }
-    scan_.angle_step_rad = rad_from_deg(parameters.number("angle_step_deg"));
+    set_reflectances(params);
+    offset_m_ = context.random("offset").uniform(-params.accuracy_m, params.accuracy_m);
+    scan_.min_range_m = params.min_range_m;
+    scan_.max_range_m = params.max_range_m;
+    scan_.angle_step_rad = rad_from_deg(params.angle_step_deg);
     scan_.first_angle_rad = -0.5 * scan_.angle_step_rad * (beams_ - 1);
     scan_.ranges_m.assign(beams_, kInfinity);
     true_scan_ = scan_;
     readings_.prefill(scan_);
-    const double width_rad = rad_from_deg(parameters.number("divergence_deg"));
     for (int beam = 0; beam < beams_; ++beam) {
       for (int sub = 0; sub < sub_rays_; ++sub) {
         const double aside =
             sub_rays_ == 1 ? 0.0 : static_cast<double>(sub) / (sub_rays_ - 1) - 0.5;
         const double angle_rad =
-            scan_.first_angle_rad + beam * scan_.angle_step_rad + aside * width_rad;
+            scan_.first_angle_rad + beam * scan_.angle_step_rad + aside * params.divergence_rad;
         directions_S_.emplace_back(std::cos(angle_rad), std::sin(angle_rad), 0.0);
       }
     }
@@ -104,15 +162,15 @@ class Lidar final : public MountedSensor<LaserScan> {
     double power = 0.0;
   };
 
-  void set_reflectances(const ParameterSet& parameters) {
-    reflectance_.fill(parameters.number("obstacle_reflectance"));
-    const auto set = [&](SurfaceClass surface, const char* name) {
-      reflectance_[static_cast<std::size_t>(surface)] = parameters.number(name);
+  void set_reflectances(const LidarParams& params) {
+    reflectance_.fill(params.obstacle_reflectance);
+    const auto of = [&](SurfaceClass surface) -> double& {
+      return reflectance_[static_cast<std::size_t>(surface)];
     };
-    set(SurfaceClass::kCanopy, "canopy_reflectance");
-    set(SurfaceClass::kTerrain, "ground_reflectance");
-    set(SurfaceClass::kPost, "stem_reflectance");
-    set(SurfaceClass::kTrunk, "stem_reflectance");
+    of(SurfaceClass::kCanopy) = params.canopy_reflectance;
+    of(SurfaceClass::kTerrain) = params.ground_reflectance;
+    of(SurfaceClass::kPost) = params.stem_reflectance;
+    of(SurfaceClass::kTrunk) = params.stem_reflectance;
   }
 
   static double detection_probability(double power) {
@@ -168,41 +226,11 @@ class Lidar final : public MountedSensor<LaserScan> {
 }  // namespace
 
 PartSpec lidar_spec() {
-  const auto reflectance = [](const char* name, double value, const char* of) {
-    return number_parameter(name, "", value, 0.0, 1.0, fmt::format("near infrared, of {}", of));
-  };
-  // Defaults: the geometry of a Hokuyo UST-10LX with ideal readings. Real ones: assets/sensors.
   return mounted_sensor_spec<LaserScan>(
       "lidar",
       "2D laser scanner: ranges in a plane, with noise, dropouts by distance and incidence, and "
       "beam divergence; a scan is of one instant",
-      40.0,
-      {number_parameter("field_of_view_deg", "deg", 270.0, 0.0, 360.0,
-                        "between the first and the last beam"),
-       positive_parameter("angle_step_deg", "deg", 0.25, "between beams"),
-       positive_parameter("min_range_m", "m", 0.06, "shortest distance it tells"),
-       positive_parameter("max_range_m", "m", 10.0, "longest distance it tells"),
-       number_parameter("accuracy_m", "m", 0.0, 0.0, 10.0,
-                        "largest constant error; the device's own is drawn once, uniformly"),
-       number_parameter("noise_std_m", "m", 0.01, 0.0, 10.0, "white noise of a range at 0 m"),
-       number_parameter("noise_growth", "m/m", 0.0, 0.0, 1.0, "what that grows by with distance"),
-       positive_parameter("dark_range_m", "m", 1000.0,
-                          "where a surface of 10 % reflectance, met head on, is detected nine "
-                          "times in ten; large: nothing is lost"),
-       number_parameter("beam_dropout_share", "", 0.0, 0.0, 1.0,
-                        "share of the beams that are lost whatever they meet"),
-       reflectance("canopy_reflectance", 0.45, "leaves"),
-       reflectance("ground_reflectance", 0.25, "soil and grass"),
-       reflectance("stem_reflectance", 0.35, "posts and trunks"),
-       reflectance("obstacle_reflectance", 0.4, "all else"),
-       number_parameter("divergence_deg", "deg", 0.0, 0.0, 5.0, "full width of a beam"),
-       integer_parameter("sub_rays", 1, 1, kMostSubRays,
-                         "rays across a beam's width, an odd number"),
-       choice_parameter("edge", "nearest", {"nearest", "mixed"},
-                        "what a beam tells that meets two surfaces: the nearer one, or their mean "
-                        "weighted by power"),
-       positive_parameter("pulse_m", "m", 0.75,
-                          "surfaces of a beam nearer to each other make one echo")});
+      40.0, lidar_table().specs());
 }
 
 std::unique_ptr<Sensor> make_lidar(const ParameterSet& parameters, const SensorContext& context) {

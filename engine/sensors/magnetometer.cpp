@@ -1,7 +1,9 @@
 #include "engine/sensors/magnetometer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "engine/api/messages/sensors.h"
 #include "engine/api/world_model.h"
@@ -12,32 +14,68 @@
 namespace vinerow {
 namespace {
 
+/// In the units of files. Defaults: PNI RM3100, see assets/sensors/rm3100.yaml.
+struct MagnetometerParams {
+  double year = kFirstGeomagneticYear;
+  std::optional<Eigen::Vector3d> field_uT;
+  double noise_std_nT = 15.0;
+  double resolution_nT = 0.0;
+  double range_uT = 800.0;
+  Eigen::Vector3d hard_iron_uT = Eigen::Vector3d::Zero();
+  double hard_iron_std_uT = 0.0;
+  std::array<double, 6> soft_iron{};
+  double soft_iron_std = 0.0;
+};
+
+const ParameterTable<MagnetometerParams>& magnetometer_table() {
+  using P = MagnetometerParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("year", "", &P::year, between(kFirstGeomagneticYear, kLastGeomagneticYear),
+                  "decimal year for which the field is worked out")
+          .numbers("field_uT", "uT", &P::field_uT, kAnyNumber,
+                   "field to the east, north and up instead of the Earth's")
+          .number("noise_std_nT", "nT", &P::noise_std_nT, between(0.0, 1e6),
+                  "white noise of a reading, each axis")
+          .number("resolution_nT", "nT", &P::resolution_nT, between(0.0, 1e6),
+                  "step of the reading; 0: none")
+          .number("range_uT", "uT", &P::range_uT, kPositive, "saturation")
+          .numbers("hard_iron_uT", "uT", &P::hard_iron_uT, kAnyNumber,
+                   "constant field of the vehicle in S, x, y, z")
+          .number("hard_iron_std_uT", "uT", &P::hard_iron_std_uT, between(0.0, 1e3),
+                  "1 sigma of what is added to it, drawn once per run and axis")
+          .numbers("soft_iron", "", &P::soft_iron, kAnyNumber,
+                   "what soft iron adds to the identity: xx, yy, zz, xy, xz, yz")
+          .number("soft_iron_std", "", &P::soft_iron_std, between(0.0, 1.0),
+                  "1 sigma of what is added to each of these, drawn once per run");
+  return table;
+}
+
 /// East, north, up, T.
-Eigen::Vector3d field_W_T(const ParameterSet& parameters, const GeoOrigin& origin) {
-  if (parameters.has("field_uT")) {
-    const auto& field_uT = parameters.numbers("field_uT");
-    return Eigen::Vector3d(field_uT[0], field_uT[1], field_uT[2]) * 1e-6;
-  }
+Eigen::Vector3d field_W_T(const MagnetometerParams& params, const GeoOrigin& origin) {
+  if (params.field_uT) return *params.field_uT * 1e-6;
   return calc_geomagnetic_field_T(origin.latitude_rad, origin.longitude_rad, origin.altitude_m,
-                                  parameters.number("year"));
+                                  params.year);
 }
 
 class Magnetometer final : public MountedSensor<MagneticSample> {
  public:
   Magnetometer(const ParameterSet& parameters, const SensorContext& context)
+      : Magnetometer(magnetometer_table().read(parameters, context.part), parameters, context) {}
+  Magnetometer(const MagnetometerParams& params, const ParameterSet& parameters,
+               const SensorContext& context)
       : MountedSensor(parameters, context),
-        field_W_T_(field_W_T(parameters, context.world->origin)),
-        noise_std_T_(1e-9 * parameters.number("noise_std_nT")),
-        resolution_T_(1e-9 * parameters.number("resolution_nT")),
-        range_T_(1e-6 * parameters.number("range_uT")),
+        field_W_T_(field_W_T(params, context.world->origin)),
+        noise_std_T_(1e-9 * params.noise_std_nT),
+        resolution_T_(1e-9 * params.resolution_nT),
+        range_T_(1e-6 * params.range_uT),
         random_(context.random()) {
     RandomStream device = context.random("device");
-    const auto& hard_uT = parameters.numbers("hard_iron_uT");
-    const double hard_std_T = 1e-6 * parameters.number("hard_iron_std_uT");
-    const auto& soft = parameters.numbers("soft_iron");
-    const double soft_std = parameters.number("soft_iron_std");
+    const double hard_std_T = 1e-6 * params.hard_iron_std_uT;
+    const auto& soft = params.soft_iron;
+    const double soft_std = params.soft_iron_std;
     for (int i = 0; i < 3; ++i) {
-      hard_iron_T_[i] = 1e-6 * hard_uT[i] + hard_std_T * device.normal();
+      hard_iron_T_[i] = 1e-6 * params.hard_iron_uT[i] + hard_std_T * device.normal();
     }
     Eigen::Vector3d diagonal, beside;
     for (int i = 0; i < 3; ++i) {
@@ -77,23 +115,7 @@ PartSpec magnetometer_spec() {
   return mounted_sensor_spec<MagneticSample>(
       "magnetometer",
       "Earth's magnetic field (World Magnetic Model 2025) with hard and soft iron and noise", 50.0,
-      {number_parameter("year", "", kFirstGeomagneticYear, kFirstGeomagneticYear,
-                        kLastGeomagneticYear, "decimal year for which the field is worked out"),
-       optional(number_list_parameter("field_uT", "uT", {},
-                                      "field to the east, north and up instead of the Earth's", 3)),
-       // Defaults: PNI RM3100, see assets/sensors/rm3100.yaml.
-       number_parameter("noise_std_nT", "nT", 15.0, 0.0, 1e6,
-                        "white noise of a reading, each axis"),
-       number_parameter("resolution_nT", "nT", 0.0, 0.0, 1e6, "step of the reading; 0: none"),
-       positive_parameter("range_uT", "uT", 800.0, "saturation"),
-       number_list_parameter("hard_iron_uT", "uT", {0.0, 0.0, 0.0},
-                             "constant field of the vehicle in S, x, y, z", 3),
-       number_parameter("hard_iron_std_uT", "uT", 0.0, 0.0, 1e3,
-                        "1 sigma of what is added to it, drawn once per run and axis"),
-       number_list_parameter("soft_iron", "", {0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-                             "what soft iron adds to the identity: xx, yy, zz, xy, xz, yz", 6),
-       number_parameter("soft_iron_std", "", 0.0, 0.0, 1.0,
-                        "1 sigma of what is added to each of these, drawn once per run")});
+      magnetometer_table().specs());
 }
 
 std::unique_ptr<Sensor> make_magnetometer(const ParameterSet& parameters,

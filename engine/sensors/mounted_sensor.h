@@ -15,7 +15,8 @@ template <class T>
 class MountedSensor : public ReadingSensor<T> {
  public:
   MountedSensor(const ParameterSet& parameters, const SensorContext& context)
-      : ReadingSensor<T>(parameters, context), X_BS_(mounting_pose(parameters)) {}
+      : ReadingSensor<T>(parameters, context),
+        X_BS_(mounting_table().read(parameters, context.part).X_BS()) {}
 
   void connect(Ports& ports) override {
     truth_ = ports.read<Odometry>("truth");
@@ -38,13 +39,14 @@ class MountedSensor : public ReadingSensor<T> {
 };
 
 /// @param parameters  the sensor's own; those of its mounting are put before them, those of its
-///   readings behind
+///   readings behind  @param mounting  of mounting_table(), for a sensor with other defaults
 template <class T>
 PartSpec mounted_sensor_spec(std::string name, std::string description, double default_rate_Hz,
-                             std::vector<ParameterSpec> parameters) {
+                             std::vector<ParameterSpec> parameters,
+                             std::vector<ParameterSpec> mounting = mounting_table().specs()) {
   PartSpec spec =
       reading_sensor_spec<T>(std::move(name), std::move(description), default_rate_Hz,
-                             join_parameters({mounting_parameters(), std::move(parameters)}));
+                             join_parameters({std::move(mounting), std::move(parameters)}));
   spec.reads = {"truth"};
   return spec;
 }

@@ -1,23 +1,23 @@
 #include "engine/sensors/mounting.h"
 
-#include "engine/math/angles.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 
-std::vector<ParameterSpec> mounting_parameters() {
-  return {
-      number_list_parameter("position_m", "m", {0.0, 0.0, 0.0},
-                            "place of the sensor in the body frame (x forward, y left, z up)", 3),
-      number_list_parameter(
-          "rotation_deg", "deg", {0.0, 0.0, 0.0},
-          "roll, pitch, yaw of the sensor in the body frame; it looks along its x axis", 3)};
+const ParameterTable<MountingParams>& mounting_table() {
+  using P = MountingParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .numbers("position_m", "m", &P::position_m, kAnyNumber,
+                   "place of the sensor in the body frame (x forward, y left, z up)")
+          .numbers("rotation_deg", "deg", &P::rotation_rad, kAnyNumber,
+                   "roll, pitch, yaw of the sensor in the body frame; it looks along its x axis", 3,
+                   kDegrees);
+  return table;
 }
 
-Pose mounting_pose(const ParameterSet& parameters) {
-  const auto& p = parameters.numbers("position_m");
-  const auto& rpy = parameters.numbers("rotation_deg");
-  return {quaternion_from_rpy({rad_from_deg(rpy[0]), rad_from_deg(rpy[1]), rad_from_deg(rpy[2])}),
-          Eigen::Vector3d(p[0], p[1], p[2])};
+Pose MountingParams::X_BS() const {
+  return {quaternion_from_rpy({rotation_rad.x(), rotation_rad.y(), rotation_rad.z()}), position_m};
 }
 
 }  // namespace vinerow

@@ -34,7 +34,7 @@ PartSpec reading_sensor_spec(std::string name, std::string description, double d
   spec.name = std::move(name);
   spec.description = std::move(description);
   spec.default_rate_Hz = default_rate_Hz;
-  spec.parameters = join_parameters({std::move(parameters), reading_parameters()});
+  spec.parameters = join_parameters({std::move(parameters), reading_table().specs()});
   for (const char* signal : {"<name>: ", "<name>_truth: "}) {
     spec.writes.push_back(std::string(signal) + T::kType);
   }

@@ -2,13 +2,16 @@
 
 namespace vinerow {
 
-std::vector<ParameterSpec> reading_parameters() {
-  return {number_parameter("delay_s", "s", 0.0, 0.0, 10.0,
-                           "time between measurement and delivery, a multiple of the physics step"),
-          number_parameter("dropout_share", "", 0.0, 0.0, 1.0,
-                           "share of the readings that never arrive, drawn one by one"),
-          group_list_parameter("outages", time_window_fields("the outage"),
-                               "time windows without a reading")};
+const ParameterTable<ReadingParams>& reading_table() {
+  using P = ReadingParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("delay_s", "s", &P::delay_s, between(0.0, 10.0),
+                  "time between measurement and delivery, a multiple of the physics step")
+          .number("dropout_share", "", &P::dropout_share, between(0.0, 1.0),
+                  "share of the readings that never arrive, drawn one by one")
+          .groups("outages", &P::outages, time_window_table(), "time windows without a reading");
+  return table;
 }
 
 std::vector<ParameterSpec> join_parameters(

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/parameter_table.h"
 #include "engine/api/stepped_parts.h"
 #include "engine/core/random.h"
 #include "engine/sensors/delay_line.h"
@@ -21,20 +22,28 @@
 
 namespace vinerow {
 
+struct ReadingParams {
+  double delay_s = 0.0;
+  double dropout_share = 0.0;
+  std::vector<TimeWindowParams> outages;
+};
+
 /// `delay_s`, `dropout_share`, `outages`.
-std::vector<ParameterSpec> reading_parameters();
+const ParameterTable<ReadingParams>& reading_table();
 /// Several lists as one, in their order.
 std::vector<ParameterSpec> join_parameters(std::initializer_list<std::vector<ParameterSpec>> lists);
 
 template <class T>
 class Readings {
  public:
-  /// @param parameters  with reading_parameters()
+  /// @param parameters  with those of reading_table()
   Readings(const ParameterSet& parameters, const SensorContext& context)
+      : Readings(reading_table().read(parameters, context.part), context) {}
+  Readings(const ReadingParams& params, const SensorContext& context)
       : name_(context.name),
-        outages_(read_time_windows(parameters, "outages", context.part)),
-        dropout_share_(parameters.number("dropout_share")),
-        line_(duration_from_s(parameters.number("delay_s")), context.period),
+        outages_(windows_of(params.outages)),
+        dropout_share_(params.dropout_share),
+        line_(duration_from_s(params.delay_s), context.period),
         random_(context.random("dropout")) {}
 
   void connect(Ports& ports) {

@@ -2,30 +2,37 @@
 
 #include <fmt/format.h>
 
-#include "engine/core/error.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
+namespace {
 
-std::vector<ParameterSpec> time_window_fields(const std::string& what) {
-  return {required(number_parameter("begin_s", "s", 0.0, 0.0, 1e7, "start of " + what)),
-          required(number_parameter("end_s", "s", 0.0, 0.0, 1e7, "end of " + what))};
+std::string find_fault_in_window(const TimeWindowParams& p) {
+  if (p.end_s >= p.begin_s) return "";
+  return fmt::format("end_s = {} s, must be >= begin_s = {} s", p.end_s, p.begin_s);
 }
 
-TimeWindow read_time_window(const ParameterSet& entry, std::string_view list) {
-  const double begin_s = entry.number("begin_s"), end_s = entry.number("end_s");
-  if (end_s < begin_s) {
-    throw ConfigError(
-        fmt::format("{}: end_s = {} s, must be >= begin_s = {} s", list, end_s, begin_s));
-  }
+}  // namespace
+
+const ParameterTable<TimeWindowParams>& time_window_table() {
+  using P = TimeWindowParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("begin_s", "s", &P::begin_s, between(0.0, 1e7), "start of the outage")
+          .required()
+          .number("end_s", "s", &P::end_s, between(0.0, 1e7), "end of the outage")
+          .required()
+          .rule(find_fault_in_window);
+  return table;
+}
+
+TimeWindow TimeWindowParams::window() const {
   return {Time{duration_from_s(begin_s).ns}, Time{duration_from_s(end_s).ns}};
 }
 
-std::vector<TimeWindow> read_time_windows(const ParameterSet& parameters, const std::string& list,
-                                          const std::string& part) {
+std::vector<TimeWindow> windows_of(const std::vector<TimeWindowParams>& params) {
   std::vector<TimeWindow> windows;
-  for (const ParameterSet& entry : parameters.groups(list)) {
-    windows.push_back(read_time_window(entry, part + ": " + list));
-  }
+  for (const TimeWindowParams& window : params) windows.push_back(window.window());
   return windows;
 }
 

@@ -1,11 +1,9 @@
 #pragma once
 /// Windows of simulated time in which something is different: an outage, jamming.
 
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/core/time.h"
 
 namespace vinerow {
@@ -17,17 +15,18 @@ struct TimeWindow {
   bool contains(Time now) const { return now >= begin && now < end; }
 };
 
-/// `begin_s` and `end_s`, the fields of a list of windows. @param what  "the outage"
-std::vector<ParameterSpec> time_window_fields(const std::string& what);
+/// A window as files state it.
+struct TimeWindowParams {
+  double begin_s = 0.0;
+  double end_s = 0.0;  ///< >= begin_s
 
-/// Of an entry with these fields. @param list  the parameter's name, for errors
-/// @throws ConfigError if the window ends before it begins
-TimeWindow read_time_window(const ParameterSet& entry, std::string_view list);
+  TimeWindow window() const;
+};
 
-/// All windows of the group list `list`. @param part  whose they are, for errors
-/// @throws ConfigError as above
-std::vector<TimeWindow> read_time_windows(const ParameterSet& parameters, const std::string& list,
-                                          const std::string& part);
+/// `begin_s` and `end_s`, in words for an outage.
+const ParameterTable<TimeWindowParams>& time_window_table();
+
+std::vector<TimeWindow> windows_of(const std::vector<TimeWindowParams>& params);
 
 bool is_in_any(const std::vector<TimeWindow>& windows, Time now);
 

@@ -6,9 +6,10 @@
 /// What belongs to the device (turn-on bias, E) is drawn once per run.
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
-#include <vector>
 
+#include "engine/api/parameter_table.h"
 #include "engine/api/part.h"
 #include "engine/sensors/bias_instability.h"
 
@@ -18,11 +19,12 @@ namespace vinerow {
 struct TriadFigures {
   AllanFigures allan;
   double turn_on_bias_std_u = 0.0;
-  double scale_error_std = 0.0;                             ///< share
-  Eigen::Vector3d scale_errors = Eigen::Vector3d::Zero();   ///< added to what is drawn
-  double misalignment_std_rad = 0.0;                        ///< of each of the six angles
-  Eigen::Matrix3d misalignments = Eigen::Matrix3d::Zero();  ///< added to what is drawn, rad
-  double range_u = 0.0;
+  double scale_error_std = 0.0;                            ///< share
+  Eigen::Vector3d scale_errors = Eigen::Vector3d::Zero();  ///< added to what is drawn
+  double misalignment_std_rad = 0.0;                       ///< of each of the six angles
+  /// Added to what is drawn, rad: x towards y and z, y towards x and z, z towards x and y.
+  std::array<double, 6> misalignments_rad{};
+  double range_u = 1.0;       ///< > 0
   double resolution_u = 0.0;  ///< 0: continuous
 };
 
@@ -32,13 +34,12 @@ struct TriadNames {
   std::string unit, unit_key;                     ///< "deg/s", "dps"
   std::string walk_unit, walk_key;                ///< "deg/s2", "dps2"
   std::string instability_unit, instability_key;  ///< "deg/h", "dph"
-  double si = 1.0;                                ///< value of `unit` in SI
-  double instability_si = 1.0;                    ///< value of `instability_unit` in SI
+  ParameterConversion si;                         ///< from `unit` to SI
+  ParameterConversion instability_si;             ///< from `instability_unit` to SI
 };
 
-/// @param noise  default white noise density in the names' unit; @param range  likewise
-std::vector<ParameterSpec> triad_parameters(const TriadNames& names, double noise, double range);
-TriadFigures triad_figures(const TriadNames& names, const ParameterSet& parameters);
+/// @returns a table of its own, to be kept
+ParameterTable<TriadFigures> make_triad_table(const TriadNames& names);
 
 class Triad {
  public:
@@ -46,7 +47,7 @@ class Triad {
   ///              "_bias" (wandering) and "_device" (drawn once)
   /// @throws ConfigError if white noise and random walk alone are more than the bias instability
   ///                     allows
-  Triad(const TriadNames& names, const ParameterSet& parameters, const PartContext& context);
+  Triad(const TriadNames& names, const TriadFigures& figures, const PartContext& context);
 
   Eigen::Vector3d read(const Eigen::Vector3d& truth);
 

@@ -4,13 +4,26 @@
 
 #include <utility>
 
+#include "engine/api/parameter_table.h"
+
 namespace vinerow {
 namespace {
+
+struct PlanJobParams {
+  std::string vehicle;
+};
+
+const ParameterTable<PlanJobParams>& plan_job_table() {
+  using P = PlanJobParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>().text("vehicle", &P::vehicle, "name of the vehicle").required();
+  return table;
+}
 
 class PlanJob : public Job {
  public:
   PlanJob(const ParameterSet& parameters, const JobContext& context)
-      : context_(context), of_vehicle_(parameters.text("vehicle")) {}
+      : context_(context), of_vehicle_(plan_job_table().read(parameters, "").vehicle) {}
 
   Result<JobOutcome> run(const std::map<std::string, Product>& inputs) override {
     const auto map = inputs.find("map");
@@ -42,7 +55,7 @@ void register_plan_job(Registry& registry) {
   spec.description =
       "plans for a vehicle from where it stands, with its own planner, before the phase in which "
       "it drives";
-  spec.parameters = {required(text_parameter("vehicle", "", "name of the vehicle"))};
+  spec.parameters = plan_job_table().specs();
   spec.takes = {{"map", ProductKind::kMap, false, "to plan on; default: the vehicle's own"}};
   spec.gives = ProductKind::kPlan;
   registry.add_job(std::move(spec), [](const ParameterSet& parameters, const JobContext& context) {

@@ -62,7 +62,7 @@ TEST(RowMap, OrdersMixedUpRowsAcrossTheBlock) {
 
 TEST(Terrain, PlaneHasItsSlopeAndWavesTheirHeight) {
   TerrainShape shape;
-  shape.gradient = 0.1 * bearing_direction(90.0);
+  shape.gradient = 0.1 * bearing_direction(rad_from_deg(90.0));
   const TerrainSurface plane(shape, RandomStream(1, "", "t"));
   EXPECT_NEAR(plane.height_m({20, 7}) - plane.height_m({10, 7}), 1.0, 1e-12);
   EXPECT_NEAR(plane.height_m({20, 17}) - plane.height_m({20, 7}), 0.0, 1e-12);

@@ -60,7 +60,7 @@ void add_grid_command(CLI::App& app, int& exit_status) {
     worlds::OccupancyReport report;
     const ParameterSet& parameters = scenario.world.parameters;
     // A map from a file has the walls that it has.
-    if (worlds::has_map_parameters(parameters) && !parameters.has("occupancy_file")) {
+    if (worlds::has_map_parameters(parameters) && !parameters.find("occupancy_file")) {
       report = worlds::plan_occupancy(world->rows, worlds::read_map_options(parameters));
     }
     const std::filesystem::path out =

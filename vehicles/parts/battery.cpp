@@ -2,14 +2,24 @@
 
 #include <algorithm>
 
-#include "vehicles/parts/validation.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow::vehicles {
 
 void BatteryParams::validate(const std::string& who) const {
-  demand_positive(who, "battery_capacity_Wh", capacity_Wh);
-  demand_not_negative(who, "electronics_W", electronics_W);
-  demand_range(who, "initial_charge", initial_charge, 0.0, 1.0);
+  battery_table().validate(*this, who);
+}
+
+const ParameterTable<BatteryParams>& battery_table() {
+  using P = BatteryParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("battery_capacity_Wh", "Wh", &P::capacity_Wh, kPositive, "full charge")
+          .number("electronics_W", "W", &P::electronics_W, between(0.0, 1e5),
+                  "power drawn by computers, sensors and radio")
+          .number("initial_charge", "", &P::initial_charge, between(0.0, 1.0),
+                  "share of the capacity at the start");
+  return table;
 }
 
 void advance_battery(const BatteryParams& params, double motors_W, double dt_s,

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/api/messages/sensors.h"
+#include "engine/api/parameter_table_fwd.h"
 
 namespace vinerow::vehicles {
 
@@ -12,8 +13,12 @@ struct BatteryParams {
   double electronics_W = 30.0;  ///< computers, sensors, radio; always drawn, >= 0
   double initial_charge = 1.0;  ///< share of the capacity at the start, 0..1
 
+  /// @throws ConfigError
   void validate(const std::string& who) const;
 };
+
+/// battery_capacity_Wh, electronics_W, initial_charge
+const ParameterTable<BatteryParams>& battery_table();
 
 /// Draws power for a while; energy won back raises the charge, up to full.
 /// @param motors_W  sum of the motors, negative when braking wins energy

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "vehicles/parts/validation.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -15,9 +15,20 @@ constexpr double kLeastFacing = 0.2;
 }  // namespace
 
 void LandingFootParams::validate(const std::string& who) const {
-  demand_positive(who, "gear_stiffness_N_per_m", stiffness_N_per_m);
-  demand_not_negative(who, "gear_damping_Ns_per_m", damping_Ns_per_m);
-  demand_not_negative(who, "gear_friction", friction);
+  landing_foot_table().validate(*this, who);
+}
+
+const ParameterTable<LandingFootParams>& landing_foot_table() {
+  using P = LandingFootParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("gear_stiffness_N_per_m", "N/m", &P::stiffness_N_per_m, kPositive,
+                  "of a leg with its foot, along and across")
+          .number("gear_damping_Ns_per_m", "N s/m", &P::damping_Ns_per_m, between(0.0, 1e5),
+                  "of a leg with its foot")
+          .number("gear_friction", "", &P::friction, between(0.0, 10.0),
+                  "Coulomb coefficient of feet on ground");
+  return table;
 }
 
 std::optional<FootContact> press_foot(const LandingFootParams& params,

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/physics/physics_world.h"
 
 namespace vinerow::vehicles {
@@ -25,6 +26,9 @@ struct LandingFootParams {
   /// @throws ConfigError
   void validate(const std::string& who) const;
 };
+
+/// gear_stiffness_N_per_m, gear_damping_Ns_per_m, gear_friction
+const ParameterTable<LandingFootParams>& landing_foot_table();
 
 struct LandingFootState {
   bool stands = false;

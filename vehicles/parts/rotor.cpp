@@ -2,17 +2,31 @@
 
 #include <cmath>
 
-#include "vehicles/parts/validation.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow::vehicles {
 
 void RotorParams::validate(const std::string& who) const {
-  demand_positive(who, "thrust_coefficient_Ns2", thrust_coefficient_Ns2);
-  demand_not_negative(who, "torque_coefficient_Nms2", torque_coefficient_Nms2);
-  demand_positive(who, "max_rotor_radps", max_radps);
-  demand_not_negative(who, "rotor_rise_lag_s", rise_lag_s);
-  demand_not_negative(who, "rotor_fall_lag_s", fall_lag_s);
-  demand_not_negative(who, "rotor_inertia_kgm2", inertia_kgm2);
+  rotor_table().validate(*this, who);
+}
+
+const ParameterTable<RotorParams>& rotor_table() {
+  using P = RotorParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("thrust_coefficient_Ns2", "N s2", &P::thrust_coefficient_Ns2, kPositive,
+                  "thrust of a rotor over its speed squared, at 1.225 kg/m3")
+          .number("torque_coefficient_Nms2", "N m s2", &P::torque_coefficient_Nms2,
+                  between(0.0, 1.0),
+                  "drag torque of a rotor over its speed squared, at 1.225 kg/m3")
+          .number("max_rotor_radps", "rad/s", &P::max_radps, kPositive, "largest rotor speed")
+          .number("rotor_rise_lag_s", "s", &P::rise_lag_s, between(0.0, 10.0),
+                  "time constant of a rotor that speeds up")
+          .number("rotor_fall_lag_s", "s", &P::fall_lag_s, between(0.0, 10.0),
+                  "time constant of a rotor that slows down")
+          .number("rotor_inertia_kgm2", "kg m2", &P::inertia_kgm2, between(0.0, 1.0),
+                  "of blades, hub and motor bell about the axis");
+  return table;
 }
 
 SpeedLag::SpeedLag(double lag_s, double dt_s) {

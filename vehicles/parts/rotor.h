@@ -12,6 +12,8 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "engine/api/parameter_table_fwd.h"
+
 namespace vinerow::vehicles {
 
 struct RotorParams {
@@ -25,6 +27,10 @@ struct RotorParams {
   /// @throws ConfigError
   void validate(const std::string& who) const;
 };
+
+/// thrust_coefficient_Ns2, torque_coefficient_Nms2, max_rotor_radps, rotor_rise_lag_s,
+/// rotor_fall_lag_s, rotor_inertia_kgm2
+const ParameterTable<RotorParams>& rotor_table();
 
 /// What a rotor's speed does in one step.
 struct SpeedCourse {

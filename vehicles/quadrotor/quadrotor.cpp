@@ -122,9 +122,9 @@ void Quadrotor::meet_faults(Time now) {
       continue;
     }
     // Thrust goes with the speed squared.
-    speed_share_[fault.rotor] = std::sqrt(fault.remaining);
+    speed_share_[*fault.rotor] = std::sqrt(fault.remaining);
     tell(Event::Level::kError, fmt::format("rotor {} fails: {:.0f} % of its thrust left",
-                                           fault.rotor + 1, 100.0 * fault.remaining));
+                                           *fault.rotor + 1, 100.0 * fault.remaining));
   }
   if (powered_ && battery_.charge <= 0.0) {
     powered_ = false;

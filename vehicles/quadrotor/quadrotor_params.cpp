@@ -4,98 +4,120 @@
 
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
-#include "vehicles/parts/validation.h"
 
 namespace vinerow::vehicles {
 namespace {
 
-void validate_shape(const QuadrotorParams& p) {
-  demand_positive(p.name, "arm_m", p.arm_m);
-  demand_positive(p.name, "rotor_radius_m", p.rotor_radius_m);
-  demand_range(p.name, "rotor_height_m", p.rotor_height_m, 0.0, 1.0);
-  demand_positive(p.name, "stand_height_m", p.stand_height_m);
-  demand_positive(p.name, "gear_radius_m", p.gear_radius_m);
-  p.foot.validate(p.name);
+std::string find_fault_in_shape(const QuadrotorParams& p) {
   // Neighbouring hubs are arm * sqrt(2) apart.
   if (std::sqrt(2.0) * p.arm_m <= 2.0 * p.rotor_radius_m) {
-    throw ConfigError(fmt::format(
-        "{}: rotors of rotor_radius_m = {:.4g} would strike each other on arms of arm_m = {:.4g}",
-        p.name, p.rotor_radius_m, p.arm_m));
+    return fmt::format(
+        "rotors of rotor_radius_m = {:.4g} would strike each other on arms of arm_m = {:.4g}",
+        p.rotor_radius_m, p.arm_m);
   }
   if (p.gear_radius_m > p.arm_m) {
-    throw ConfigError(fmt::format("{}: gear_radius_m = {:.4g} is longer than arm_m = {:.4g}",
-                                  p.name, p.gear_radius_m, p.arm_m));
+    return fmt::format("gear_radius_m = {:.4g} is longer than arm_m = {:.4g}", p.gear_radius_m,
+                       p.arm_m);
   }
   if (p.stand_height_m < 0.08) {
-    throw ConfigError(
-        fmt::format("{}: stand_height_m = {:.4g}, must be 0.08 or more to keep the "
-                    "body off the ground",
-                    p.name, p.stand_height_m));
+    return fmt::format(
+        "stand_height_m = {:.4g}, must be 0.08 or more to keep the body off the ground",
+        p.stand_height_m);
   }
+  return "";
 }
 
-std::vector<ParameterSpec> fault_fields() {
-  return {
-      required(choice_parameter("kind", "rotor_failure", {"rotor_failure", "battery_empty"},
-                                "what fails")),
-      required(number_parameter("at_s", "s", 0.0, 0.0, 1e9, "when")),
-      optional(integer_parameter("rotor", 1, 1, kRotors,
-                                 "which rotor fails: 1 is the front (left) one, the others "
-                                 "follow counter-clockwise")),
-      number_parameter("remaining", "", 0.0, 0.0, 1.0, "share of the rotor's thrust that is left")};
+std::string find_fault_in_inertia(const QuadrotorParams& p) {
+  const Eigen::Vector3d& inertia = p.inertia_kgm2;
+  if (2.0 * inertia.maxCoeff() <= inertia.sum()) return "";
+  return fmt::format(
+      "inertia_kgm2 = [{:.4g}, {:.4g}, {:.4g}] is that of no body: one of them is larger than the "
+      "other two together",
+      inertia.x(), inertia.y(), inertia.z());
 }
 
-std::vector<QuadrotorFault> read_faults(const ParameterSet& parameters, const std::string& name) {
-  std::vector<QuadrotorFault> faults;
-  for (const ParameterSet& group : parameters.groups("faults")) {
-    QuadrotorFault fault;
-    fault.at_s = group.number("at_s");
-    fault.remaining = group.number("remaining");
-    if (group.text("kind") == "battery_empty") {
-      fault.kind = QuadrotorFault::Kind::kBatteryEmpty;
-    } else if (!group.has("rotor")) {
-      throw ConfigError(
-          fmt::format("{}: faults[{}]: a rotor_failure must tell which 'rotor' (1 to {})", name,
-                      faults.size(), kRotors));
-    } else {
-      fault.rotor = static_cast<std::size_t>(group.integer("rotor")) - 1;
-    }
-    faults.push_back(fault);
-  }
-  return faults;
+const ParameterTable<QuadrotorFault>& fault_table() {
+  using F = QuadrotorFault;
+  static const ParameterTable<F> table =
+      ParameterTable<F>()
+          .choice("kind", &F::kind,
+                  {{"rotor_failure", F::Kind::kRotorFailure},
+                   {"battery_empty", F::Kind::kBatteryEmpty}},
+                  "what fails")
+          .required()
+          .number("at_s", "s", &F::at_s, between(0.0, 1e9), "when")
+          .required()
+          .integer("rotor", &F::rotor, between(1, kRotors),
+                   "which rotor fails: 1 is the front (left) one, the others follow "
+                   "counter-clockwise",
+                   kCountedFromOne)
+          .number("remaining", "", &F::remaining, between(0.0, 1.0),
+                  "share of the rotor's thrust that is left")
+          .rule([](const F& fault) -> std::string {
+            if (fault.kind != F::Kind::kRotorFailure || fault.rotor) return "";
+            return fmt::format("a rotor_failure must tell which 'rotor' (1 to {})", kRotors);
+          });
+  return table;
 }
 
-GroundEffectModel ground_effect_model(const std::string& text) {
-  if (text == "none") return GroundEffectModel::kNone;
-  return text == "single" ? GroundEffectModel::kSingle : GroundEffectModel::kMultirotor;
+const ParameterTable<QuadrotorParams>& quadrotor_table() {
+  using P = QuadrotorParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .choice("layout", &P::layout,
+                  {{"x", QuadrotorLayout::kX}, {"plus", QuadrotorLayout::kPlus}},
+                  "two rotors ahead, or one")
+          .number("mass_kg", "kg", &P::mass_kg, kPositive, "everything that flies")
+          .numbers("inertia_kgm2", "kg m2", &P::inertia_kgm2, kPositive,
+                   "moments about the body's axes")
+          .number("arm_m", "m", &P::arm_m, kPositive, "from the middle to a rotor's hub")
+          .number("rotor_radius_m", "m", &P::rotor_radius_m, kPositive, "length of a blade")
+          .number("rotor_height_m", "m", &P::rotor_height_m, between(0.0, 1.0),
+                  "rotors' plane above the centre of mass")
+          .number("stand_height_m", "m", &P::stand_height_m, kPositive,
+                  "centre of mass above level ground, standing")
+          .number("gear_radius_m", "m", &P::gear_radius_m, kPositive,
+                  "from the middle to a foot of the landing gear")
+          .include(&P::foot, landing_foot_table())
+          .include(&P::rotor, rotor_table())
+          .number("rotor_drag_Ns_per_m", "N s/m", &P::rotor_drag_Ns_per_m, between(0.0, 1e3),
+                  "force of all rotors at hover against motion across their axes")
+          .number("inflow_drag_Ns_per_m", "N s/m", &P::inflow_drag_Ns_per_m, between(0.0, 1e3),
+                  "thrust that all rotors lose at hover per speed of climb")
+          .number("body_drag_area_m2", "m2", &P::body_drag_area_m2, between(0.0, 100.0),
+                  "drag coefficient times area of the body")
+          .choice("ground_effect", &P::ground_effect,
+                  {{"none", GroundEffectModel::kNone},
+                   {"single", GroundEffectModel::kSingle},
+                   {"multirotor", GroundEffectModel::kMultirotor}},
+                  "Cheeseman and Bennett per rotor, or Sanchez-Cuevas et al. for four")
+          .number("ground_effect_body_lift", "", &P::ground_effect_body_lift, between(0.0, 10.0),
+                  "K_b: lift of the wake that turns up below the body")
+          .number("motor_efficiency", "", &P::motor_efficiency, between(0.01, 1.0),
+                  "shaft over electric power of motors and speed controllers")
+          .include(&P::battery, battery_table())
+          .number("landing_speed_limit_mps", "m/s", &P::landing_speed_limit_mps, kPositive,
+                  "touching the ground faster than this is a crash")
+          .degrees("landing_tilt_limit_deg", &P::landing_tilt_limit_rad, between(1.0, 90.0),
+                   "touching the ground tilted more than this is a crash")
+          .degrees("max_tilt_deg", &P::max_tilt_rad, between(1.0, 80.0),
+                   "tilt in flight, told to controllers")
+          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "told to controllers")
+          .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
+                  "told to planners")
+          .groups("faults", &P::faults, fault_table(), "what goes wrong during the flight")
+          .rule(find_fault_in_shape)
+          .rule(find_fault_in_inertia);
+  return table;
 }
 
 }  // namespace
 
 void QuadrotorParams::validate(double gravity_mps2) const {
-  demand_positive(name, "mass_kg", mass_kg);
-  validate_shape(*this);
-  for (int k = 0; k < 3; ++k) demand_positive(name, "inertia_kgm2", inertia_kgm2[k]);
-  if (2.0 * inertia_kgm2.maxCoeff() > inertia_kgm2.sum()) {
-    throw ConfigError(fmt::format(
-        "{}: inertia_kgm2 = [{:.4g}, {:.4g}, {:.4g}] is that of no body: one of them is larger "
-        "than the other two together",
-        name, inertia_kgm2.x(), inertia_kgm2.y(), inertia_kgm2.z()));
-  }
-  rotor.validate(name);
-  demand_not_negative(name, "rotor_drag_Ns_per_m", rotor_drag_Ns_per_m);
-  demand_not_negative(name, "inflow_drag_Ns_per_m", inflow_drag_Ns_per_m);
-  demand_not_negative(name, "body_drag_area_m2", body_drag_area_m2);
-  demand_range(name, "ground_effect_body_lift", ground_effect_body_lift, 0.0, 10.0);
-  demand_range(name, "motor_efficiency", motor_efficiency, 0.01, 1.0);
-  battery.validate(name);
-  demand_positive(name, "landing_speed_limit_mps", landing_speed_limit_mps);
-  demand_range(name, "landing_tilt_limit_deg", deg_from_rad(landing_tilt_limit_rad), 1.0, 90.0);
-  demand_range(name, "max_tilt_deg", deg_from_rad(max_tilt_rad), 1.0, 80.0);
-  demand_positive(name, "max_speed_mps", max_speed_mps);
-  demand_not_negative(name, "min_turning_radius_m", min_turning_radius_m);
+  quadrotor_table().validate(*this, name);
   const double weight_N = mass_kg * gravity_mps2;
   if (max_thrust_N() <= weight_N) {
     throw ConfigError(
@@ -129,110 +151,20 @@ RotorAir QuadrotorParams::rotor_air() const {
 }
 
 PartSpec quadrotor_spec() {
-  const QuadrotorParams d;
   PartSpec spec;
   spec.name = "quadrotor";
   spec.description =
       "Rotorcraft with four rotors (papers A and C): speed lag, thrust and drag torque of speed "
       "squared, rotor inertia, drag in the wind, ground effect; X or + layout";
   spec.writes = {"rotors", "battery", "vehicle_event"};
-  spec.parameters = {
-      choice_parameter("layout", "x", {"x", "plus"}, "two rotors ahead, or one"),
-      positive_parameter("mass_kg", "kg", d.mass_kg, "everything that flies"),
-      number_list_parameter("inertia_kgm2", "kg m2",
-                            {d.inertia_kgm2.x(), d.inertia_kgm2.y(), d.inertia_kgm2.z()},
-                            "moments about the body's axes", 3),
-      positive_parameter("arm_m", "m", d.arm_m, "from the middle to a rotor's hub"),
-      positive_parameter("rotor_radius_m", "m", d.rotor_radius_m, "length of a blade"),
-      number_parameter("rotor_height_m", "m", d.rotor_height_m, 0.0, 1.0,
-                       "rotors' plane above the centre of mass"),
-      positive_parameter("stand_height_m", "m", d.stand_height_m,
-                         "centre of mass above level ground, standing"),
-      positive_parameter("gear_radius_m", "m", d.gear_radius_m,
-                         "from the middle to a foot of the landing gear"),
-      positive_parameter("gear_stiffness_N_per_m", "N/m", d.foot.stiffness_N_per_m,
-                         "of a leg with its foot, along and across"),
-      number_parameter("gear_damping_Ns_per_m", "N s/m", d.foot.damping_Ns_per_m, 0.0, 1e5,
-                       "of a leg with its foot"),
-      number_parameter("gear_friction", "", d.foot.friction, 0.0, 10.0,
-                       "Coulomb coefficient of feet on ground"),
-      positive_parameter("thrust_coefficient_Ns2", "N s2", d.rotor.thrust_coefficient_Ns2,
-                         "thrust of a rotor over its speed squared, at 1.225 kg/m3"),
-      number_parameter("torque_coefficient_Nms2", "N m s2", d.rotor.torque_coefficient_Nms2, 0.0,
-                       1.0, "drag torque of a rotor over its speed squared, at 1.225 kg/m3"),
-      positive_parameter("max_rotor_radps", "rad/s", d.rotor.max_radps, "largest rotor speed"),
-      number_parameter("rotor_rise_lag_s", "s", d.rotor.rise_lag_s, 0.0, 10.0,
-                       "time constant of a rotor that speeds up"),
-      number_parameter("rotor_fall_lag_s", "s", d.rotor.fall_lag_s, 0.0, 10.0,
-                       "time constant of a rotor that slows down"),
-      number_parameter("rotor_inertia_kgm2", "kg m2", d.rotor.inertia_kgm2, 0.0, 1.0,
-                       "of blades, hub and motor bell about the axis"),
-      number_parameter("rotor_drag_Ns_per_m", "N s/m", d.rotor_drag_Ns_per_m, 0.0, 1e3,
-                       "force of all rotors at hover against motion across their axes"),
-      number_parameter("inflow_drag_Ns_per_m", "N s/m", d.inflow_drag_Ns_per_m, 0.0, 1e3,
-                       "thrust that all rotors lose at hover per speed of climb"),
-      number_parameter("body_drag_area_m2", "m2", d.body_drag_area_m2, 0.0, 100.0,
-                       "drag coefficient times area of the body"),
-      choice_parameter("ground_effect", "multirotor", {"none", "single", "multirotor"},
-                       "Cheeseman and Bennett per rotor, or Sanchez-Cuevas et al. for four"),
-      number_parameter("ground_effect_body_lift", "", d.ground_effect_body_lift, 0.0, 10.0,
-                       "K_b: lift of the wake that turns up below the body"),
-      number_parameter("motor_efficiency", "", d.motor_efficiency, 0.01, 1.0,
-                       "shaft over electric power of motors and speed controllers"),
-      positive_parameter("battery_capacity_Wh", "Wh", d.battery.capacity_Wh, "full charge"),
-      number_parameter("electronics_W", "W", d.battery.electronics_W, 0.0, 1e5,
-                       "power drawn by computers, sensors and radio"),
-      number_parameter("initial_charge", "", d.battery.initial_charge, 0.0, 1.0,
-                       "share of the capacity at the start"),
-      positive_parameter("landing_speed_limit_mps", "m/s", d.landing_speed_limit_mps,
-                         "touching the ground faster than this is a crash"),
-      number_parameter("landing_tilt_limit_deg", "deg", deg_from_rad(d.landing_tilt_limit_rad), 1.0,
-                       90.0, "touching the ground tilted more than this is a crash"),
-      number_parameter("max_tilt_deg", "deg", deg_from_rad(d.max_tilt_rad), 1.0, 80.0,
-                       "tilt in flight, told to controllers"),
-      positive_parameter("max_speed_mps", "m/s", d.max_speed_mps, "told to controllers"),
-      number_parameter("min_turning_radius_m", "m", d.min_turning_radius_m, 0.0, 1e3,
-                       "told to planners"),
-      group_list_parameter("faults", fault_fields(), "what goes wrong during the flight"),
-  };
+  spec.parameters = quadrotor_table().specs();
   return spec;
 }
 
 QuadrotorParams read_quadrotor_params(const ParameterSet& parameters, const std::string& name,
                                       double gravity_mps2) {
-  QuadrotorParams p;
+  QuadrotorParams p = quadrotor_table().read(parameters, name);
   p.name = name;
-  p.layout = parameters.text("layout") == "plus" ? QuadrotorLayout::kPlus : QuadrotorLayout::kX;
-  p.mass_kg = parameters.number("mass_kg");
-  p.inertia_kgm2 = Eigen::Vector3d(parameters.numbers("inertia_kgm2").data());
-  p.arm_m = parameters.number("arm_m");
-  p.rotor_radius_m = parameters.number("rotor_radius_m");
-  p.rotor_height_m = parameters.number("rotor_height_m");
-  p.stand_height_m = parameters.number("stand_height_m");
-  p.gear_radius_m = parameters.number("gear_radius_m");
-  p.foot.stiffness_N_per_m = parameters.number("gear_stiffness_N_per_m");
-  p.foot.damping_Ns_per_m = parameters.number("gear_damping_Ns_per_m");
-  p.foot.friction = parameters.number("gear_friction");
-  p.rotor.thrust_coefficient_Ns2 = parameters.number("thrust_coefficient_Ns2");
-  p.rotor.torque_coefficient_Nms2 = parameters.number("torque_coefficient_Nms2");
-  p.rotor.max_radps = parameters.number("max_rotor_radps");
-  p.rotor.rise_lag_s = parameters.number("rotor_rise_lag_s");
-  p.rotor.fall_lag_s = parameters.number("rotor_fall_lag_s");
-  p.rotor.inertia_kgm2 = parameters.number("rotor_inertia_kgm2");
-  p.rotor_drag_Ns_per_m = parameters.number("rotor_drag_Ns_per_m");
-  p.inflow_drag_Ns_per_m = parameters.number("inflow_drag_Ns_per_m");
-  p.body_drag_area_m2 = parameters.number("body_drag_area_m2");
-  p.ground_effect = ground_effect_model(parameters.text("ground_effect"));
-  p.ground_effect_body_lift = parameters.number("ground_effect_body_lift");
-  p.motor_efficiency = parameters.number("motor_efficiency");
-  p.battery = {parameters.number("battery_capacity_Wh"), parameters.number("electronics_W"),
-               parameters.number("initial_charge")};
-  p.landing_speed_limit_mps = parameters.number("landing_speed_limit_mps");
-  p.landing_tilt_limit_rad = rad_from_deg(parameters.number("landing_tilt_limit_deg"));
-  p.max_tilt_rad = rad_from_deg(parameters.number("max_tilt_deg"));
-  p.max_speed_mps = parameters.number("max_speed_mps");
-  p.min_turning_radius_m = parameters.number("min_turning_radius_m");
-  p.faults = read_faults(parameters, name);
   p.validate(gravity_mps2);
   return p;
 }

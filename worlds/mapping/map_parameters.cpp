@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/io/ros_map.h"
 #include "worlds/parts/row_map.h"
@@ -31,20 +33,24 @@ void give_boundary(WorldModel& world) {
 
 }  // namespace
 
-std::vector<ParameterSpec> map_parameters() {
-  ParameterSpec cell =
-      number_parameter("occupancy_cell_m", "m", 0.05, 0, 10,
-                       "cell of the occupancy grid that vehicles are told; 0: no grid");
-  return {cell,
-          boolean_parameter("virtual_walls", true,
-                            "walls on the map from row ends to the boundary, so that only the "
-                            "serpentine is free"),
-          choice_parameter("first_wall", "auto", {"auto", "first", "last"},
-                           "point of row 0 that is walled, the ends of the others alternate; auto: "
-                           "open for a serpentine that begins at alley 0's first point"),
-          path_parameter("occupancy_file",
-                         "ROS map (YAML with a PGM beside it) that vehicles are told instead of "
-                         "the true rows")};
+const ParameterTable<MapParams>& map_table() {
+  using P = MapParams;
+  using Grid = OccupancyOptions;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("occupancy_cell_m", "m", inside(&P::grid, &Grid::cell_m), between(0.0, 10.0),
+                  "cell of the occupancy grid that vehicles are told; 0: no grid")
+          .boolean("virtual_walls", inside(&P::grid, &Grid::virtual_walls),
+                   "walls on the map from row ends to the boundary, so that only the "
+                   "serpentine is free")
+          .choice("first_wall", inside(&P::grid, &Grid::first_wall),
+                  {{"auto", std::nullopt}, {"first", RowEnd::kFirst}, {"last", RowEnd::kLast}},
+                  "point of row 0 that is walled, the ends of the others alternate; auto: "
+                  "open for a serpentine that begins at alley 0's first point")
+          .path("occupancy_file", &P::occupancy_file,
+                "ROS map (YAML with a PGM beside it) that vehicles are told instead of "
+                "the true rows");
+  return table;
 }
 
 bool has_map_parameters(const ParameterSet& parameters) {
@@ -54,25 +60,19 @@ bool has_map_parameters(const ParameterSet& parameters) {
 }
 
 OccupancyOptions read_map_options(const ParameterSet& parameters) {
-  OccupancyOptions options;
-  options.cell_m = parameters.number("occupancy_cell_m");
-  options.virtual_walls = parameters.boolean("virtual_walls");
-  const std::string& first = parameters.text("first_wall");
-  if (first == "first") options.first_wall = RowEnd::kFirst;
-  if (first == "last") options.first_wall = RowEnd::kLast;
-  return options;
+  return map_table().read(parameters, "").grid;
 }
 
-void fill_occupancy(const ParameterSet& parameters, WorldModel& world,
+void fill_occupancy(const MapParams& params, WorldModel& world,
                     const std::vector<std::vector<Eigen::Vector2d>>& obstacles_W,
                     double row_end_margin_m) {
-  if (parameters.has("occupancy_file")) {
-    io::RosMap map = io::load_ros_map(parameters.text("occupancy_file"));
+  if (!params.occupancy_file.empty()) {
+    io::RosMap map = io::load_ros_map(params.occupancy_file);
     world.rows->occupancy = std::move(map.grid);
     for (std::string& note : map.notes) world.notes.push_back(std::move(note));
     return;
   }
-  OccupancyOptions options = read_map_options(parameters);
+  OccupancyOptions options = params.grid;
   if (options.cell_m == 0.0 || world.rows->rows.empty()) return;
   if (world.rows->boundary_W.empty()) give_boundary(world);
   const double wanted_m = options.cell_m;

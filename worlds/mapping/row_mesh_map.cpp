@@ -7,20 +7,17 @@
 #include <cmath>
 
 #include "engine/api/file_shelf.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
-#include "engine/math/angles.h"
 #include "worlds/mapping/chain_errors.h"
 #include "worlds/mapping/map_files.h"
 #include "worlds/mapping/map_placement.h"
-#include "worlds/mapping/row_mesh_parameters.h"
 
 namespace vinerow::worlds {
 namespace {
-
-using Missing = RowMeshReport::Missing;
 
 RowCurve curve_of(const PlantRow& row) {
   std::vector<Eigen::Vector2d> points;
@@ -107,16 +104,8 @@ std::int64_t count_true_triangles(const WorldModel& world) {
 
 class Surveyor {
  public:
-  Surveyor(const ParameterSet& parameters, const MapContext& context)
-      : parameters_(parameters), context_(context), rows_(context.world->rows->rows) {
-    const auto& spacing = parameters.numbers("section_spacing_m");
-    if (spacing[0] > spacing[1]) {
-      throw ConfigError(
-          fmt::format("section_spacing_m = [{}, {}] m, the first must be <= the second", spacing[0],
-                      spacing[1]));
-    }
-    options_ = {spacing[0], spacing[1], static_cast<int>(parameters.integer("levels"))};
-  }
+  Surveyor(const RowMeshParams& params, const MapContext& context)
+      : params_(params), context_(context), rows_(context.world->rows->rows) {}
 
   std::vector<RowMesh> survey(RowMeshReport& report) {
     std::vector<std::vector<SectionChain>> chains;
@@ -125,12 +114,12 @@ class Surveyor {
       const RowCurve curve = curve_of(rows_[k]);
       RandomStream random = stream(fmt::format("sections.row_{:02}", k));
       const RowSurroundings around{side_reach_m(rows_, k), 1.5 * rows_[k].canopy_top_m + 1.0};
-      auto found = survey_canopy(*context_.scene, curve, ground, around, options_, random);
+      auto found = survey_canopy(*context_.scene, curve, ground, around, params_.sections, random);
       if (found.empty()) {
         report.unseen_rows.push_back(rows_[k].id);
-        found.push_back(chain_of_row(rows_[k], curve, options_, random));
+        found.push_back(chain_of_row(rows_[k], curve, params_.sections, random));
       }
-      if (parameters_.boolean("fill_gaps")) fill_gaps(found, options_, random);
+      if (params_.fill_gaps) fill_gaps(found, params_.sections, random);
       chains.push_back(std::move(found));
     }
     remove_missing(chains, report);
@@ -139,8 +128,8 @@ class Surveyor {
       RandomStream random = stream(fmt::format("surface.row_{:02}", k));
       const RowCurve curve = curve_of(rows_[k]);
       for (SectionChain& chain : chains[k]) {
-        add_surface_noise(chain, parameters_.number("surface_noise_std_m"),
-                          parameters_.number("surface_noise_length_m"), random);
+        add_surface_noise(chain, params_.surface_noise_std_m, params_.surface_noise_length_m,
+                          random);
         meshes.push_back({rows_[k].id, make_chain_hull(chain, curve, ground)});
       }
     }
@@ -149,29 +138,22 @@ class Surveyor {
 
   /// Fresh numbers of this map, or of the survey that it shares with others.
   RandomStream stream(const std::string& component) const {
-    const std::string& survey = parameters_.text("survey");
-    if (survey.empty()) return context_.random(component);
-    return RandomStream(context_.seed, "", fmt::format("map.{}.{}", survey, component));
+    if (params_.survey.empty()) return context_.random(component);
+    return RandomStream(context_.seed, "", fmt::format("map.{}.{}", params_.survey, component));
   }
 
  private:
   void remove_missing(std::vector<std::vector<SectionChain>>& chains, RowMeshReport& report) {
-    for (const ParameterSet& gap : parameters_.groups("missing")) {
-      const Missing missing{static_cast<int>(gap.integer("row")), gap.number("from_m"),
-                            gap.number("to_m")};
+    for (const MissingStretch& missing : params_.missing) {
       if (std::none_of(rows_.begin(), rows_.end(),
                        [&](const PlantRow& row) { return row.id == missing.row; })) {
         throw ConfigError(fmt::format("missing: there is no row {}, the last one is {}",
                                       missing.row, rows_.back().id));
       }
-      if (!(missing.from_m < missing.to_m)) {
-        throw ConfigError(fmt::format("missing: from_m = {} m of row {}, must be < to_m = {} m",
-                                      missing.from_m, missing.row, missing.to_m));
-      }
       report.missing.push_back(missing);
     }
-    if (parameters_.has("random_missing")) draw_missing(chains, report);
-    for (const Missing& missing : report.missing) {
+    if (params_.random_missing) draw_missing(chains, report);
+    for (const MissingStretch& missing : report.missing) {
       for (std::size_t k = 0; k < rows_.size(); ++k) {
         if (rows_[k].id == missing.row) remove_stretch(chains[k], missing.from_m, missing.to_m);
       }
@@ -179,8 +161,7 @@ class Surveyor {
   }
 
   void draw_missing(const std::vector<std::vector<SectionChain>>& chains, RowMeshReport& report) {
-    const ParameterSet& group = parameters_.group("random_missing");
-    const double length_m = group.number("length_m");
+    const double length_m = params_.random_missing->length_m;
     // Evenly over all places where a gap fits into canopy.
     struct Room {
       int row;
@@ -197,7 +178,7 @@ class Surveyor {
       }
     }
     RandomStream random = stream("missing");
-    for (std::int64_t n = 0; n < group.integer("count"); ++n) {
+    for (int n = 0; n < params_.random_missing->count; ++n) {
       if (rooms.empty()) {
         throw ConfigError(fmt::format(
             "random_missing: length_m = {} m, no row has canopy of that length", length_m));
@@ -210,15 +191,10 @@ class Surveyor {
     }
   }
 
-  const ParameterSet& parameters_;
+  const RowMeshParams& params_;
   const MapContext& context_;
   const std::vector<PlantRow>& rows_;
-  CanopySurveyOptions options_;
 };
-
-Eigen::Vector3d vector_of(const std::vector<double>& numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
 
 }  // namespace
 
@@ -229,18 +205,18 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
     throw ConfigError(
         fmt::format("map row_mesh: world '{}' has no plant rows to survey", context.world->name));
   }
+  const RowMeshParams params = row_mesh_table().read(parameters, "");
   RowMeshReport own;
   RowMeshReport& made = report != nullptr ? *report : own;
   made = {};
   auto map = std::make_unique<RowMap>(context.world->rows);
-  lift_rows(ground_in(*context.world, *context.scene), parameters.numbers("section_spacing_m")[1],
-            map->rows);
-  Surveyor surveyor(parameters, context);
-  if (parameters.has("folder")) {
-    check_folder_parameters(parameters);
-    const std::string& folder = parameters.text("folder");
-    map->meshes = *keep<std::vector<RowMesh>>(context.shelf, file_mark(folder),
-                                              [&] { return load_meshes(folder); });
+  lift_rows(ground_in(*context.world, *context.scene), params.sections.spacing_high_m, map->rows);
+  Surveyor surveyor(params, context);
+  if (!params.folder.empty()) {
+    check_folder_parameters(params);
+    map->meshes =
+        *keep<std::vector<RowMesh>>(context.shelf, file_mark(params.folder),
+                                    [&] { return load_meshes(params.folder.string()); });
   } else {
     map->meshes = surveyor.survey(made);
   }
@@ -256,8 +232,8 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
     made.triangles += static_cast<std::int64_t>(mesh.mesh_W.triangles.size());
   }
 
-  const double stated_m = parameters.number("stated_surface_std_m");
-  const double stated_length_m = parameters.number("stated_correlation_length_m");
+  const double stated_m = params.stated_surface_std_m;
+  const double stated_length_m = params.stated_correlation_length_m;
   MapAccuracy& accuracy = map->accuracy;
   if (stated_m > 0.0 || made.accuracy.points > 0) {
     accuracy.surface_std_m = stated_m > 0.0 ? stated_m : made.accuracy.rms_m;
@@ -266,22 +242,21 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
     accuracy.correlation_length_m =
         stated_length_m > 0.0 ? stated_length_m : made.accuracy.correlation_length_m;
   }
-  accuracy.offset_std_m = vector_of(parameters.numbers("offset_std_m"));
+  accuracy.offset_std_m = params.offset_std_m;
 
   MapPlacement placement;
   placement.middle_W = middle_of(context.world->rows->rows);
   RandomStream random = surveyor.stream("offset");
   const Eigen::Vector3d drawn(random.normal(), random.normal(), random.normal());
-  placement.shift_m =
-      vector_of(parameters.numbers("offset_m")) + accuracy.offset_std_m.cwiseProduct(drawn);
-  placement.turn_rad = rad_from_deg(parameters.number("rotation_deg"));
-  placement.scale = parameters.number("scale");
+  placement.shift_m = params.offset_m + accuracy.offset_std_m.cwiseProduct(drawn);
+  placement.turn_rad = params.rotation_rad;
+  placement.scale = params.scale;
   made.shift_m = placement.shift_m;
   if (placement.moves()) {
     place_meshes(placement, map->meshes);
-    if (parameters.boolean("move_rows")) place_rows(placement, *map);
+    if (params.move_rows) place_rows(placement, *map);
   }
-  if (!parameters.text("save_to").empty()) save_meshes(map->meshes, parameters.text("save_to"));
+  if (!params.save_to.empty()) save_meshes(map->meshes, params.save_to);
   return map;
 }
 
@@ -291,7 +266,7 @@ void register_row_mesh_map(Registry& registry) {
   spec.description =
       "the true rows with meshes of few triangles fitted to their canopy, after papers A, section "
       "3.2, and C, section 2.2, and with errors of their own";
-  spec.parameters = row_mesh_parameters();
+  spec.parameters = row_mesh_table().specs();
   registry.add_map(std::move(spec), [](const ParameterSet& parameters, const MapContext& context) {
     return make_row_mesh_map(parameters, context);
   });

@@ -8,6 +8,7 @@
 
 #include "engine/api/registry.h"
 #include "worlds/mapping/mesh_accuracy.h"
+#include "worlds/mapping/row_mesh_parameters.h"
 
 namespace vinerow::worlds {
 
@@ -18,11 +19,7 @@ struct RowMeshReport {
   std::vector<int> unseen_rows;     ///< without canopy: from the row's own width, base and top
   MeshAccuracy accuracy;            ///< before the map is shifted, turned and scaled
   Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();  ///< offset_m and what was drawn
-  struct Missing {
-    int row;
-    double from_m, to_m;
-  };
-  std::vector<Missing> missing;  ///< asked for and drawn
+  std::vector<MissingStretch> missing;                ///< asked for and drawn
 };
 
 /// @param report  filled if not null

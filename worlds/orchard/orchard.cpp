@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -20,68 +22,83 @@ namespace {
 
 constexpr double kMargin_m = 10.0;  // ground beyond the field, for cameras and wide turns
 
+struct OrchardParams {
+  OrchardLayout layout;
+  std::optional<double> refinement_per_m2;  ///< given: the map is the paper's matrix
+  double tree_spacing_m = 3.2;
+  TreeParams trees;
+  SlopeParams slope;
+  TerrainParams terrain;
+  GeoOrigin origin{rad_from_deg(45.0626), rad_from_deg(7.6624), 240.0};
+  Surroundings surroundings;
+  MapParams map;
+  ObstaclesParams obstacles;
+};
+
+const ParameterTable<OrchardParams>& orchard_table() {
+  using P = OrchardParams;
+  using Layout = OrchardLayout;
+  using Trees = TreeParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .integer("plant_rows", inside(&P::layout, &Layout::plant_rows), between(1, 1000),
+                   "number of plant rows, n of the paper")
+          .number("row_width_m", "m", inside(&P::layout, &Layout::row_width_m), kPositive,
+                  "width of a plant row, w")
+          .number("row_length_m", "m", inside(&P::layout, &Layout::row_length_m), kPositive,
+                  "length of a plant row, l")
+          .number("field_width_m", "m", inside(&P::layout, &Layout::field_width_m), kPositive,
+                  "width of the field along x, L1")
+          .number("field_length_m", "m", inside(&P::layout, &Layout::field_length_m), kPositive,
+                  "length of the field along y, L2")
+          .number("row_start_y_m", "m", inside(&P::layout, &Layout::row_start_y_m),
+                  between(0.0, 1e5), "where rows begin, Ys")
+          .number("refinement_per_m2", "1/m2", &P::refinement_per_m2, kPositive,
+                  "elements per square metre, m: the map is then the paper's "
+                  "matrix, rows alone, and not the grid of occupancy_cell_m")
+          .number("tree_spacing_m", "m", &P::tree_spacing_m, kPositive, "between trees of a row")
+          .number("tree_height_m", "m", inside(&P::trees, &Trees::height_m), kPositive,
+                  "of the tallest trees")
+          .number("crown_base_m", "m", inside(&P::trees, &Trees::crown_base_m), kPositive,
+                  "lowest leaves above ground")
+          .number("trunk_radius_m", "m", inside(&P::trees, &Trees::trunk_radius_m), kPositive,
+                  "of tree stems")
+          .number("leaf_cards_per_tree", "", inside(&P::trees, &Trees::leaf_cards),
+                  between(20.0, 10000.0), "leaves drawn per tree at close range")
+          .integer("plant_seed", inside(&P::trees, &Trees::seed), between(0, 9e15),
+                   "seed of trees and ground, apart from the run's seed")
+          .include(&P::slope, slope_table())
+          .include(&P::terrain, terrain_table())
+          .include(&P::origin, origin_table())
+          .include(&P::surroundings, surroundings_table())
+          .include(&P::map, map_table())
+          .include(&P::obstacles, obstacles_table())
+          .rule([](const P& p) -> std::string {
+            if (p.trees.crown_base_m < p.trees.height_m) return "";
+            return fmt::format("crown_base_m = {} m, must be < tree_height_m = {} m",
+                               p.trees.crown_base_m, p.trees.height_m);
+          });
+  return table;
+}
+
 PartSpec orchard_spec() {
   PartSpec spec;
   spec.name = "orchard";
   spec.description =
       "parametric orchard of straight tree rows (AgriEngineering 6 (2024) 1937, section 2.2, eq. "
       "3-4)";
-  spec.parameters = concatenate(
-      {{integer_parameter("plant_rows", 9, 1, 1000, "number of plant rows, n of the paper"),
-        positive_parameter("row_width_m", "m", 2, "width of a plant row, w"),
-        positive_parameter("row_length_m", "m", 80, "length of a plant row, l"),
-        positive_parameter("field_width_m", "m", 100, "width of the field along x, L1"),
-        positive_parameter("field_length_m", "m", 100, "length of the field along y, L2"),
-        number_parameter("row_start_y_m", "m", 10, 0, 1e5, "where rows begin, Ys"),
-        optional(positive_parameter("refinement_per_m2", "1/m2", 4,
-                                    "elements per square metre, m: the map is then the paper's "
-                                    "matrix, rows alone, and not the grid of occupancy_cell_m")),
-        positive_parameter("tree_spacing_m", "m", 3.2, "between trees of a row"),
-        positive_parameter("tree_height_m", "m", 3.6, "of the tallest trees"),
-        positive_parameter("crown_base_m", "m", 0.9, "lowest leaves above ground"),
-        positive_parameter("trunk_radius_m", "m", 0.07, "of tree stems"),
-        number_parameter("leaf_cards_per_tree", "", 700, 20, 10000,
-                         "leaves drawn per tree at close range"),
-        integer_parameter("plant_seed", 1, 0, 9e15,
-                          "seed of trees and ground, apart from the run's seed")},
-       slope_parameters(0, 0),
-       terrain_parameters(0),
-       origin_parameters(45.0626, 7.6624, 240),
-       surroundings_parameters(),
-       map_parameters(),
-       obstacle_parameters()});
+  spec.parameters = orchard_table().specs();
   return spec;
 }
 
-OrchardLayout read_layout(const ParameterSet& parameters) {
-  OrchardLayout layout;
-  layout.plant_rows = static_cast<int>(parameters.integer("plant_rows"));
-  layout.row_width_m = parameters.number("row_width_m");
-  layout.row_length_m = parameters.number("row_length_m");
-  layout.field_width_m = parameters.number("field_width_m");
-  layout.field_length_m = parameters.number("field_length_m");
-  layout.row_start_y_m = parameters.number("row_start_y_m");
-  if (parameters.has("refinement_per_m2")) {
-    layout.refinement_per_m2 = parameters.number("refinement_per_m2");
-  }
+OrchardParams read_orchard(const ParameterSet& parameters) {
+  OrchardParams params = orchard_table().read(parameters, "");
+  OrchardLayout& layout = params.layout;
+  layout.refinement_per_m2 = params.refinement_per_m2.value_or(layout.refinement_per_m2);
   validate(layout);
-  return layout;
-}
-
-TreeParams read_trees(const ParameterSet& parameters, const OrchardLayout& layout) {
-  TreeParams trees;
-  trees.height_m = parameters.number("tree_height_m");
-  trees.crown_base_m = parameters.number("crown_base_m");
-  trees.crown_width_m = layout.row_width_m;
-  trees.crown_length_m = 0.95 * parameters.number("tree_spacing_m");
-  trees.trunk_radius_m = parameters.number("trunk_radius_m");
-  trees.leaf_cards = parameters.number("leaf_cards_per_tree");
-  trees.seed = static_cast<std::uint64_t>(parameters.integer("plant_seed"));
-  if (!(trees.crown_base_m < trees.height_m)) {
-    throw ConfigError(fmt::format("crown_base_m = {} m, must be < tree_height_m = {} m",
-                                  trees.crown_base_m, trees.height_m));
-  }
-  return trees;
+  params.trees.crown_width_m = layout.row_width_m;
+  params.trees.crown_length_m = 0.95 * params.tree_spacing_m;
+  return params;
 }
 
 /// Rows and all N free rows, as the paper numbers them from x = 0.
@@ -108,41 +125,40 @@ RowMap make_map(const OrchardLayout& layout, const TreeParams& trees, const Heig
 
 std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
                                          const WorldContext& context) {
-  const OrchardLayout layout = read_layout(parameters);
-  const TreeParams trees = read_trees(parameters, layout);
+  const OrchardParams params = read_orchard(parameters);
+  const OrchardLayout& layout = params.layout;
+  const TreeParams& trees = params.trees;
   auto world = std::make_unique<WorldModel>();
   world->name = "orchard";
-  world->origin = read_origin(parameters);
-  read_surroundings(parameters, context.seed, *world);
+  world->origin = params.origin;
+  set_surroundings(params.surroundings, context.seed, *world);
   world->depends_on_seed = false;  // plants and terrain have a seed of their own
 
   TerrainShape shape;
   shape.centre_W = 0.5 * Eigen::Vector2d(layout.field_width_m, layout.field_length_m);
-  shape.gradient = std::tan(rad_from_deg(parameters.number("slope_deg"))) *
-                   bearing_direction(parameters.number("uphill_bearing_deg"));
+  shape.gradient = params.slope.gradient();
   const Eigen::AlignedBox2d box(
       Eigen::Vector2d(-kMargin_m, -kMargin_m),
       Eigen::Vector2d(layout.field_width_m + kMargin_m, layout.field_length_m + kMargin_m));
-  world->terrain = build_terrain(parameters, trees.seed, world->origin, shape, box);
+  world->terrain = build_terrain(params.terrain, trees.seed, world->origin, shape, box);
   world->rows = make_map(layout, trees, *world->terrain);
 
   MemoryMeshStore store;
   const GroundHeight ground = ground_of(*world->terrain);
-  const double spacing_m = parameters.number("tree_spacing_m");
   for (int k = 0; k < layout.plant_rows; ++k) {
     const auto& line = world->rows->rows[static_cast<std::size_t>(k)].line_W;
     const RowCurve row({line.front().head<2>(), line.back().head<2>()});
-    const int count = std::max(1, static_cast<int>(row.length_m() / spacing_m + 1e-9));
+    const int count = std::max(1, static_cast<int>(row.length_m() / params.tree_spacing_m + 1e-9));
     std::vector<double> stations;
     for (int i = 0; i < count; ++i) stations.push_back(row.length_m() * (i + 0.5) / count);
     plant_tree_row(*world, k, row, stations, ground, trees, store);
   }
   add_alley_spawn_points(*world);
-  const auto on_map = place_obstacles(parameters, *world);
-  if (parameters.has("refinement_per_m2") && !parameters.has("occupancy_file")) {
+  const auto on_map = place_obstacles(params.obstacles, *world);
+  if (params.refinement_per_m2 && params.map.occupancy_file.empty()) {
     world->rows->occupancy = make_occupancy(layout);
   } else {
-    fill_occupancy(parameters, *world, on_map, 0.0);
+    fill_occupancy(params.map, *world, on_map, 0.0);
   }
   return world;
 }

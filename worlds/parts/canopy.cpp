@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/check.h"
-#include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "worlds/parts/primitives.h"
 
@@ -30,32 +30,25 @@ double cut_normal(RandomStream& random) {
 
 }  // namespace
 
-std::vector<ParameterSpec> canopy_parameters() {
-  ParameterSpec step = positive_parameter("canopy_step_m", "m", 0.15,
-                                          "distance between sections of the canopy's hull");
-  step.min = 0.05;
-  step.min_exclusive = false;
-  return {
-      positive_parameter("canopy_width_m", "m", 0.55, "mean width of the foliage across the row"),
-      number_parameter("canopy_base_m", "m", 0.55, 0, 10, "lowest leaves above ground"),
-      positive_parameter("canopy_top_m", "m", 2.0, "highest leaves above ground"),
-      number_parameter("canopy_variation", "", 0.12, 0, 0.4,
-                       "standard deviation of width and height from vine to vine, as a share"),
-      step};
-}
-
-CanopyParams read_canopy(const ParameterSet& parameters) {
-  CanopyParams params;
-  params.width_m = parameters.number("canopy_width_m");
-  params.base_m = parameters.number("canopy_base_m");
-  params.top_m = parameters.number("canopy_top_m");
-  params.variation = parameters.number("canopy_variation");
-  params.step_m = parameters.number("canopy_step_m");
-  if (!(params.base_m < params.top_m)) {
-    throw ConfigError(fmt::format("canopy_base_m = {} m, must be < canopy_top_m = {} m",
-                                  params.base_m, params.top_m));
-  }
-  return params;
+const ParameterTable<CanopyParams>& canopy_table() {
+  using P = CanopyParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("canopy_width_m", "m", &P::width_m, kPositive,
+                  "mean width of the foliage across the row")
+          .number("canopy_base_m", "m", &P::base_m, between(0.0, 10.0),
+                  "lowest leaves above ground")
+          .number("canopy_top_m", "m", &P::top_m, kPositive, "highest leaves above ground")
+          .number("canopy_variation", "", &P::variation, between(0.0, 0.4),
+                  "standard deviation of width and height from vine to vine, as a share")
+          .number("canopy_step_m", "m", &P::step_m, {.min = 0.05},
+                  "distance between sections of the canopy's hull")
+          .rule([](const P& p) -> std::string {
+            if (p.base_m < p.top_m) return "";
+            return fmt::format("canopy_base_m = {} m, must be < canopy_top_m = {} m", p.base_m,
+                               p.top_m);
+          });
+  return table;
 }
 
 CanopyShape::CanopyShape(const CanopyParams& params, double length_m, int vine_count,

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/api/mesh.h"
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/core/random.h"
 #include "worlds/parts/row_curve.h"
 
@@ -28,9 +28,8 @@ struct CanopyParams {
 };
 
 /// `canopy_width_m`, `canopy_base_m`, `canopy_top_m`, `canopy_variation`, `canopy_step_m`.
-std::vector<ParameterSpec> canopy_parameters();
-/// @throws ConfigError if the base is not below the top
-CanopyParams read_canopy(const ParameterSet& parameters);
+/// The base must be below the top.
+const ParameterTable<CanopyParams>& canopy_table();
 
 /// One cross-section: a super-ellipse, |2y/w|^3 + |2(z-m)/h|^3 = 1.
 struct CanopySection {

@@ -1,51 +1,42 @@
 #include "worlds/parts/common.h"
 
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
-#include "engine/math/angles.h"
 #include "worlds/parts/soil.h"
-#include "worlds/parts/wind.h"
 
 namespace vinerow::worlds {
 
-std::vector<ParameterSpec> origin_parameters(double latitude_deg, double longitude_deg,
-                                             double altitude_m) {
-  return {number_parameter("origin_latitude_deg", "deg", latitude_deg, -90, 90,
-                           "WGS84 latitude of the world's origin"),
-          number_parameter("origin_longitude_deg", "deg", longitude_deg, -180, 180,
-                           "WGS84 longitude of the world's origin"),
-          number_parameter("origin_altitude_m", "m", altitude_m, -500, 9000,
-                           "altitude of the world's z = 0")};
+const ParameterTable<GeoOrigin>& origin_table() {
+  using P = GeoOrigin;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .degrees("origin_latitude_deg", &P::latitude_rad, between(-90.0, 90.0),
+                   "WGS84 latitude of the world's origin")
+          .degrees("origin_longitude_deg", &P::longitude_rad, between(-180.0, 180.0),
+                   "WGS84 longitude of the world's origin")
+          .number("origin_altitude_m", "m", &P::altitude_m, between(-500.0, 9000.0),
+                  "altitude of the world's z = 0");
+  return table;
 }
 
-GeoOrigin read_origin(const ParameterSet& parameters, const GeoOrigin& otherwise) {
-  GeoOrigin origin = otherwise;
-  if (parameters.has("origin_latitude_deg")) {
-    origin.latitude_rad = rad_from_deg(parameters.number("origin_latitude_deg"));
-  }
-  if (parameters.has("origin_longitude_deg")) {
-    origin.longitude_rad = rad_from_deg(parameters.number("origin_longitude_deg"));
-  }
-  if (parameters.has("origin_altitude_m")) {
-    origin.altitude_m = parameters.number("origin_altitude_m");
-  }
-  return origin;
+const ParameterTable<Surroundings>& surroundings_table() {
+  using P = Surroundings;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("soil", &P::soil, "what wheels feel; friction and rolling resistance by name")
+          .one_of(soil_names())
+          .degrees("sun_azimuth_deg", inside(&P::daylight, &Daylight::sun_azimuth_rad),
+                   between(-360.0, 360.0), "direction of the sun, from north clockwise")
+          .degrees("sun_elevation_deg", inside(&P::daylight, &Daylight::sun_elevation_rad),
+                   between(1.0, 90.0), "height of the sun above the horizon")
+          .group("wind", &P::wind, wind_table(), "wind that every vehicle feels; absent: calm");
+  return table;
 }
 
-std::vector<ParameterSpec> surroundings_parameters() {
-  const Daylight light;
-  return {soil_parameter("dry_grass"),
-          number_parameter("sun_azimuth_deg", "deg", deg_from_rad(light.sun_azimuth_rad), -360, 360,
-                           "direction of the sun, from north clockwise"),
-          number_parameter("sun_elevation_deg", "deg", deg_from_rad(light.sun_elevation_rad), 1, 90,
-                           "height of the sun above the horizon"),
-          wind_parameter()};
-}
-
-void read_surroundings(const ParameterSet& parameters, std::uint64_t seed, WorldModel& world) {
-  world.soil = find_soil(parameters.text("soil"));
-  world.daylight.sun_azimuth_rad = rad_from_deg(parameters.number("sun_azimuth_deg"));
-  world.daylight.sun_elevation_rad = rad_from_deg(parameters.number("sun_elevation_deg"));
-  world.wind = read_wind(parameters, seed);
+void set_surroundings(const Surroundings& surroundings, std::uint64_t seed, WorldModel& world) {
+  world.soil = find_soil(surroundings.soil);
+  world.daylight = surroundings.daylight;
+  world.wind = make_wind(surroundings.wind, seed);
   const bool without_wind =
       world.wind.mean_speed_mps == 0.0 && world.wind.turbulence_wind_mps <= 0.0;
   if (world.wind.turbulence > 0.0 && without_wind) {
@@ -53,12 +44,6 @@ void read_surroundings(const ParameterSet& parameters, std::uint64_t seed, World
         "wind.turbulence has no wind to scale with and is left out; give wind.mean_speed_mps or "
         "wind.turbulence_wind_mps");
   }
-}
-
-std::vector<ParameterSpec> concatenate(std::vector<std::vector<ParameterSpec>> lists) {
-  std::vector<ParameterSpec> all;
-  for (auto& list : lists) all.insert(all.end(), list.begin(), list.end());
-  return all;
 }
 
 }  // namespace vinerow::worlds

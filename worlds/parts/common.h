@@ -2,28 +2,27 @@
 /// Parameters that all worlds share: place on Earth, light, soil, wind.
 
 #include <cstdint>
-#include <vector>
+#include <string>
 
-#include "engine/api/forward.h"
 #include "engine/api/geo_origin.h"
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
+#include "engine/api/world_model.h"
+#include "worlds/parts/wind.h"
 
 namespace vinerow::worlds {
 
 /// `origin_latitude_deg`, `origin_longitude_deg`, `origin_altitude_m`.
-std::vector<ParameterSpec> origin_parameters(double latitude_deg, double longitude_deg,
-                                             double altitude_m);
-/// @throws ConfigError never: ranges are in the specs. Where latitude or longitude is absent the
-/// given one counts.
-GeoOrigin read_origin(const ParameterSet& parameters, const GeoOrigin& otherwise = {});
+const ParameterTable<GeoOrigin>& origin_table();
 
+struct Surroundings {
+  std::string soil = "dry_grass";  ///< of soil_names()
+  Daylight daylight;
+  WindParams wind;
+};
 /// `soil`, `sun_azimuth_deg`, `sun_elevation_deg`, the group `wind`.
-std::vector<ParameterSpec> surroundings_parameters();
+const ParameterTable<Surroundings>& surroundings_table();
 /// @param seed  of the run, for gusts by chance
-/// @throws ConfigError as read_wind()
-void read_surroundings(const ParameterSet& parameters, std::uint64_t seed, WorldModel& world);
-
-/// Lists joined in order.
-std::vector<ParameterSpec> concatenate(std::vector<std::vector<ParameterSpec>> lists);
+/// @throws ConfigError as find_soil() and make_wind()
+void set_surroundings(const Surroundings& surroundings, std::uint64_t seed, WorldModel& world);
 
 }  // namespace vinerow::worlds

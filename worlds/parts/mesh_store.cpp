@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
+#include <type_traits>
+#include <variant>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
@@ -129,37 +131,23 @@ std::string mesh_digest(const TriangleMesh& mesh) {
 
 void add_parameters(Hasher& hasher, const ParameterSet& parameters,
                     const std::vector<std::string>& without) {
+  const auto add = [&hasher](const auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::vector<ParameterSet>>) {
+      for (const ParameterSet& group : value) add_parameters(hasher, group);
+    } else if constexpr (std::is_same_v<Value, std::vector<double>> ||
+                         std::is_same_v<Value, std::vector<std::string>>) {
+      for (const auto& entry : value) hasher.add(entry);
+    } else {
+      hasher.add(value);
+    }
+  };
   for (const ParameterSpec& spec : parameters.specs()) {
-    if (!parameters.has(spec.name)) continue;
+    const ParameterSet::Value* value = parameters.find(spec.name);
+    if (!value) continue;
     if (std::find(without.begin(), without.end(), spec.name) != without.end()) continue;
     hasher.add(spec.name);
-    switch (spec.kind) {
-      case ParameterKind::kNumber:
-        hasher.add(parameters.number(spec.name));
-        break;
-      case ParameterKind::kInteger:
-        hasher.add(parameters.integer(spec.name));
-        break;
-      case ParameterKind::kBoolean:
-        hasher.add(parameters.boolean(spec.name));
-        break;
-      case ParameterKind::kText:
-      case ParameterKind::kPath:
-        hasher.add(parameters.text(spec.name));
-        break;
-      case ParameterKind::kNumberList:
-        for (const double number : parameters.numbers(spec.name)) hasher.add(number);
-        break;
-      case ParameterKind::kTextList:
-        for (const std::string& text : parameters.texts(spec.name)) hasher.add(text);
-        break;
-      case ParameterKind::kGroup:
-      case ParameterKind::kGroupList:
-        for (const ParameterSet& group : parameters.groups(spec.name)) {
-          add_parameters(hasher, group);
-        }
-        break;
-    }
+    std::visit(add, *value);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
@@ -189,17 +190,22 @@ class Layout {
 
 }  // namespace
 
-std::vector<ParameterSpec> neighbours_parameters() {
-  return {group_parameter(
-      "neighbours",
-      {integer_parameter("count", 24, 4, 240, "fields around the parcel, within surroundings_m"),
-       number_list_parameter("meadow_m", "m", {},
-                             "x and y of a place that is left free of rows and trees, for launches "
-                             "and landings"),
-       number_parameter("meadow_radius_m", "m", 60, 0, 1000,
-                        "fields nearer to that place are meadows")},
-      "neighbouring vineyards, meadows, tracks and trees in pictures; nothing collides with them "
-      "and nothing else sees them; absent: none")};
+const ParameterTable<NeighboursParams>& neighbours_table() {
+  using P = NeighboursParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .integer("count", inside(&P::options, &NeighboursOptions::count), between(4, 240),
+                   "fields around the parcel, within surroundings_m")
+          .numbers("meadow_m", "m", &P::meadow_m, kAnyNumber,
+                   "x and y of a place that is left free of rows and trees, for launches "
+                   "and landings")
+          .number("meadow_radius_m", "m", inside(&P::options, &NeighboursOptions::meadow_radius_m),
+                  between(0.0, 1000.0), "fields nearer to that place are meadows")
+          .rule([](const P& p) -> std::string {
+            if (p.meadow_m.empty() || p.meadow_m.size() == 2) return "";
+            return fmt::format("meadow_m has {} numbers, needs 2: x and y", p.meadow_m.size());
+          });
+  return table;
 }
 
 Scenery lay_neighbours(const std::vector<Eigen::Vector2d>& parcel_W,
@@ -208,25 +214,18 @@ Scenery lay_neighbours(const std::vector<Eigen::Vector2d>& parcel_W,
   return Layout(parcel_W, options, seed).lay(box_W);
 }
 
-Scenery read_neighbours(const ParameterSet& parameters,
+Scenery make_neighbours(const NeighboursParams& params,
                         const std::vector<Eigen::Vector2d>& parcel_W, double surroundings_m,
                         std::uint64_t seed) {
-  if (!parameters.has("neighbours")) return {};
-  const ParameterSet& group = parameters.group("neighbours");
   if (surroundings_m < kLeastSurroundings_m) {
     throw ConfigError(
         fmt::format("neighbours: surroundings_m = {} m leaves no room for fields, needs {} m",
                     surroundings_m, kLeastSurroundings_m));
   }
-  NeighboursOptions options;
-  options.count = static_cast<int>(group.integer("count"));
-  options.meadow_radius_m = group.number("meadow_radius_m");
-  const std::vector<double>& place = group.numbers("meadow_m");
-  if (!place.empty() && place.size() != 2) {
-    throw ConfigError(
-        fmt::format("neighbours: meadow_m has {} numbers, needs 2: x and y", place.size()));
+  NeighboursOptions options = params.options;
+  if (!params.meadow_m.empty()) {
+    options.meadow_W.emplace_back(params.meadow_m[0], params.meadow_m[1]);
   }
-  if (!place.empty()) options.meadow_W.emplace_back(place[0], place[1]);
   const Eigen::AlignedBox2d box = box_around(parcel_W);
   const Eigen::Vector2d low = box.min().array() - surroundings_m,
                         high = box.max().array() + surroundings_m;

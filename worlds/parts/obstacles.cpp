@@ -7,10 +7,10 @@
 
 #include "engine/api/height_field.h"
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/math/angles.h"
 #include "worlds/parts/crate.h"
 #include "worlds/parts/row_curve.h"
 
@@ -25,23 +25,21 @@ struct Place {
   double yaw_rad;
 };
 
-Place place_of(const ParameterSet& obstacle, const std::string& who, const RowMap& map) {
-  const bool free = obstacle.has("x_m") || obstacle.has("y_m");
-  const bool in_alley = obstacle.has("alley");
-  const double yaw_rad = rad_from_deg(obstacle.number("yaw_deg"));
+Place place_of(const ObstacleParams& obstacle, const std::string& who, const RowMap& map) {
+  const bool free = obstacle.x_m || obstacle.y_m;
+  const bool in_alley = obstacle.alley.has_value();
   if (free == in_alley) {
     throw ConfigError(fmt::format("{} {}, must be given x_m and y_m, or alley and distance_m", who,
                                   free ? "has both x_m, y_m and alley" : "has no position"));
   }
   if (free) {
-    if (!obstacle.has("x_m") || !obstacle.has("y_m")) {
-      throw ConfigError(fmt::format("{} has {} without {}", who,
-                                    obstacle.has("x_m") ? "x_m" : "y_m",
-                                    obstacle.has("x_m") ? "y_m" : "x_m"));
+    if (!obstacle.x_m || !obstacle.y_m) {
+      throw ConfigError(fmt::format("{} has {} without {}", who, obstacle.x_m ? "x_m" : "y_m",
+                                    obstacle.x_m ? "y_m" : "x_m"));
     }
-    return {{obstacle.number("x_m"), obstacle.number("y_m")}, yaw_rad};
+    return {{*obstacle.x_m, *obstacle.y_m}, obstacle.yaw_rad};
   }
-  const std::int64_t alley = obstacle.integer("alley");
+  const std::int64_t alley = *obstacle.alley;
   const auto count = static_cast<std::int64_t>(map.alleys.size());
   if (alley >= count) {
     throw ConfigError(
@@ -53,10 +51,10 @@ Place place_of(const ParameterSet& obstacle, const std::string& who, const RowMa
     line.push_back(p.head<2>());
   }
   const RowCurve curve(std::move(line));
-  const double s_m = obstacle.number("distance_m");
+  const double s_m = obstacle.distance_m;
   const Vector2d along = curve.direction_W(s_m);
-  return {curve.point_W(s_m) + obstacle.number("lateral_m") * Vector2d(-along.y(), along.x()),
-          std::atan2(along.y(), along.x()) + yaw_rad};
+  return {curve.point_W(s_m) + obstacle.lateral_m * Vector2d(-along.y(), along.x()),
+          std::atan2(along.y(), along.x()) + obstacle.yaw_rad};
 }
 
 /// Corners of the plan, counter-clockwise.
@@ -92,40 +90,44 @@ Pose pose_on_ground(const Place& place, const std::vector<Vector2d>& plan,
   return X_WO;
 }
 
-}  // namespace
-
-std::vector<ParameterSpec> obstacle_parameters() {
-  ParameterSpec size =
-      number_list_parameter("size_m", "m", {0.6, 0.4, 0.6}, "length, width, height of the box", 3);
-  size.min = 0.02;
-  size.max = 100.0;
-  return {group_list_parameter(
-      "obstacles",
-      {text_parameter("name", "", "name of the obstacle; default: its number in the list"),
-       optional(number_parameter("x_m", "m", 0, -1e5, 1e5, "position east; or give alley")),
-       optional(number_parameter("y_m", "m", 0, -1e5, 1e5, "position north; or give alley")),
-       optional(integer_parameter("alley", 0, 0, 10000, "stands in this alley")),
-       number_parameter("distance_m", "m", 0, -1e4, 1e5,
-                        "along the alley's centre line from its first point"),
-       number_parameter("lateral_m", "m", 0, -100, 100, "to the left of the alley's centre line"),
-       number_parameter("yaw_deg", "deg", 0, -360, 360,
-                        "of the length: from east, in an alley from the alley's direction"),
-       size,
-       boolean_parameter("mapped", false,
-                         "whether the occupancy grid has it (an occupancy_file stays as it is)")},
-      "boxes on the ground that vehicles must not touch")};
+const ParameterTable<ObstacleParams>& obstacle_table() {
+  using P = ObstacleParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("name", &P::name, "name of the obstacle; default: its number in the list")
+          .number("x_m", "m", &P::x_m, between(-1e5, 1e5), "position east; or give alley")
+          .number("y_m", "m", &P::y_m, between(-1e5, 1e5), "position north; or give alley")
+          .integer("alley", &P::alley, between(0, 10000), "stands in this alley")
+          .number("distance_m", "m", &P::distance_m, between(-1e4, 1e5),
+                  "along the alley's centre line from its first point")
+          .number("lateral_m", "m", &P::lateral_m, between(-100.0, 100.0),
+                  "to the left of the alley's centre line")
+          .degrees("yaw_deg", &P::yaw_rad, between(-360.0, 360.0),
+                   "of the length: from east, in an alley from the alley's direction")
+          .numbers("size_m", "m", &P::size_m, between(0.02, 100.0),
+                   "length, width, height of the box")
+          .boolean("mapped", &P::mapped,
+                   "whether the occupancy grid has it (an occupancy_file stays as it is)");
+  return table;
 }
 
-std::vector<std::vector<Vector2d>> place_obstacles(const ParameterSet& parameters,
+}  // namespace
+
+const ParameterTable<ObstaclesParams>& obstacles_table() {
+  using P = ObstaclesParams;
+  static const ParameterTable<P> table = ParameterTable<P>().groups(
+      "obstacles", &P::list, obstacle_table(), "boxes on the ground that vehicles must not touch");
+  return table;
+}
+
+std::vector<std::vector<Vector2d>> place_obstacles(const ObstaclesParams& params,
                                                    WorldModel& world) {
   std::vector<std::vector<Vector2d>> mapped;
   std::set<std::string> names;
-  const std::vector<ParameterSet>& obstacles = parameters.groups("obstacles");
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+  for (std::size_t i = 0; i < params.list.size(); ++i) {
     VINEROW_DEMAND(world.terrain.has_value());
-    const ParameterSet& obstacle = obstacles[i];
-    const std::string& given = obstacle.text("name");
-    const std::string name = given.empty() ? fmt::format("{}", i) : given;
+    const ObstacleParams& obstacle = params.list[i];
+    const std::string name = obstacle.name.empty() ? fmt::format("{}", i) : obstacle.name;
     const std::string who = fmt::format("obstacle '{}'", name);
     if (!names.insert(name).second) throw ConfigError(who + " stands twice in the list");
 
@@ -134,8 +136,7 @@ std::vector<std::vector<Vector2d>> place_obstacles(const ParameterSet& parameter
       throw ConfigError(fmt::format("{} stands at ({:.2f}, {:.2f}) m, outside the terrain", who,
                                     place.p_W.x(), place.p_W.y()));
     }
-    const std::vector<double>& size = obstacle.numbers("size_m");
-    const Vector3d size_m(size[0], size[1], size[2]);
+    const Vector3d& size_m = obstacle.size_m;
     const std::vector<Vector2d> plan = plan_of(place, size_m);
     double foot_m = 0.0;
     const Pose X_WO = pose_on_ground(place, plan, *world.terrain, &foot_m);
@@ -155,7 +156,7 @@ std::vector<std::vector<Vector2d>> place_obstacles(const ParameterSet& parameter
     crate.collides = false;
     crate.visible = true;
     world.meshes.push_back(std::move(crate));
-    if (obstacle.boolean("mapped")) mapped.push_back(plan);
+    if (obstacle.mapped) mapped.push_back(plan);
   }
   return mapped;
 }

@@ -43,9 +43,4 @@ Soil find_soil(const std::string& name) {
                                 did_you_mean(name, known)));
 }
 
-ParameterSpec soil_parameter(const std::string& default_name) {
-  return choice_parameter("soil", default_name, soil_names(),
-                          "what wheels feel; friction and rolling resistance by name");
-}
-
 }  // namespace vinerow::worlds

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/io/raster.h"
 #include "engine/math/angles.h"
@@ -84,38 +85,45 @@ RandomStream terrain_random(std::uint64_t seed, const std::string& what) {
   return RandomStream(seed, "", "world.terrain." + what);
 }
 
-std::vector<ParameterSpec> terrain_parameters(double wave_height_m) {
-  ParameterSpec cell = positive_parameter("terrain_cell_m", "m", 0.5,
-                                          "distance between samples of the height field");
-  cell.min = 0.05;
-  cell.min_exclusive = false;
-  ParameterSpec crs = optional(text_parameter(
-      "crs", "",
-      "coordinate reference system of dem_file, as EPSG:21781, where the file has none"));
-  return {cell,
-          number_parameter("waves_m", "m", wave_height_m, 0, 20, "height of the gentle undulation"),
-          positive_parameter("wave_length_m", "m", 40, "typical length of the undulation"),
-          number_parameter("clods_m", "m", 0.0, 0, 0.2,
-                           "standard deviation of small bumps, one per sample"),
-          path_parameter("dem_file", "GeoTIFF of heights; replaces slope and undulation"),
-          crs};
+const ParameterTable<TerrainParams>& terrain_table() {
+  using P = TerrainParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("terrain_cell_m", "m", &P::cell_m, {.min = 0.05},
+                  "distance between samples of the height field")
+          .number("waves_m", "m", &P::waves_m, between(0.0, 20.0),
+                  "height of the gentle undulation")
+          .number("wave_length_m", "m", &P::wave_length_m, kPositive,
+                  "typical length of the undulation")
+          .number("clods_m", "m", &P::clods_m, between(0.0, 0.2),
+                  "standard deviation of small bumps, one per sample")
+          .path("dem_file", &P::dem_file, "GeoTIFF of heights; replaces slope and undulation")
+          .text("crs", &P::crs,
+                "coordinate reference system of dem_file, as EPSG:21781, where the file has none");
+  return table;
 }
 
-std::vector<ParameterSpec> slope_parameters(double slope_deg, double uphill_bearing_deg) {
-  return {number_parameter("slope_deg", "deg", slope_deg, 0, 45, "mean slope of the ground"),
-          number_parameter("uphill_bearing_deg", "deg", uphill_bearing_deg, -360, 360,
-                           "direction in which the ground rises, from north clockwise")};
+const ParameterTable<SlopeParams>& slope_table() {
+  using P = SlopeParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .degrees("slope_deg", &P::slope_rad, between(0.0, 45.0), "mean slope of the ground")
+          .degrees("uphill_bearing_deg", &P::uphill_bearing_rad, between(-360.0, 360.0),
+                   "direction in which the ground rises, from north clockwise");
+  return table;
 }
 
-Eigen::Vector2d bearing_direction(double bearing_deg) {
-  const double bearing_rad = rad_from_deg(bearing_deg);
+Eigen::Vector2d SlopeParams::gradient() const {
+  return std::tan(slope_rad) * bearing_direction(uphill_bearing_rad);
+}
+
+Eigen::Vector2d bearing_direction(double bearing_rad) {
   return {std::sin(bearing_rad), std::cos(bearing_rad)};
 }
 
-HeightField build_terrain(const ParameterSet& parameters, std::uint64_t seed,
-                          const GeoOrigin& origin, const TerrainShape& shape,
-                          const Eigen::AlignedBox2d& box_W) {
-  const double cell_m = parameters.number("terrain_cell_m");
+HeightField build_terrain(const TerrainParams& params, std::uint64_t seed, const GeoOrigin& origin,
+                          const TerrainShape& shape, const Eigen::AlignedBox2d& box_W) {
+  const double cell_m = params.cell_m;
   const double samples = (box_W.sizes().x() / cell_m + 1) * (box_W.sizes().y() / cell_m + 1);
   constexpr double kMostSamples = 25e6;
   if (samples > kMostSamples) {
@@ -124,17 +132,16 @@ HeightField build_terrain(const ParameterSet& parameters, std::uint64_t seed,
                     "must be at most 25 million",
                     cell_m, samples / 1e6, box_W.sizes().x(), box_W.sizes().y()));
   }
-  if (parameters.has("dem_file")) {
-    const io::ElevationRaster raster = io::read_elevation(
-        parameters.text("dem_file"), parameters.has("crs") ? parameters.text("crs") : "");
+  if (!params.dem_file.empty()) {
+    const io::ElevationRaster raster = io::read_elevation(params.dem_file, params.crs.value_or(""));
     return io::resample_elevation(raster, origin,
                                   {box_W.min(), box_W.sizes().x(), box_W.sizes().y(), cell_m});
   }
   TerrainShape waved = shape;
-  waved.wave_height_m = parameters.number("waves_m");
-  waved.wave_length_m = parameters.number("wave_length_m");
+  waved.wave_height_m = params.waves_m;
+  waved.wave_length_m = params.wave_length_m;
   return make_height_field(TerrainSurface(waved, terrain_random(seed, "waves")), box_W, cell_m,
-                           parameters.number("clods_m"), terrain_random(seed, "clods"));
+                           params.clods_m, terrain_random(seed, "clods"));
 }
 
 GroundHeight ground_of(const HeightField& field) {

@@ -3,13 +3,15 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/api/geo_origin.h"
 #include "engine/api/height_field.h"
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/core/random.h"
 #include "worlds/parts/row_curve.h"
 
@@ -52,25 +54,37 @@ class TerrainSurface {
 HeightField make_height_field(const TerrainSurface& surface, const Eigen::AlignedBox2d& box_W,
                               double cell_m, double clod_height_m, RandomStream random);
 
+struct TerrainParams {
+  double cell_m = 0.5;                  ///< between samples of the height field, >= 0.05
+  double waves_m = 0.0;                 ///< TerrainShape::wave_height_m
+  double wave_length_m = 40.0;          ///< TerrainShape::wave_length_m
+  double clods_m = 0.0;                 ///< TerrainShape::clod_height_m
+  std::filesystem::path dem_file = {};  ///< GeoTIFF of heights, or empty
+  std::optional<std::string> crs = {};  ///< of dem_file
+};
 /// `terrain_cell_m`, `waves_m`, `wave_length_m`, `clods_m`, `dem_file`, `crs`.
-std::vector<ParameterSpec> terrain_parameters(double wave_height_m);
+const ParameterTable<TerrainParams>& terrain_table();
 
+struct SlopeParams {
+  double slope_rad = 0.0;
+  double uphill_bearing_rad = 0.0;  ///< from north, clockwise
+
+  Eigen::Vector2d gradient() const;  ///< dh/dx, dh/dy
+};
 /// `slope_deg`, `uphill_bearing_deg`.
-std::vector<ParameterSpec> slope_parameters(double slope_deg, double uphill_bearing_deg);
+const ParameterTable<SlopeParams>& slope_table();
 
 /// The stream of the ground's own randomness.
 RandomStream terrain_random(std::uint64_t seed, const std::string& what);
 
 /// Unit vector of a bearing (from north, clockwise).
-Eigen::Vector2d bearing_direction(double bearing_deg);
+Eigen::Vector2d bearing_direction(double bearing_rad);
 
-/// The height field over a box from parameters of terrain_parameters() and a gradient; a `dem_file`
-/// replaces both.
+/// The height field over a box from parameters and a gradient; a `dem_file` replaces both.
 /// @throws ConfigError as io::read_elevation and io::resample_elevation; with more than 25 million
 /// samples
-HeightField build_terrain(const ParameterSet& parameters, std::uint64_t seed,
-                          const GeoOrigin& origin, const TerrainShape& shape,
-                          const Eigen::AlignedBox2d& box_W);
+HeightField build_terrain(const TerrainParams& params, std::uint64_t seed, const GeoOrigin& origin,
+                          const TerrainShape& shape, const Eigen::AlignedBox2d& box_W);
 
 /// Height function of a height field, which must outlive it.
 GroundHeight ground_of(const HeightField& field);

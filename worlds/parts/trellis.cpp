@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/math/angles.h"
+#include "engine/api/parameter_table.h"
 #include "worlds/parts/primitives.h"
 
 namespace vinerow::worlds {
@@ -17,23 +17,19 @@ constexpr double kFeetBuried_m = 0.1;  // feet reach below the ground's triangle
 
 }  // namespace
 
-std::vector<ParameterSpec> trellis_parameters() {
-  return {boolean_parameter("posts", true, "whether rows have posts and wires"),
-          positive_parameter("post_spacing_m", "m", 5.4, "between posts of a row"),
-          positive_parameter("post_height_m", "m", 2.1, "of posts above ground"),
-          number_parameter("end_post_lean_deg", "deg", 12, 0, 40, "outward lean of end posts"),
-          positive_parameter("trunk_radius_m", "m", 0.028, "of vine stems"),
-          positive_parameter("arm_height_m", "m", 0.75, "of the vines' arms and the first wire")};
-}
-
-TrellisParams read_trellis(const ParameterSet& parameters) {
-  TrellisParams params;
-  params.post_spacing_m = parameters.number("post_spacing_m");
-  params.post_height_m = parameters.number("post_height_m");
-  params.end_post_lean_rad = rad_from_deg(parameters.number("end_post_lean_deg"));
-  params.trunk_radius_m = parameters.number("trunk_radius_m");
-  params.arm_height_m = parameters.number("arm_height_m");
-  return params;
+const ParameterTable<TrellisParams>& trellis_table() {
+  using P = TrellisParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .boolean("posts", &P::posts, "whether rows have posts and wires")
+          .number("post_spacing_m", "m", &P::post_spacing_m, kPositive, "between posts of a row")
+          .number("post_height_m", "m", &P::post_height_m, kPositive, "of posts above ground")
+          .degrees("end_post_lean_deg", &P::end_post_lean_rad, between(0.0, 40.0),
+                   "outward lean of end posts")
+          .number("trunk_radius_m", "m", &P::trunk_radius_m, kPositive, "of vine stems")
+          .number("arm_height_m", "m", &P::arm_height_m, kPositive,
+                  "of the vines' arms and the first wire");
+  return table;
 }
 
 TriangleMesh make_trunks(const RowCurve& row, const GroundHeight& ground,

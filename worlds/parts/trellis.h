@@ -5,26 +5,27 @@
 #include <vector>
 
 #include "engine/api/mesh.h"
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/core/random.h"
+#include "engine/math/angles.h"
 #include "worlds/parts/row_curve.h"
 
 namespace vinerow::worlds {
 
 struct TrellisParams {
-  double post_spacing_m = 5.4;      ///< between posts where the survey has none
-  double post_height_m = 2.1;       ///< above ground
-  double post_radius_m = 0.03;      ///< steel, between
-  double end_post_radius_m = 0.06;  ///< wood, at the ends
-  double end_post_lean_rad = 0.2;   ///< outward
+  bool posts = true;                              ///< whether rows have posts and wires
+  double post_spacing_m = 5.4;                    ///< between posts where the survey has none
+  double post_height_m = 2.1;                     ///< above ground
+  double post_radius_m = 0.03;                    ///< steel, between
+  double end_post_radius_m = 0.06;                ///< wood, at the ends
+  double end_post_lean_rad = rad_from_deg(12.0);  ///< outward
   double trunk_radius_m = 0.028;
   double arm_height_m = 0.75;  ///< of the horizontal arms (cordon) and the first wire
 };
 
 /// `posts`, `post_spacing_m`, `post_height_m`, `end_post_lean_deg`, `trunk_radius_m`,
 /// `arm_height_m`.
-std::vector<ParameterSpec> trellis_parameters();
-TrellisParams read_trellis(const ParameterSet& parameters);
+const ParameterTable<TrellisParams>& trellis_table();
 
 /// Trunks of neighbouring vines in W: a crooked tapering stem to the arm height, and at level 0 two
 /// arms along the row.

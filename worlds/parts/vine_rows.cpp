@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "worlds/parts/foliage.h"
 
@@ -177,28 +178,25 @@ class Planter {
 
 }  // namespace
 
-std::vector<ParameterSpec> planting_parameters() {
-  return {number_parameter("leaf_cards_per_m", "1/m", 260, 10, 2000,
-                           "leaves drawn per metre of row at close range"),
-          integer_parameter("plant_variants", 6, 1, 100,
-                            "different stretches of foliage that are reused"),
-          integer_parameter(
-              "plant_seed", 1, 0, 9e15,
-              "seed of plants and ground, apart from the run's seed: the place stays the same")};
+const ParameterTable<VinePlanting>& planting_table() {
+  using P = VinePlanting;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .include(&P::canopy, canopy_table())
+          .include(&P::trellis, trellis_table())
+          .number("leaf_cards_per_m", "1/m", &P::leaf_cards_per_m, between(10.0, 2000.0),
+                  "leaves drawn per metre of row at close range")
+          .integer("plant_variants", &P::variants, between(1, 100),
+                   "different stretches of foliage that are reused")
+          .integer("plant_seed", &P::seed, between(0, 9e15),
+                   "seed of plants and ground, apart from the run's seed: the place stays the "
+                   "same");
+  return table;
 }
 
-VinePlanting read_planting(const ParameterSet& parameters) {
-  VinePlanting planting;
-  planting.canopy = read_canopy(parameters);
-  planting.trellis = read_trellis(parameters);
-  planting.leaf_cards_per_m = parameters.number("leaf_cards_per_m");
-  planting.variants = static_cast<int>(parameters.integer("plant_variants"));
-  planting.seed = static_cast<std::uint64_t>(parameters.integer("plant_seed"));
-  return planting;
-}
-
-double row_end_margin_m(const VinePlanting& planting, bool posts) {
-  return posts && planting.trellis.end_post_lean_rad > 0.0 ? 0.5 * planting.canopy.width_m : 0.0;
+double row_end_margin_m(const VinePlanting& planting) {
+  const bool lean = planting.trellis.posts && planting.trellis.end_post_lean_rad > 0.0;
+  return lean ? 0.5 * planting.canopy.width_m : 0.0;
 }
 
 std::vector<double> regular_vines(double length_m, double spacing_m, double missing_share,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/api/forward.h"
+#include "engine/api/parameter_table_fwd.h"
 #include "worlds/parts/canopy.h"
 #include "worlds/parts/mesh_store.h"
 #include "worlds/parts/trellis.h"
@@ -34,14 +35,12 @@ struct VinePlanting {
   std::uint64_t seed = 1;
 };
 
-/// `leaf_cards_per_m`, `plant_variants`, `plant_seed`.
-std::vector<ParameterSpec> planting_parameters();
-/// From canopy_parameters(), trellis_parameters() and planting_parameters().
-VinePlanting read_planting(const ParameterSet& parameters);
+/// canopy_table(), trellis_table(), `leaf_cards_per_m`, `plant_variants`, `plant_seed`.
+const ParameterTable<VinePlanting>& planting_table();
 
 /// How far the map takes a row beyond its ends: half the canopy's width where end posts lean
 /// outward, which is their reach at 1.4 m above ground with the usual 0.2 rad; else nothing.
-double row_end_margin_m(const VinePlanting& planting, bool posts);
+double row_end_margin_m(const VinePlanting& planting);
 
 /// Regular stems: the first half a spacing inside the row.
 /// @param missing_share  chance of each vine to be missing, independent

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/io/geojson.h"
@@ -21,37 +24,59 @@
 namespace vinerow::worlds {
 namespace {
 
-constexpr double kGroundMargin_m = 6.0;
+struct SurveyedParams {
+  std::filesystem::path survey_file, vines_file, poles_file;
+  std::string row_type;         ///< empty: found out
+  double vine_spacing_m = 1.4;  ///< where the survey has none
+  double headland_m = 12.0;
+  double surroundings_m = 6.0;
+  std::optional<double> latitude_rad, longitude_rad;  ///< of the origin; absent: the rows' mean
+  double altitude_m = 0.0;
+  SlopeParams slope{rad_from_deg(1.5), rad_from_deg(20.0)};
+  TerrainParams terrain{.waves_m = 0.12};
+  VinePlanting planting;
+  Surroundings surroundings;
+  MapParams map;
+  ObstaclesParams obstacles;
+};
+
+const ParameterTable<SurveyedParams>& surveyed_table() {
+  using P = SurveyedParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .path("survey_file", &P::survey_file,
+                "GeoJSON with one LineString per row, and poles and vines as points")
+          .required()
+          .path("vines_file", &P::vines_file, "further GeoJSON whose points are vines")
+          .path("poles_file", &P::poles_file, "further GeoJSON whose points are poles")
+          .text("row_type", &P::row_type,
+                "property `type` of the LineStrings that are rows; empty: found out")
+          .number("vine_spacing_m", "m", &P::vine_spacing_m, kPositive,
+                  "between vines where the survey has none")
+          .number("headland_m", "m", &P::headland_m, between(8.0, 200.0),
+                  "free ground beyond the row ends")
+          .number("surroundings_m", "m", &P::surroundings_m, between(0.0, 5000.0),
+                  "ground beyond the parcel's box, for what flies over it")
+          .degrees("origin_latitude_deg", &P::latitude_rad, between(-90.0, 90.0),
+                   "WGS84 latitude of the world's origin; default: the rows' mean")
+          .degrees("origin_longitude_deg", &P::longitude_rad, between(-180.0, 180.0),
+                   "WGS84 longitude of the world's origin; default: the rows' mean")
+          .number("origin_altitude_m", "m", &P::altitude_m, between(-500.0, 9000.0),
+                  "altitude of the world's z = 0")
+          .include(&P::slope, slope_table())
+          .include(&P::terrain, terrain_table())
+          .include(&P::planting, planting_table())
+          .include(&P::surroundings, surroundings_table())
+          .include(&P::map, map_table())
+          .include(&P::obstacles, obstacles_table());
+  return table;
+}
 
 PartSpec surveyed_spec() {
   PartSpec spec;
   spec.name = "surveyed";
   spec.description = "vineyard from surveyed rows, poles and vines (GeoJSON, WGS84)";
-  spec.parameters = concatenate(
-      {{required(path_parameter(
-            "survey_file", "GeoJSON with one LineString per row, and poles and vines as points")),
-        path_parameter("vines_file", "further GeoJSON whose points are vines"),
-        path_parameter("poles_file", "further GeoJSON whose points are poles"),
-        text_parameter("row_type", "",
-                       "property `type` of the LineStrings that are rows; empty: found out"),
-        positive_parameter("vine_spacing_m", "m", 1.4, "between vines where the survey has none"),
-        number_parameter("headland_m", "m", 12, 8, 200, "free ground beyond the row ends"),
-        number_parameter("surroundings_m", "m", kGroundMargin_m, 0, 5000,
-                         "ground beyond the parcel's box, for what flies over it"),
-        optional(number_parameter("origin_latitude_deg", "deg", 0, -90, 90,
-                                  "WGS84 latitude of the world's origin; default: the rows' mean")),
-        optional(
-            number_parameter("origin_longitude_deg", "deg", 0, -180, 180,
-                             "WGS84 longitude of the world's origin; default: the rows' mean")),
-        number_parameter("origin_altitude_m", "m", 0, -500, 9000, "altitude of the world's z = 0")},
-       slope_parameters(1.5, 20),
-       terrain_parameters(0.12),
-       canopy_parameters(),
-       trellis_parameters(),
-       planting_parameters(),
-       surroundings_parameters(),
-       map_parameters(),
-       obstacle_parameters()});
+  spec.parameters = surveyed_table().specs();
   return spec;
 }
 
@@ -157,42 +182,41 @@ double smallest_pitch_m(const RowMap& map) {
   return pitch_m;
 }
 
-void append_points(const ParameterSet& parameters, const char* name,
-                   std::vector<io::GeoFeature>& points) {
-  if (!parameters.has(name)) return;
-  for (io::GeoFeature& feature : io::read_geojson(parameters.text(name))) {
+void append_points(const std::filesystem::path& file, std::vector<io::GeoFeature>& points) {
+  if (file.empty()) return;
+  for (io::GeoFeature& feature : io::read_geojson(file)) {
     if (feature.kind == io::GeometryKind::kPoint) points.push_back(std::move(feature));
   }
 }
 
 std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
                                           const WorldContext& context) {
-  const std::string& file = parameters.text("survey_file");
-  io::SurveyFile survey = io::read_survey(file, parameters.text("row_type"));
-  append_points(parameters, "vines_file", survey.vines);
-  append_points(parameters, "poles_file", survey.poles);
-  const VinePlanting planting = read_planting(parameters);
+  const SurveyedParams params = surveyed_table().read(parameters, "");
+  const VinePlanting& planting = params.planting;
+  const std::string file = params.survey_file.string();
+  io::SurveyFile survey = io::read_survey(file, params.row_type);
+  append_points(params.vines_file, survey.vines);
+  append_points(params.poles_file, survey.poles);
 
   auto world = std::make_unique<WorldModel>();
   world->name = "surveyed";
-  world->origin = read_origin(parameters, mean_of_rows(survey.rows));
-  read_surroundings(parameters, context.seed, *world);
+  const GeoOrigin mean = mean_of_rows(survey.rows);
+  world->origin = {params.latitude_rad.value_or(mean.latitude_rad),
+                   params.longitude_rad.value_or(mean.longitude_rad), params.altitude_m};
+  set_surroundings(params.surroundings, context.seed, *world);
   world->depends_on_seed = false;  // plants and terrain have a seed of their own
   const io::LocalFrame frame(world->origin);
   const std::vector<RowCurve> rows = read_rows(survey.rows, frame, file);
 
-  const std::vector<Eigen::Vector2d> boundary =
-      parcel_boundary(rows, parameters.number("headland_m"), 4.0);
+  const std::vector<Eigen::Vector2d> boundary = parcel_boundary(rows, params.headland_m, 4.0);
   Eigen::AlignedBox2d box = box_around(boundary);
-  const double margin_m = parameters.number("surroundings_m");
-  const Eigen::Vector2d margin(margin_m, margin_m);
+  const Eigen::Vector2d margin(params.surroundings_m, params.surroundings_m);
   box =
       Eigen::AlignedBox2d(Eigen::Vector2d(box.min() - margin), Eigen::Vector2d(box.max() + margin));
   TerrainShape shape;
   shape.centre_W = box.center();
-  shape.gradient = std::tan(rad_from_deg(parameters.number("slope_deg"))) *
-                   bearing_direction(parameters.number("uphill_bearing_deg"));
-  world->terrain = build_terrain(parameters, planting.seed, world->origin, shape, box);
+  shape.gradient = params.slope.gradient();
+  world->terrain = build_terrain(params.terrain, planting.seed, world->origin, shape, box);
   const GroundHeight ground = ground_of(*world->terrain);
   world->rows = make_row_map(rows, ground, planting.canopy, boundary);
   add_alley_spawn_points(*world);
@@ -213,7 +237,7 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   std::vector<VineRow> vine_rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double length_m = rows[i].length_m();
-    VineRow row{rows[i], vines.s_m[i], parameters.number("vine_spacing_m"), poles.s_m[i]};
+    VineRow row{rows[i], vines.s_m[i], params.vine_spacing_m, poles.s_m[i]};
     if (row.vine_s_m.empty()) {
       row.vine_s_m = regular_vines(length_m, row.vine_spacing_m, 0.0, RandomStream(0, "", ""));
     } else {
@@ -222,13 +246,13 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
     if (row.post_s_m.size() < 2) {
       row.post_s_m = spread_posts(0.0, length_m, planting.trellis.post_spacing_m);
     }
-    if (!parameters.boolean("posts")) row.post_s_m.clear();
+    if (!planting.trellis.posts) row.post_s_m.clear();
     vine_rows.push_back(std::move(row));
   }
   MemoryMeshStore store;
   plant_vine_rows(*world, vine_rows, ground, planting, store);
-  fill_occupancy(parameters, *world, place_obstacles(parameters, *world),
-                 row_end_margin_m(planting, parameters.boolean("posts")));
+  fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
+                 row_end_margin_m(planting));
   return world;
 }
 

@@ -6,16 +6,13 @@
 #include <cmath>
 
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "worlds/mapping/map_parameters.h"
-#include "worlds/parts/common.h"
-#include "worlds/parts/neighbours.h"
-#include "worlds/parts/obstacles.h"
+#include "worlds/parts/mesh_store.h"
 #include "worlds/parts/row_map.h"
-#include "worlds/parts/terrain.h"
-#include "worlds/parts/vine_rows.h"
+#include "worlds/vineyard/vineyard_params.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -24,9 +21,6 @@ namespace {
 /// not read.
 constexpr int kGeneratorVersion = 2;
 
-/// The parcel and as much ground around it as is there by default keep the slope of the rows.
-constexpr double kGroundMargin_m = 6.0;
-
 PartSpec vineyard_spec() {
   PartSpec spec;
   spec.name = "vineyard";
@@ -34,46 +28,7 @@ PartSpec vineyard_spec() {
       "parametric vine rows on terrain, loaded from mesh files; default: Parcel F of a Barolo "
       "vineyard "
       "(Biosystems Engineering 2022)";
-  spec.parameters = concatenate(
-      {{integer_parameter("row_count", 16, 1, 1000, "number of rows"),
-        positive_parameter("row_length_m", "m", 118, "length of each row"),
-        positive_parameter("pitch_m", "m", 2.5, "distance between rows"),
-        positive_parameter("vine_spacing_m", "m", 0.9, "between vines of a row"),
-        number_parameter("missing_vine_share", "", 0.01, 0, 0.9, "share of vines that are missing"),
-        number_parameter("row_bearing_deg", "deg", 80, -360, 360,
-                         "direction of the rows, from north clockwise"),
-        number_parameter("row_bend_deg", "deg", 0, -180, 180,
-                         "by which the rows turn to the left from end to end, as arcs about one "
-                         "centre; 0: straight"),
-        number_parameter("headland_m", "m", 10, 8, 200, "free ground beyond the row ends"),
-        // The middle of 44.6150 to 44.6157 deg north, 7.9244 to 7.9262 deg east, seen from the
-        // corner.
-        number_parameter("centre_x_m", "m", 71.4, -1e5, 1e5,
-                         "east of the block's centre from the origin"),
-        number_parameter("centre_y_m", "m", 38.9, -1e5, 1e5,
-                         "north of the block's centre from the origin"),
-        optional(number_parameter("relief_m", "m", 30, 0, 500,
-                                  "highest minus lowest ground under the rows; default: 30 m for "
-                                  "each 118 m of row length")),
-        number_parameter("uphill_bearing_deg", "deg", 92, -360, 360,
-                         "direction in which the ground rises, from north clockwise"),
-        number_parameter("surroundings_m", "m", kGroundMargin_m, 0, 5000,
-                         "ground beyond the parcel's box, for what flies over it"),
-        positive_parameter("slope_fade_m", "m", 200,
-                           "beyond the parcel the slope fades out over this way, to a ridge above "
-                           "and a valley below"),
-        path_parameter(
-            "mesh_folder",
-            "where mesh files are kept; default: $VINEROW_CACHE or the user's cache folder")},
-       canopy_parameters(),
-       trellis_parameters(),
-       planting_parameters(),
-       terrain_parameters(1.5),
-       origin_parameters(44.6150, 7.9244, 300),
-       surroundings_parameters(),
-       neighbours_parameters(),
-       map_parameters(),
-       obstacle_parameters()});
+  spec.parameters = vineyard_table().specs();
   return spec;
 }
 
@@ -102,19 +57,17 @@ RowCurve lay_arc(const Eigen::Vector2d& centre, const Eigen::Vector2d& along, do
   return RowCurve(std::move(points));
 }
 
-std::vector<RowCurve> lay_rows(const ParameterSet& parameters) {
-  const Eigen::Vector2d along = bearing_direction(parameters.number("row_bearing_deg"));
+std::vector<RowCurve> lay_rows(const VineyardParams& params) {
+  const Eigen::Vector2d along = bearing_direction(params.row_bearing_rad);
   const Eigen::Vector2d across(-along.y(), along.x());
-  const Eigen::Vector2d centre(parameters.number("centre_x_m"), parameters.number("centre_y_m"));
-  const double length_m = parameters.number("row_length_m"), half_m = 0.5 * length_m;
-  const double bend_rad = rad_from_deg(parameters.number("row_bend_deg"));
-  const auto count = parameters.integer("row_count");
+  const Eigen::Vector2d& centre = params.centre_W;
+  const double length_m = params.row_length_m, half_m = 0.5 * length_m;
   std::vector<RowCurve> rows;
-  for (std::int64_t i = 0; i < count; ++i) {
-    const double offset_m = (static_cast<double>(i) - 0.5 * static_cast<double>(count - 1)) *
-                            parameters.number("pitch_m");
-    if (bend_rad != 0.0) {
-      rows.push_back(lay_arc(centre, along, offset_m, length_m, bend_rad));
+  for (int i = 0; i < params.row_count; ++i) {
+    const double offset_m =
+        (static_cast<double>(i) - 0.5 * static_cast<double>(params.row_count - 1)) * params.pitch_m;
+    if (params.row_bend_rad != 0.0) {
+      rows.push_back(lay_arc(centre, along, offset_m, length_m, params.row_bend_rad));
       continue;
     }
     const Eigen::Vector2d middle = centre + offset_m * across;
@@ -138,17 +91,17 @@ double calc_relief_m(const TerrainSurface& surface, const std::vector<RowCurve>&
 }
 
 /// Finds the slope that gives the wanted relief under the rows. Waves alone may make up half of it
-/// at most.
-TerrainShape fit_relief(const ParameterSet& parameters, const std::vector<RowCurve>& rows,
-                        std::uint64_t seed, double* wave_height_m) {
-  const double relief_m = parameters.number("relief_m");
-  const Eigen::Vector2d uphill = bearing_direction(parameters.number("uphill_bearing_deg"));
+/// at most. @pre params.relief_m
+TerrainShape fit_relief(const VineyardParams& params, const std::vector<RowCurve>& rows,
+                        double* wave_height_m) {
+  const double relief_m = *params.relief_m;
+  const Eigen::Vector2d uphill = bearing_direction(params.uphill_bearing_rad);
   TerrainShape shape;
-  shape.centre_W = {parameters.number("centre_x_m"), parameters.number("centre_y_m")};
-  shape.wave_length_m = parameters.number("wave_length_m");
-  shape.wave_height_m = parameters.number("waves_m");
+  shape.centre_W = params.centre_W;
+  shape.wave_length_m = params.terrain.wave_length_m;
+  shape.wave_height_m = params.terrain.waves_m;
   const auto relief_of = [&](const TerrainShape& s) {
-    return calc_relief_m(TerrainSurface(s, terrain_random(seed, "waves")), rows);
+    return calc_relief_m(TerrainSurface(s, terrain_random(params.planting.seed, "waves")), rows);
   };
   const double waves_relief_m = relief_of(shape);
   if (waves_relief_m > 0.5 * relief_m) shape.wave_height_m *= 0.5 * relief_m / waves_relief_m;
@@ -188,46 +141,44 @@ void limit_hillside(const Eigen::AlignedBox2d& box_W, double fade_m, TerrainShap
   shape.fade_m = fade_m;
 }
 
-HeightField make_ground(const ParameterSet& parameters, const std::vector<RowCurve>& rows,
-                        const std::vector<Eigen::Vector2d>& boundary_W, std::uint64_t seed,
-                        const GeoOrigin& origin) {
+HeightField make_ground(const VineyardParams& params, const std::vector<RowCurve>& rows,
+                        const std::vector<Eigen::Vector2d>& boundary_W) {
   const Eigen::AlignedBox2d parcel = box_around(boundary_W);
-  const Eigen::AlignedBox2d box = widened(parcel, parameters.number("surroundings_m"));
+  const Eigen::AlignedBox2d box = widened(parcel, params.surroundings_m);
   TerrainShape shape;
-  ParameterSet fitted = parameters;
-  if (!parameters.has("dem_file")) {
-    double wave_height_m = 0.0;
-    shape = fit_relief(parameters, rows, seed, &wave_height_m);
+  TerrainParams fitted = params.terrain;
+  if (fitted.dem_file.empty()) {
+    shape = fit_relief(params, rows, &fitted.waves_m);
     // The grid may reach one cell beyond its box.
-    limit_hillside(widened(parcel, kGroundMargin_m + parameters.number("terrain_cell_m")),
-                   parameters.number("slope_fade_m"), shape);
-    fitted.set("waves_m", wave_height_m);
+    limit_hillside(widened(parcel, VineyardParams::kGroundMargin_m + fitted.cell_m),
+                   params.slope_fade_m, shape);
   }
-  return build_terrain(fitted, seed, origin, shape, box);
+  return build_terrain(fitted, params.planting.seed, params.origin, shape, box);
 }
 
 /// The parameters with a relief: unless given, the ground is as steep as that of Parcel F.
-ParameterSet with_relief(const ParameterSet& parameters) {
+VineyardParams read_vineyard(const ParameterSet& parameters) {
   constexpr double kRelief_m = 30.0, kRowLength_m = 118.0, kMost_m = 500.0;
-  ParameterSet complete = parameters;
-  if (!parameters.has("relief_m")) {
-    const double share = parameters.number("row_length_m") / kRowLength_m;
-    complete.set("relief_m", std::min(kRelief_m * share, kMost_m), "default");
+  VineyardParams params = vineyard_table().read(parameters, "");
+  if (!params.relief_m) {
+    const double share = params.row_length_m / kRowLength_m;
+    params.relief_m = std::min(kRelief_m * share, kMost_m);
   }
-  return complete;
+  return params;
 }
 
 /// Everything that shapes a mesh file: parameters, ground, and the generator's version.
-std::string mesh_key(const ParameterSet& parameters, const HeightField& terrain) {
+std::string mesh_key(const ParameterSet& parameters, double relief_m, const HeightField& terrain) {
   Hasher hasher;
   hasher.add(kGeneratorVersion);
   ParameterSet shaping = parameters;
+  shaping.set("relief_m", relief_m);
   // Where the files lie, sun and wind, what is on the map or in the way changes no file.
   for (const char* name : {"sun_azimuth_deg", "sun_elevation_deg"}) shaping.set(name, 45.0);
   shaping.set("soil", std::string("dry_grass"));
   shaping.set("mesh_folder", std::string());
   std::vector<std::string> without{"wind", "surroundings_m", "slope_fade_m", "neighbours"};
-  for (const auto& specs : {map_parameters(), obstacle_parameters()}) {
+  for (const auto& specs : {map_table().specs(), obstacles_table().specs()}) {
     for (const ParameterSpec& spec : specs) without.push_back(spec.name);
   }
   add_parameters(hasher, shaping, without);
@@ -235,45 +186,48 @@ std::string mesh_key(const ParameterSet& parameters, const HeightField& terrain)
   return hasher.hex().substr(0, 16);
 }
 
-std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& given, const WorldContext& context) {
-  const ParameterSet parameters = with_relief(given);
-  const VinePlanting planting = read_planting(parameters);
+std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters,
+                                          const WorldContext& context) {
+  const VineyardParams params = read_vineyard(parameters);
+  const VinePlanting& planting = params.planting;
   auto world = std::make_unique<WorldModel>();
   world->name = "vineyard";
-  world->origin = read_origin(parameters);
-  read_surroundings(parameters, context.seed, *world);
+  world->origin = params.origin;
+  set_surroundings(params.surroundings, context.seed, *world);
   world->depends_on_seed = false;  // plants and terrain have a seed of their own
 
-  const std::vector<RowCurve> rows = lay_rows(parameters);
+  const std::vector<RowCurve> rows = lay_rows(params);
   const std::vector<Eigen::Vector2d> boundary =
-      parcel_boundary(rows, parameters.number("headland_m"), parameters.number("pitch_m"));
-  world->terrain = make_ground(parameters, rows, boundary, planting.seed, world->origin);
+      parcel_boundary(rows, params.headland_m, params.pitch_m);
+  world->terrain = make_ground(params, rows, boundary);
   const GroundHeight ground = ground_of(*world->terrain);
   world->rows = make_row_map(rows, ground, planting.canopy, boundary);
   add_alley_spawn_points(*world);
-  world->scenery =
-      read_neighbours(parameters, boundary, parameters.number("surroundings_m"), planting.seed);
+  if (params.neighbours) {
+    world->scenery =
+        make_neighbours(*params.neighbours, boundary, params.surroundings_m, planting.seed);
+  }
 
   std::vector<VineRow> vine_rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double length_m = rows[i].length_m(), spacing_m = parameters.number("vine_spacing_m");
+    const double length_m = rows[i].length_m(), spacing_m = params.vine_spacing_m;
     const RandomStream random(planting.seed, "", fmt::format("world.missing.row_{}", i));
     VineRow row{rows[i],
-                regular_vines(length_m, spacing_m, parameters.number("missing_vine_share"), random),
+                regular_vines(length_m, spacing_m, params.missing_vine_share, random),
                 spacing_m,
                 {}};
-    if (parameters.boolean("posts")) {
+    if (planting.trellis.posts) {
       row.post_s_m = spread_posts(0.0, length_m, planting.trellis.post_spacing_m);
     }
     vine_rows.push_back(std::move(row));
   }
-  const std::filesystem::path folder = parameters.has("mesh_folder")
-                                           ? std::filesystem::path(parameters.text("mesh_folder"))
-                                           : find_cache_folder();
-  FileMeshStore store(folder / ("vineyard-" + mesh_key(parameters, *world->terrain)));
+  const std::filesystem::path folder =
+      params.mesh_folder.empty() ? find_cache_folder() : params.mesh_folder;
+  const std::string key = mesh_key(parameters, *params.relief_m, *world->terrain);
+  FileMeshStore store(folder / ("vineyard-" + key));
   plant_vine_rows(*world, vine_rows, ground, planting, store);
-  fill_occupancy(parameters, *world, place_obstacles(parameters, *world),
-                 row_end_margin_m(planting, parameters.boolean("posts")));
+  fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
+                 row_end_margin_m(planting));
   return world;
 }
 

@@ -4,18 +4,31 @@
 #include <cmath>
 
 #include "engine/api/messages/commands.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow {
 namespace {
 
 constexpr Duration kTouchGap{500'000'000};
 
+struct ClearanceParams {
+  double search_radius_m = 3.0;
+};
+
+const ParameterTable<ClearanceParams>& clearance_table() {
+  using P = ClearanceParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>().number("search_radius_m", "m", &P::search_radius_m, kPositive,
+                                 "farther plants are not looked for");
+  return table;
+}
+
 class Clearance final : public Metric {
  public:
   Clearance(const ParameterSet& parameters, const MetricContext& context)
       : scene_(context.scene),
         vehicle_(context.vehicle_description),
-        radius_m_(parameters.number("search_radius_m")),
+        radius_m_(clearance_table().read(parameters, "").search_radius_m),
         hull_reach_m_(vehicle_->collision_half_extents_m.norm()),
         min_clearance_m_(radius_m_) {}
 
@@ -77,8 +90,7 @@ PartSpec clearance_spec() {
   spec.name = "clearance";
   spec.description =
       "Minimum distance from the hull to canopy, posts and trunks, and the number of touches";
-  spec.parameters = {
-      positive_parameter("search_radius_m", "m", 3.0, "farther plants are not looked for")};
+  spec.parameters = clearance_table().specs();
   spec.reads = {"truth", "contacts"};
   spec.writes = {"min_clearance_m", "contact_count", "canopy_contact_count"};
   return spec;

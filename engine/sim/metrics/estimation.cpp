@@ -6,6 +6,7 @@
 #include "engine/api/map.h"
 #include "engine/api/messages/flight.h"
 #include "engine/api/observer.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
@@ -14,21 +15,43 @@
 namespace vinerow {
 namespace {
 
+struct EstimationParams {
+  double from_s = 3.0;
+  double row_reach_m = 5.0;
+  double nees_margin = 0.2;
+  std::vector<std::string> nis = {"gnss_position", "gnss_velocity", "barometer",
+                                  "magnetometer",  "range",         "wheels"};
+};
+
+const ParameterTable<EstimationParams>& estimation_table() {
+  using P = EstimationParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("from_s", "s", &P::from_s, between(0.0, 1e6), "what comes before is left out")
+          .number("row_reach_m", "m", &P::row_reach_m, between(0.0, 1e3),
+                  "so near a row its direction is taken, else the heading")
+          .number("nees_margin", "", &P::nees_margin, between(0.0, 1.0),
+                  "by how much the mean NEES may lie beyond its 95 % bounds: 0.2 forgives "
+                  "standard deviations wrong by a tenth")
+          .texts("nis", &P::nis, "sources whose NIS is averaged");
+  return table;
+}
+
 class Estimation final : public Metric {
  public:
-  Estimation(const ParameterSet& parameters, const MetricContext& context)
-      : from_(duration_from_s(parameters.number("from_s"))),
-        row_reach_m_(parameters.number("row_reach_m")),
+  Estimation(const EstimationParams& params, const MetricContext& context)
+      : from_(duration_from_s(params.from_s)),
+        row_reach_m_(params.row_reach_m),
         is_rotorcraft_(context.vehicle_description != nullptr &&
                        context.vehicle_description->rotorcraft.has_value()) {
-    const auto& nis = parameters.texts("nis");
-    const double margin = parameters.number("nees_margin");
-    judges_.emplace_back(EstimateJudge::Signals{}, EstimateJudge::Prefixes{}, nis, margin);
+    judges_.emplace_back(EstimateJudge::Signals{}, EstimateJudge::Prefixes{}, params.nis,
+                         params.nees_margin);
     for (const std::string& observer : context.observers) {
       const auto signals = observer_signals(observer);
       judges_.emplace_back(EstimateJudge::Signals{signals.at("estimate"), signals.at("ellipsoid"),
                                                   signals.at("estimator_state")},
-                           EstimateJudge::Prefixes{observer + "_", observer + "_"}, nis, margin);
+                           EstimateJudge::Prefixes{observer + "_", observer + "_"}, params.nis,
+                           params.nees_margin);
     }
     if (context.world == nullptr) return;
     for (const PlantRow& row : context.world->rows->rows) {
@@ -96,17 +119,7 @@ PartSpec estimation_spec() {
   spec.description =
       "Error of the estimate across and along the rows, and whether its covariance is right (NEES, "
       "NIS, containment)";
-  spec.parameters = {
-      number_parameter("from_s", "s", 3.0, 0.0, 1e6, "what comes before is left out"),
-      number_parameter("row_reach_m", "m", 5.0, 0.0, 1e3,
-                       "so near a row its direction is taken, else the heading"),
-      number_parameter("nees_margin", "", 0.2, 0.0, 1.0,
-                       "by how much the mean NEES may lie beyond its 95 % bounds: 0.2 forgives "
-                       "standard deviations wrong by a tenth"),
-      text_list_parameter(
-          "nis", {"gnss_position", "gnss_velocity", "barometer", "magnetometer", "range", "wheels"},
-          "sources whose NIS is averaged"),
-  };
+  spec.parameters = estimation_table().specs();
   spec.reads = {"truth", "estimate (optional)", "ellipsoid (optional)",
                 "estimator_state (optional)", "those of the observers"};
   spec.writes = {"estimate_lateral_std_m",
@@ -128,7 +141,7 @@ PartSpec estimation_spec() {
 
 std::unique_ptr<Metric> make_estimation(const ParameterSet& parameters,
                                         const MetricContext& context) {
-  return std::make_unique<Estimation>(parameters, context);
+  return std::make_unique<Estimation>(estimation_table().read(parameters, ""), context);
 }
 
 }  // namespace vinerow

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/api/world_model.h"
-#include "engine/core/error.h"
 
 namespace vinerow {
 namespace {
@@ -16,27 +17,54 @@ namespace {
 /// Room for more than an hour at one picture per second; later ones take more memory.
 constexpr std::size_t kUsualShots = 4096;
 
-Polygon given_parcel(const ParameterSet& parameters) {
-  const auto coordinates = [&](const char* name) {
-    return parameters.has(name) ? parameters.numbers(name) : std::vector<double>{};
-  };
-  const std::vector<double> x = coordinates("polygon_x_m"), y = coordinates("polygon_y_m");
-  if (x.size() != y.size()) {
-    throw ConfigError(fmt::format(
-        "polygon_x_m has {} numbers and polygon_y_m has {}, must be as many", x.size(), y.size()));
+struct SurveyMetricParams {
+  std::optional<std::string> camera;
+  std::optional<std::vector<double>> polygon_x_m;
+  std::optional<std::vector<double>> polygon_y_m;
+  double cell_m = 1.0;
+  double wanted_overlap = 0.85;
+
+  CoverageOptions options() const;
+};
+
+std::string find_fault_in_polygon(const SurveyMetricParams& p) {
+  const std::size_t x = p.polygon_x_m ? p.polygon_x_m->size() : 0;
+  const std::size_t y = p.polygon_y_m ? p.polygon_y_m->size() : 0;
+  if (x == y) return "";
+  return fmt::format("polygon_x_m has {} numbers and polygon_y_m has {}, must be as many", x, y);
+}
+
+const ParameterTable<SurveyMetricParams>& survey_metric_table() {
+  using P = SurveyMetricParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .text("camera", &P::camera,
+                "sensor that takes the pictures; default: 'camera' of vehicles with wings")
+          .numbers("polygon_x_m", "m", &P::polygon_x_m, kAnyNumber,
+                   "east of the parcel's corners; default: the parcel of the world")
+          .numbers("polygon_y_m", "m", &P::polygon_y_m, kAnyNumber, "north of the parcel's corners")
+          .number("cell_m", "m", &P::cell_m, kPositive, "size of the cells that are counted")
+          .number("wanted_overlap", "", &P::wanted_overlap, between(0.0, 1.0),
+                  "forward overlap with which ground counts as covered by overlap_covered_share")
+          .rule(find_fault_in_polygon);
+  return table;
+}
+
+CoverageOptions SurveyMetricParams::options() const {
+  CoverageOptions options{{}, cell_m, wanted_overlap};
+  for (std::size_t i = 0; polygon_x_m && i < polygon_x_m->size(); ++i) {
+    options.parcel_W.emplace_back((*polygon_x_m)[i], (*polygon_y_m)[i]);
   }
-  Polygon parcel;
-  for (std::size_t i = 0; i < x.size(); ++i) parcel.emplace_back(x[i], y[i]);
-  return parcel;
+  return options;
 }
 
 class SurveyMetric final : public Metric {
  public:
-  SurveyMetric(const ParameterSet& parameters, const MetricContext& context)
-      : camera_(parameters.has("camera") ? parameters.text("camera") : "camera"),
-        is_wanted_(parameters.has("camera") ||
+  SurveyMetric(const SurveyMetricParams& params, const MetricContext& context)
+      : camera_(params.camera.value_or("camera")),
+        is_wanted_(params.camera.has_value() ||
                    context.vehicle_description->fixed_wing.has_value()) {
-    options_ = read_coverage_options(parameters);
+    options_ = params.options();
     if (options_.parcel_W.empty() && context.world != nullptr) {
       options_.parcel_W = context.world->rows->boundary_W;
     }
@@ -91,31 +119,19 @@ PartSpec survey_coverage_spec() {
   spec.description =
       "Of vehicles with wings: how much of the parcel their pictures cover, with what overlap and "
       "ground sampling distance (paper A, section 2)";
-  spec.parameters = {
-      optional(text_parameter("camera", "camera",
-                              "sensor that takes the pictures; default: 'camera' of vehicles with "
-                              "wings")),
-      optional(number_list_parameter("polygon_x_m", "m", {},
-                                     "east of the parcel's corners; default: the parcel of the "
-                                     "world")),
-      optional(number_list_parameter("polygon_y_m", "m", {}, "north of the parcel's corners")),
-      positive_parameter("cell_m", "m", 1.0, "size of the cells that are counted"),
-      number_parameter("wanted_overlap", "", 0.85, 0.0, 1.0,
-                       "forward overlap with which ground counts as covered by overlap_covered_"
-                       "share")};
+  spec.parameters = survey_metric_table().specs();
   spec.reads = {"truth", "<camera> (optional)", "plan (optional)"};
   spec.writes = coverage_number_names();
   return spec;
 }
 
 CoverageOptions read_coverage_options(const ParameterSet& parameters) {
-  return {given_parcel(parameters), parameters.number("cell_m"),
-          parameters.number("wanted_overlap")};
+  return survey_metric_table().read(parameters, "").options();
 }
 
 std::unique_ptr<Metric> make_survey_coverage(const ParameterSet& parameters,
                                              const MetricContext& context) {
-  return std::make_unique<SurveyMetric>(parameters, context);
+  return std::make_unique<SurveyMetric>(survey_metric_table().read(parameters, ""), context);
 }
 
 }  // namespace vinerow

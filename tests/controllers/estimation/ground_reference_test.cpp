@@ -235,14 +235,12 @@ TEST(GroundReference, IsNotThereWithoutTheMap) {
 }
 
 TEST(GroundReference, IsLessSureOffTheRows) {
-  PartSpec spec;
-  spec.parameters = ground_parameters();
   const RowMap map = make_wall_map(kSlope);
   VehicleDescription rover;
   rover.height_above_ground_m = 0.4;
   EstimatorContext context;
   context.vehicle_description = &rover;
-  GroundReference ground(make_parameters(spec, {}), context, &map, "test");
+  GroundReference ground(GroundParams{}, context, &map, "test");
   const auto between = ground.read(Time{}, Eigen::Quaterniond::Identity(), {40, 1, 7});
   ASSERT_TRUE(between);
   EXPECT_NEAR((between->normal_W - wall_ground_normal(kSlope)).norm(), 0.0, 1e-9);

@@ -172,6 +172,7 @@ TEST(SlipEstimate, StaysWhereNothingSlips) {
 TEST(SlipEstimate, StaysWhenSwitchedOff) {
   SlipEstimateParams params;
   params.effectiveness = 0.4;
+  params.learn_time_s = 0.0;
   SlipEstimate slip(params);
   for (int i = 0; i < 100; ++i) slip.update(0.8, 0.1, {1.0, 0.3}, 0.025);
   EXPECT_EQ(slip.effectiveness(), 0.4);

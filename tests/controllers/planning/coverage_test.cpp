@@ -268,9 +268,8 @@ TEST(Coverage, RefusesAMapWithoutAlleysAndWrongAlleys) {
   expect_config_error(
       make_narrow_map(), {"coverage", {{"alleys", std::vector<double>{0, 9}}}},
       "rover.planner (coverage): alleys holds 9, must be whole numbers from 0 to 8");
-  expect_config_error(
-      make_narrow_map(), {"coverage", {{"alleys", std::vector<double>{1.5}}}},
-      "rover.planner (coverage): alleys holds 1.5, must be whole numbers from 0 to 8");
+  expect_config_error(make_narrow_map(), {"coverage", {{"alleys", std::vector<double>{1.5}}}},
+                      "rover.planner (coverage): alleys[0] = 1.5, must be a whole number");
   expect_config_error(make_narrow_map(), {"coverage", {{"alleys", std::vector<double>{2, 2}}}},
                       "rover.planner (coverage): alleys holds 2 twice");
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "controllers/planning/analytic_turn.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/block_map.h"
@@ -321,7 +322,7 @@ TEST(RoutePlanner, NothingIsMissingWhereTheTurnFits) {
 }
 
 ParameterSet make_parameters() {
-  return ParameterSet(route_planner_parameters(), "planner");
+  return ParameterSet(route_planner_table().specs(), "planner");
 }
 
 TEST(RoutePlannerParameters, TurningRadiusIsTheVehiclesOrWider) {

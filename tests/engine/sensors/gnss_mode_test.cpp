@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/sensors/gnss_error.h"
 #include "engine/sensors/gnss_mode.h"
@@ -28,9 +29,8 @@ ParameterSet with(std::vector<ParameterSpec> specs, const Values& values) {
 class Modes {
  public:
   explicit Modes(const Values& values = {})
-      : parameters_(with(gnss_mode_parameters(), values)),
-        modes_(read_gnss_mode_rules(parameters_, "rover.sensors.s"), kPeriod_s,
-               is_running_at_start(parameters_)) {}
+      : modes_(gnss_mode_table().read(with(gnss_mode_table().specs(), values), "rover.sensors.s"),
+               kPeriod_s) {}
 
   Mode step(double code_pdop, int carriers, double carrier_pdop) {
     time_s = kPeriod_s * tick_++;
@@ -49,7 +49,6 @@ class Modes {
   double time_s = 0.0;  ///< of the last tick
 
  private:
-  ParameterSet parameters_;
   GnssModes modes_;
   int tick_ = 0;
 };
@@ -108,6 +107,11 @@ TEST(GnssModes, ContradictionsAreRefused) {
             "rover.sensors.s: time_to_refix_s = 11 s, must be <= time_to_fix_s = 10 s");
 }
 
+GnssModeErrors errors_with(const Values& values) {
+  const ParameterSet parameters = with(gnss_error_table().specs(), values);
+  return gnss_error_table().read(parameters, "gnss").resolve();
+}
+
 class GnssErrorOfMode : public ::testing::TestWithParam<Mode> {
  protected:
   /// Defaults: 0.8 and 1.2 by code, 1.0 and 1.45 by carrier phase; the first on two axes.
@@ -117,8 +121,7 @@ class GnssErrorOfMode : public ::testing::TestWithParam<Mode> {
     return {{axis, axis, by_phase ? 1.45 : 1.2}, 0.7};
   }
   static GnssError error_with(const Values& values, double period_s = kPeriod_s) {
-    return {read_gnss_errors(with(gnss_error_parameters(), values)), period_s,
-            RandomStream(1, "rover", "gnss")};
+    return {errors_with(values), period_s, RandomStream(1, "rover", "gnss")};
   }
   GnssFix errors_of(const GnssError& error, const Dilution& dilution) const {
     GnssFix fix;
@@ -230,8 +233,7 @@ INSTANTIATE_TEST_SUITE_P(All, GnssErrorOfDataSheet,
 
 TEST(GnssError, ABaseStationFarAwayAddsAMillimetrePerKilometre) {
   const auto walk_m = [](double baseline_m) {
-    return read_gnss_errors(with(gnss_error_parameters(), {{"baseline_m", baseline_m}}))[3]
-        .walk_std_m[0];
+    return errors_with({{"baseline_m", baseline_m}})[3].walk_std_m[0];
   };
   EXPECT_NEAR(std::pow(walk_m(20'000.0), 2) - std::pow(walk_m(0.0), 2), 0.02 * 0.02, 1e-12);
 }

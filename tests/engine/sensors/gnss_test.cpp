@@ -185,14 +185,14 @@ TEST(Gnss, ContradictionsAreRefusedInOneSentence) {
   const ParameterSet plain = GnssBench::parameters({});
   EXPECT_EQ(refusal_of(with_window(plain, "jamming",
                                    {{"begin_s", 5.0}, {"end_s", 4.0}, {"drop_dB", 10.0}})),
-            "rover.sensors.s: jamming: end_s = 4 s, must be >= begin_s = 5 s");
+            "rover.sensors.s: jamming[0]: end_s = 4 s, must be >= begin_s = 5 s");
   EXPECT_EQ(refusal_of(with_window(plain, "outages", {{"begin_s", 9.0}, {"end_s", 5.0}})),
-            "rover.sensors.s: outages: end_s = 5 s, must be >= begin_s = 9 s");
+            "rover.sensors.s: outages[0]: end_s = 5 s, must be >= begin_s = 9 s");
   EXPECT_EQ(refusal_of(with_window(
                 plain, "jamming",
                 {{"begin_s", 5.0}, {"end_s", 9.0}, {"drop_dB", 10.0}, {"ramp_s", 3.0}})),
-            "rover.sensors.s: jamming: ramp_s = 3 s, must be at most half of the window from 5 s "
-            "to 9 s");
+            "rover.sensors.s: jamming[0]: ramp_s = 3 s, must be at most half of the window from 5 "
+            "s to 9 s");
 }
 
 TEST(Gnss, TheDataSheetsAreReadAndDiffer) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
 #include "tests/engine/sensors/gnss_bench.h"
 
 namespace vinerow::gnss_tracking_test {
@@ -27,10 +28,10 @@ GnssSky sky_of_barolo() {
 /// What tracks with the defaults, but without fading.
 GnssView look(const SceneQuery& scene, const Vector3d& p_W, double time_s = 0.0,
               double jamming_dB = 0.0) {
-  ParameterSet parameters(gnss_signal_parameters(), "gnss");
+  ParameterSet parameters(gnss_signal_table().specs(), "gnss");
   parameters.set("fading_share", 0.0);
-  GnssTracking tracking(read_gnss_signals(parameters, "s"), sky_of_barolo(), scene, 0.2, true,
-                        RandomStream(1, "rover", "s"));
+  GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), scene, 0.2,
+                        true, RandomStream(1, "rover", "s"));
   return tracking.look(time_s, p_W, false, jamming_dB);
 }
 
@@ -95,10 +96,10 @@ TEST(GnssTracking, LeavesTakeSoMuchPerMetreOfThem) {
 TEST(GnssTracking, WeakSatellitesCountLessInTheGeometry) {
   // All have the usual 45 dB-Hz; 10 dB less are ten times the noise, which is all of a phase's
   // variance and a tenth of a code's: 10 and 0.9 + 0.1 * 10 times the variance.
-  ParameterSet parameters(gnss_signal_parameters(), "gnss");
+  ParameterSet parameters(gnss_signal_table().specs(), "gnss");
   parameters.set("zenith_cn0_dBHz", 45.0).set("horizon_cn0_dBHz", 45.0);
   const BoxScene open;
-  GnssTracking tracking(read_gnss_signals(parameters, "s"), sky_of_barolo(), open, 0.2, true,
+  GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), open, 0.2, true,
                         RandomStream(1, "rover", "s"));
   const GnssView clear = tracking.look(0.0, {0, 0, 1}, false, 0.0);
   const GnssView jammed = tracking.look(0.0, {0, 0, 1}, false, 10.0);
@@ -110,10 +111,10 @@ TEST(GnssTracking, WeakSatellitesCountLessInTheGeometry) {
 }
 
 TEST(GnssTracking, AfterABlockageCodeComesBackBeforePhase) {
-  ParameterSet parameters(gnss_signal_parameters(), "gnss");
+  ParameterSet parameters(gnss_signal_table().specs(), "gnss");
   parameters.set("reacquisition_s", 1.0).set("carrier_lock_s", 3.0);
   const BoxScene open;
-  GnssTracking tracking(read_gnss_signals(parameters, "s"), sky_of_barolo(), open, 0.2, true,
+  GnssTracking tracking(gnss_signal_table().read(parameters, "s"), sky_of_barolo(), open, 0.2, true,
                         RandomStream(1, "rover", "s"));
   const auto counts = [&](bool deaf) {
     const GnssView view = tracking.look(0.0, {0, 0, 1}, deaf, 0.0);

@@ -69,7 +69,7 @@ TEST(RotorParams, RefusesAnImpossibleRotor) {
     rotor.validate("drone");
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "drone: rotor_rise_lag_s = -0.1, must be >= 0");
+    EXPECT_STREQ(error.what(), "drone: rotor_rise_lag_s = -0.1 s, must be >= 0 s and <= 10 s");
   }
 }
 

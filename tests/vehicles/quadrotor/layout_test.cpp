@@ -170,9 +170,9 @@ TEST(QuadrotorParams, RefusesWhatCannotBe) {
       "drone: inertia_kgm2 = [0.05, 0.05, 0.2] is that of no body: one of them is larger than "
       "the other two together");
   EXPECT_EQ(refusal([](QuadrotorParams& p) { p.mass_kg = -1.0; }),
-            "drone: mass_kg = -1, must be > 0");
+            "drone: mass_kg = -1 kg, must be > 0 kg");
   EXPECT_EQ(refusal([](QuadrotorParams& p) { p.battery.initial_charge = 1.5; }),
-            "drone: initial_charge = 1.5, must be 0 to 1");
+            "drone: initial_charge = 1.5, must be >= 0 and <= 1");
   EXPECT_EQ(refusal([](QuadrotorParams& p) { p.gear_radius_m = 0.5; }),
             "drone: gear_radius_m = 0.5 is longer than arm_m = 0.31");
 }

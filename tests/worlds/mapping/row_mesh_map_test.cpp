@@ -403,7 +403,7 @@ TEST(RowMeshMap, RefusesWhatCannotBe) {
   EXPECT_EQ(error_of(options), "missing: there is no row 9, the last one is 3");
   gap.set("row", std::int64_t{2}).set("to_m", 1.0);
   options.set("missing", std::vector<ParameterSet>{gap});
-  EXPECT_EQ(error_of(options), "missing: from_m = 1 m of row 2, must be < to_m = 1 m");
+  EXPECT_EQ(error_of(options), "missing[0]: from_m = 1 m of row 2, must be < to_m = 1 m");
   options = parameters();
   ParameterSet random = options.make_group("random_missing");
   random.set("count", std::int64_t{1}).set("length_m", 500.0);

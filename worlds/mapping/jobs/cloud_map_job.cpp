@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "worlds/mapping/cloud/folder/cloud_map_type.h"
@@ -14,74 +15,15 @@
 #include "worlds/mapping/cloud/make_cloud_map.h"
 #include "worlds/mapping/cloud/map_comparison.h"
 #include "worlds/mapping/cloud/reading/cloud_source.h"
+#include "worlds/mapping/jobs/cloud_map_job_params.h"
 
 namespace vinerow::worlds {
 namespace {
 
-std::vector<ParameterSpec> cloud_map_job_parameters() {
-  const CloudMapOptions usual;
-  ParameterSpec spacing =
-      number_list_parameter("row_spacing_m", "m", {usual.spacing_low_m, usual.spacing_high_m},
-                            "least and largest distance of rows that are looked for", 2);
-  spacing.min = 0.1;
-  spacing.max = 100.0;
-  return {
-      choice_parameter("boundary", "parcel", {"parcel", "none"},
-                       "of the map: the world's parcel, as its farmer knows it from the land "
-                       "register; none: a box around the rows"),
-      choice_parameter("numbering", "world", {"world", "map"},
-                       "rows and alleys are counted from the side, and run the way, that the "
-                       "world's do; or as they were found"),
-      text_parameter("crs", "",
-                     "of the cloud's numbers, like EPSG:25832; none: metres of the world's frame; "
-                     "default: as the file says"),
-      integer_parameter("thin", 1, 1, 1e6, "takes every n-th point"),
-      number_parameter("canopy_cut_m", "m", usual.canopy_cut_m, 0.05, 5.0,
-                       "above the ground where canopy may begin; what is lower is grass and weeds"),
-      std::move(spacing),
-      number_parameter("least_row_length_m", "m", usual.row_length_low_m, 1.0, 1000.0,
-                       "shorter ones are no rows"),
-      number_parameter("terrain_cell_m", "m", usual.terrain_cell_m, 0.1, 20.0,
-                       "between heights of the ground"),
-      number_parameter("headland_m", "m", usual.headland_m, 0.1, 1000.0,
-                       "of ground beyond row ends and outer rows, where there is no boundary"),
-      integer_parameter("corners", usual.corners, 5, 16, "of a cross-section"),
-      number_parameter("slice_m", "m", usual.slice_m, 0.02, 5.0,
-                       "between cross-sections, before any is left out"),
-      number_parameter("gap_m", "m", usual.gap_m, 0.05, 100.0,
-                       "without canopy that splits a row's mesh"),
-      number_parameter("budget_MB", "MB", usual.budget_MB, 0.0, 1e4,
-                       "that all row meshes may take; 0: 1.3 kB per metre of row"),
-      number_parameter("occupancy_cell_m", "m", usual.occupancy.cell_m, 0.0, 10.0,
-                       "cell of the occupancy grid; 0: no grid"),
-      boolean_parameter("virtual_walls", true,
-                        "the grid has walls from row ends to the boundary that leave the "
-                        "serpentine as the only way"),
-      choice_parameter("first_wall", "auto", {"auto", "first", "last"},
-                       "end of row 0 that is walled; the others alternate"),
-  };
-}
-
-CloudMapOptions read_cloud_map_options(const ParameterSet& parameters) {
-  CloudMapOptions options;
-  options.terrain_cell_m = parameters.number("terrain_cell_m");
-  options.canopy_cut_m = parameters.number("canopy_cut_m");
-  options.spacing_low_m = parameters.numbers("row_spacing_m")[0];
-  options.spacing_high_m = parameters.numbers("row_spacing_m")[1];
-  options.row_length_low_m = parameters.number("least_row_length_m");
-  options.headland_m = parameters.number("headland_m");
-  options.corners = static_cast<int>(parameters.integer("corners"));
-  options.slice_m = parameters.number("slice_m");
-  options.gap_m = parameters.number("gap_m");
-  options.budget_MB = parameters.number("budget_MB");
-  options.occupancy.cell_m = parameters.number("occupancy_cell_m");
-  options.occupancy.virtual_walls = parameters.boolean("virtual_walls");
-  const std::string& wall = parameters.text("first_wall");
-  if (wall != "auto") {
-    options.occupancy.first_wall = wall == "first" ? RowEnd::kFirst : RowEnd::kLast;
-  }
-  check_options(options);
-  return options;
+CloudMapJobParams read_cloud_map_job(const ParameterSet& parameters) {
+  CloudMapJobParams params = cloud_map_job_table().read(parameters, "");
+  check_options(params.options);
+  return params;
 }
 
 /// Counter-clockwise. @throws ConfigError where the world has none
@@ -104,28 +46,26 @@ void add_comparison(const MapComparison& comparison, std::map<std::string, doubl
   numbers["volume_error_share"] = comparison.volume_share;
 }
 
-CloudMapOptions read_cloud_map_options(const ParameterSet& parameters, const WorldModel& world) {
-  CloudMapOptions options = read_cloud_map_options(parameters);
-  if (parameters.text("boundary") == "parcel") options.boundary_W = parcel_of(world);
+CloudMapOptions options_in(const WorldModel& world, const CloudMapJobParams& params) {
+  CloudMapOptions options = params.options;
+  if (params.with_parcel) options.boundary_W = parcel_of(world);
   return options;
 }
 
-CloudReadOptions read_reading(const ParameterSet& parameters, const WorldModel& world) {
-  CloudReadOptions reading;
-  reading.crs = parameters.text("crs");
+CloudReadOptions reading_in(const WorldModel& world, const CloudMapJobParams& params) {
+  CloudReadOptions reading = params.reading;
   reading.origin = world.origin;
-  reading.thin = static_cast<std::uint64_t>(parameters.integer("thin"));
   reading.with_colours = false;
   return reading;
 }
 
 class CloudMapJob : public Job {
  public:
-  CloudMapJob(const ParameterSet& parameters, const JobContext& context)
+  CloudMapJob(const CloudMapJobParams& params, const JobContext& context)
       : context_(context),
-        options_(read_cloud_map_options(parameters, *context.world)),
-        reading_(read_reading(parameters, *context.world)),
-        like_world_(parameters.text("numbering") == "world") {}
+        options_(options_in(*context.world, params)),
+        reading_(reading_in(*context.world, params)),
+        like_world_(params.like_world) {}
 
   Result<JobOutcome> run(const std::map<std::string, Product>& inputs) override {
     try {
@@ -194,11 +134,11 @@ void register_cloud_map_job(Registry& registry) {
   spec.description =
       "turns a point cloud into a low-complexity map: rows, alleys, ground, row meshes and "
       "occupancy grid, after paper A, section 3";
-  spec.parameters = cloud_map_job_parameters();
+  spec.parameters = cloud_map_job_table().specs();
   spec.takes = {{"cloud", ProductKind::kCloud, true, "points of the whole parcel"}};
   spec.gives = ProductKind::kMap;
   registry.add_job(std::move(spec), [](const ParameterSet& parameters, const JobContext& context) {
-    return std::make_unique<CloudMapJob>(parameters, context);
+    return std::make_unique<CloudMapJob>(read_cloud_map_job(parameters), context);
   });
 }
 

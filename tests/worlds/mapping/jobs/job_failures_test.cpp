@@ -40,7 +40,7 @@ TEST_F(JobFailures, PhotogrammetryIsRefusedWhileLoading) {
   EXPECT_EQ(refused("photogrammetry", with("missing_rows", std::vector<double>{1, 4})),
             "world 'vineyard' has no row 4, its rows are 0 to 3");
   EXPECT_EQ(refused("photogrammetry", with("missing_rows", std::vector<double>{1.5})),
-            "missing_rows: 1.5 is no number of a row");
+            "missing_rows[0] = 1.5, must be a whole number");
   EXPECT_EQ(refused("photogrammetry", with("area_m", std::vector<double>{0, 0, 1})),
             "area_m: 3 numbers, must be an even number: x and y of each corner in m");
   EXPECT_EQ(test::config_error_of([&] { with("match_noise_px", -0.5); }),

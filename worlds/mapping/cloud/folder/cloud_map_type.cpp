@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <optional>
 
 #include "engine/api/file_shelf.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
@@ -12,7 +15,7 @@
 #include "worlds/mapping/cloud/folder/map_folder.h"
 #include "worlds/mapping/cloud/folder/map_frame.h"
 #include "worlds/mapping/cloud/folder/map_numbering.h"
-#include "worlds/mapping/map_parameters.h"
+#include "worlds/mapping/occupancy.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -20,32 +23,44 @@ namespace {
 constexpr double kElsewhere_m = 50.0;  ///< a map so far beside the world's rows is of others
 constexpr double kHigh_m = 2.0;        ///< so far off the ground two height systems were mixed
 
-std::vector<ParameterSpec> cloud_map_parameters() {
-  ParameterSpec stated = number_parameter(
-      "stated_surface_std_m", "m", 0.0, 0.0, 1.0,
-      "1 sigma of the meshes' surface that estimators are told; 0: what the map says");
-  ParameterSpec offset = number_list_parameter(
-      "offset_std_m", "m", {0, 0, 0},
-      "1 sigma of a shift of the whole map, east, north, up, that estimators are told; default: "
-      "what the map says",
-      3);
-  offset.min = 0.0;
-  ParameterSpec cell = number_parameter(
-      "occupancy_cell_m", "m", 0.05, 0.005, 10,
-      "draws the occupancy grid anew of the map's rows and boundary with cells of this size; "
-      "default: the map's own grid");
-  return {required(path_parameter("folder", "folder that `vinerow map` wrote")),
-          choice_parameter("numbering", "world", {"world", "map"},
-                           "rows and alleys are counted from the side, and run the way, that the "
-                           "world's do; or as the folder has them"),
-          stated,
-          optional(offset),
-          optional(cell),
-          optional(boolean_parameter("virtual_walls", true,
-                                     "draws the grid anew with or without walls from row ends to "
-                                     "the boundary")),
-          optional(choice_parameter("first_wall", "auto", {"auto", "first", "last"},
-                                    "draws the grid anew; point of row 0 that is walled"))};
+enum class FirstWall { kAuto, kFirst, kLast };
+
+struct CloudMapParams {
+  std::filesystem::path folder;
+  bool like_world = true;             ///< numbered so
+  double stated_surface_std_m = 0.0;  ///< 0: what the map says
+  std::optional<Eigen::Vector3d> offset_std_m;
+  // Any of these draws the grid anew.
+  std::optional<double> occupancy_cell_m;
+  std::optional<bool> virtual_walls;
+  std::optional<FirstWall> first_wall;
+};
+
+const ParameterTable<CloudMapParams>& cloud_map_table() {
+  using P = CloudMapParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .path("folder", &P::folder, "folder that `vinerow map` wrote")
+          .required()
+          .choice("numbering", &P::like_world, {{"world", true}, {"map", false}},
+                  "rows and alleys are counted from the side, and run the way, that the "
+                  "world's do; or as the folder has them")
+          .number("stated_surface_std_m", "m", &P::stated_surface_std_m, between(0.0, 1.0),
+                  "1 sigma of the meshes' surface that estimators are told; 0: what the map says")
+          .numbers("offset_std_m", "m", &P::offset_std_m, kNotNegative,
+                   "1 sigma of a shift of the whole map, east, north, up, that estimators are "
+                   "told; default: what the map says")
+          .number("occupancy_cell_m", "m", &P::occupancy_cell_m, between(0.005, 10.0),
+                  "draws the occupancy grid anew of the map's rows and boundary with cells of "
+                  "this size; default: the map's own grid")
+          .boolean("virtual_walls", &P::virtual_walls,
+                   "draws the grid anew with or without walls from row ends to the boundary")
+          .choice("first_wall", &P::first_wall,
+                  {{"auto", FirstWall::kAuto},
+                   {"first", FirstWall::kFirst},
+                   {"last", FirstWall::kLast}},
+                  "draws the grid anew; point of row 0 that is walled");
+  return table;
 }
 
 /// "1.24 km", "63 m".
@@ -99,15 +114,13 @@ void note_heights(const RowMap& map, const MapContext& context, const std::strin
       context.vehicle, folder, std::abs(sum_m / count), sum_m > 0.0 ? "above" : "below"));
 }
 
-void draw_grid_anew(const ParameterSet& parameters, RowMap& map) {
+void draw_grid_anew(const CloudMapParams& params, RowMap& map) {
   OccupancyOptions options;
-  options.cell_m = parameters.has("occupancy_cell_m") ? parameters.number("occupancy_cell_m")
-                   : map.occupancy.empty()            ? options.cell_m
-                                                      : map.occupancy.cell_m;
-  if (parameters.has("virtual_walls")) options.virtual_walls = parameters.boolean("virtual_walls");
-  if (parameters.has("first_wall") && parameters.text("first_wall") != "auto") {
-    options.first_wall = parameters.text("first_wall") == "first" ? RowEnd::kFirst : RowEnd::kLast;
-  }
+  if (!map.occupancy.empty()) options.cell_m = map.occupancy.cell_m;
+  options.cell_m = params.occupancy_cell_m.value_or(options.cell_m);
+  options.virtual_walls = params.virtual_walls.value_or(options.virtual_walls);
+  if (params.first_wall == FirstWall::kFirst) options.first_wall = RowEnd::kFirst;
+  if (params.first_wall == FirstWall::kLast) options.first_wall = RowEnd::kLast;
   map.occupancy = make_occupancy_grid(map, options);
 }
 
@@ -134,20 +147,14 @@ RowMap map_in_world(CloudMap map, bool like_world, const MapContext& context,
 
 std::unique_ptr<RowMap> make_map_of_folder(const ParameterSet& parameters,
                                            const MapContext& context) {
-  const std::string& folder = parameters.text("folder");
-  const auto read =
-      keep<CloudMap>(context.shelf, file_mark(folder), [&] { return load_map(folder); });
-  RowMap map = map_in_world(*read, parameters.text("numbering") == "world", context, folder);
-  const bool anew = parameters.has("occupancy_cell_m") || parameters.has("virtual_walls") ||
-                    parameters.has("first_wall");
-  if (anew) draw_grid_anew(parameters, map);
-  if (parameters.number("stated_surface_std_m") > 0.0) {
-    map.accuracy.surface_std_m = parameters.number("stated_surface_std_m");
-  }
-  if (parameters.has("offset_std_m")) {
-    const std::vector<double>& offset = parameters.numbers("offset_std_m");
-    map.accuracy.offset_std_m = {offset[0], offset[1], offset[2]};
-  }
+  const CloudMapParams params = cloud_map_table().read(parameters, "");
+  const auto read = keep<CloudMap>(context.shelf, file_mark(params.folder),
+                                   [&] { return load_map(params.folder); });
+  RowMap map = map_in_world(*read, params.like_world, context, params.folder.string());
+  const bool anew = params.occupancy_cell_m || params.virtual_walls || params.first_wall;
+  if (anew) draw_grid_anew(params, map);
+  if (params.stated_surface_std_m > 0.0) map.accuracy.surface_std_m = params.stated_surface_std_m;
+  if (params.offset_std_m) map.accuracy.offset_std_m = *params.offset_std_m;
   return std::make_unique<RowMap>(std::move(map));
 }
 
@@ -158,7 +165,7 @@ void register_cloud_map(Registry& registry) {
       "a map that `vinerow map` made of a point cloud: rows, alleys, parcel, ground, row meshes "
       "and "
       "occupancy grid, after paper A, section 3";
-  spec.parameters = cloud_map_parameters();
+  spec.parameters = cloud_map_table().specs();
   registry.add_map(std::move(spec), make_map_of_folder);
 }
 

@@ -31,19 +31,20 @@
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 #include "engine/api/survey_camera.h"
+#include "engine/math/angles.h"
 #include "worlds/mapping/cloud/sampling/sampled_point.h"
 #include "worlds/mapping/cloud/sampling/survey_area.h"
 
 namespace vinerow::worlds {
 
 struct PhotogrammetryOptions {
-  std::optional<double> density_per_m2;  ///< wanted on the ground; absent: 1 / GSD^2
-  double match_px = 0.5;                 ///< 1 sigma in u and in v, of each picture
-  int min_views = 3;                     ///< >= 2
-  int max_views = 6;                     ///< that fix a point, >= min_views
-  double max_incidence_rad = 1.396;      ///< 80 deg, off the surface's normal
-  double min_baseline_rad = 0.052;       ///< 3 deg, between the reference's ray and some other
-  std::vector<int> missing_rows;         ///< PlantRow::id; no picture shows their canopy
+  std::optional<double> density_per_m2;           ///< wanted on the ground; absent: 1 / GSD^2
+  double match_px = 0.5;                          ///< 1 sigma in u and in v, of each picture
+  int min_views = 3;                              ///< >= 2
+  int max_views = 6;                              ///< that fix a point, >= min_views
+  double max_incidence_rad = rad_from_deg(80.0);  ///< off the surface's normal
+  double min_baseline_rad = rad_from_deg(3.0);    ///< between the reference's ray and some other
+  std::vector<int> missing_rows;                  ///< PlantRow::id; no picture shows their canopy
   std::uint64_t seed = 1;
 };
 

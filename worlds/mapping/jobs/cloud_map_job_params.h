@@ -1,0 +1,20 @@
+#pragma once
+/// What can be said of the job `cloud_map`.
+
+#include "engine/api/parameter_table_fwd.h"
+#include "worlds/mapping/cloud/make_cloud_map.h"
+#include "worlds/mapping/cloud/reading/read_cloud.h"
+
+namespace vinerow::worlds {
+
+struct CloudMapJobParams {
+  CloudMapOptions options;   ///< without the boundary
+  bool with_parcel = true;   ///< the boundary is the world's parcel, else a box around the rows
+  bool like_world = true;    ///< rows and alleys are numbered so
+  CloudReadOptions reading;  ///< crs and thin
+};
+
+/// What must fit together, check_options(CloudMapOptions) checks after reading.
+const ParameterTable<CloudMapJobParams>& cloud_map_job_table();
+
+}  // namespace vinerow::worlds

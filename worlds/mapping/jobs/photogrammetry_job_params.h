@@ -1,0 +1,21 @@
+#pragma once
+/// What can be said of the job `photogrammetry`.
+
+#include <vector>
+
+#include "engine/api/parameter_table_fwd.h"
+#include "worlds/mapping/cloud/sampling/cloud_file.h"
+#include "worlds/mapping/cloud/sampling/photogrammetry.h"
+
+namespace vinerow::worlds {
+
+struct PhotogrammetryJobParams {
+  PhotogrammetryOptions options;  ///< all but the seed
+  std::vector<double> area_m;     ///< x and y of each corner; empty: the world's parcel
+  double margin_m = 0.0;          ///< around the area
+  CloudFileOptions file;
+};
+
+const ParameterTable<PhotogrammetryJobParams>& photogrammetry_job_table();
+
+}  // namespace vinerow::worlds

@@ -1,0 +1,80 @@
+#include "worlds/mesh/mesh_params.h"
+
+#include "engine/api/parameter_table.h"
+
+namespace vinerow::worlds {
+namespace {
+
+const ParameterTable<MeshItem>& mesh_item_table() {
+  using P = MeshItem;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .path("file", &P::file, "mesh file: OBJ, STL, DAE, glTF, GLB or PLY")
+          .required()
+          .text("name", &P::name, "name of the object; default: the file's name")
+          .number(
+              "x_m", "m", [](P& p) -> double& { return p.p_WM.x(); }, between(-1e5, 1e5),
+              "position east")
+          .number(
+              "y_m", "m", [](P& p) -> double& { return p.p_WM.y(); }, between(-1e5, 1e5),
+              "position north")
+          .number(
+              "z_m", "m", [](P& p) -> double& { return p.p_WM.z(); }, between(-1e4, 1e4),
+              "position up")
+          .degrees("roll_deg", inside(&P::rpy, &RollPitchYaw::roll_rad), between(-360.0, 360.0),
+                   "turn about x, first")
+          .degrees("pitch_deg", inside(&P::rpy, &RollPitchYaw::pitch_rad), between(-360.0, 360.0),
+                   "turn about y, second")
+          .degrees("yaw_deg", inside(&P::rpy, &RollPitchYaw::yaw_rad), between(-360.0, 360.0),
+                   "turn about z, third")
+          .number("scale", "", &P::scale, kPositive, "factor on all axes")
+          .choice("up_axis", &P::up_axis,
+                  {{"auto", io::UpAxis::kAuto}, {"y", io::UpAxis::kY}, {"z", io::UpAxis::kZ}},
+                  "axis of the file that points up; auto: what the file says, else z")
+          .number("unit_m", "m", &P::unit_m, kPositive,
+                  "metres per unit of the file; default: what the file says, else 1")
+          .choice("surface", &P::surface,
+                  {{"terrain", SurfaceClass::kTerrain},
+                   {"canopy", SurfaceClass::kCanopy},
+                   {"post", SurfaceClass::kPost},
+                   {"trunk", SurfaceClass::kTrunk},
+                   {"wire", SurfaceClass::kWire},
+                   {"obstacle", SurfaceClass::kObstacle}},
+                  "what the object is")
+          .boolean("collides", &P::collides, "whether vehicles and rays meet it")
+          .boolean("visible", &P::visible, "whether pictures show it");
+  return table;
+}
+
+}  // namespace
+
+const ParameterTable<MeshWorldParams>& mesh_world_table() {
+  using P = MeshWorldParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .groups("items", &P::items, mesh_item_table(), "mesh files and where they stand")
+          .path("sdf_file", &P::sdf_file, "SDF world whose includes are read for models and poses")
+          .texts("model_folders", &P::model_folders,
+                 "folders with SDF models, absolute or beside sdf_file; default: ../models of "
+                 "sdf_file")
+          .text("vine_model", &P::vine_model, "models whose names begin so are pieces of vine rows")
+          .number("vine_piece_length_m", "m", &P::vine_piece_length_m, kPositive,
+                  "length of one such piece along its x axis")
+          .choice("ground", &P::ground,
+                  {{"auto", MeshGround::kAuto},
+                   {"none", MeshGround::kNone},
+                   {"flat", MeshGround::kFlat}},
+                  "flat height field under everything; auto: if no item is terrain")
+          .number("ground_margin_m", "m", &P::ground_margin_m, between(0.0, 500.0),
+                  "of the flat ground beyond the objects")
+          .number("vine_spacing_m", "m", &P::vine_spacing_m, kPositive,
+                  "between vines of a stand-in row")
+          .include(&P::terrain, terrain_table())
+          .include(&P::planting, planting_table())
+          .include(&P::origin, origin_table())
+          .include(&P::surroundings, surroundings_table())
+          .include(&P::map, map_table());
+  return table;
+}
+
+}  // namespace vinerow::worlds

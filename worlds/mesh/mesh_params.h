@@ -1,0 +1,59 @@
+#pragma once
+/// What can be said of the world `mesh` in a scenario.
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/api/mesh.h"
+#include "engine/api/parameter_table_fwd.h"
+#include "engine/io/mesh_file.h"
+#include "engine/math/pose.h"
+#include "worlds/mapping/map_parameters.h"
+#include "worlds/parts/common.h"
+#include "worlds/parts/terrain.h"
+#include "worlds/parts/vine_rows.h"
+
+namespace vinerow::worlds {
+
+/// A mesh file and where it stands.
+struct MeshItem {
+  std::filesystem::path file;
+  std::string name;  ///< empty: the file's
+  Eigen::Vector3d p_WM = {0.0, 0.0, 0.0};
+  RollPitchYaw rpy;
+  double scale = 1.0;
+  io::UpAxis up_axis = io::UpAxis::kAuto;
+  std::optional<double> unit_m;
+  SurfaceClass surface = SurfaceClass::kObstacle;
+  bool collides = true;
+  bool visible = true;
+};
+
+enum class MeshGround {
+  kAuto,  ///< flat if no item is terrain
+  kNone,
+  kFlat
+};
+
+struct MeshWorldParams {
+  std::vector<MeshItem> items;
+  std::filesystem::path sdf_file;
+  std::vector<std::string> model_folders;  ///< empty: ../models of sdf_file
+  std::string vine_model = "vine";         ///< how models begin that are pieces of vine rows
+  double vine_piece_length_m = 6.0;        ///< along its x axis
+  MeshGround ground = MeshGround::kAuto;
+  double ground_margin_m = 8.0;
+  double vine_spacing_m = 1.0;  ///< of a stand-in row
+  TerrainParams terrain;
+  VinePlanting planting;
+  GeoOrigin origin;
+  Surroundings surroundings;
+  MapParams map;
+};
+
+const ParameterTable<MeshWorldParams>& mesh_world_table();
+
+}  // namespace vinerow::worlds

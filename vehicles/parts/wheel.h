@@ -35,6 +35,7 @@ struct WheelParams {
   SuspensionParams suspension;
   MotorParams motor;
 
+  /// @throws ConfigError
   void validate(const std::string& who) const;
 };
 

@@ -7,8 +7,8 @@
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 #include "vehicles/diff_drive_rover/rover_mesh.h"
+#include "vehicles/parts/effective_track.h"
 #include "vehicles/parts/wheel_mesh.h"
-#include "vehicles/parts/wheel_parameters.h"
 
 namespace vinerow::vehicles {
 namespace {

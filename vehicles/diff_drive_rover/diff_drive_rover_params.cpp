@@ -1,44 +1,48 @@
 #include "vehicles/diff_drive_rover/diff_drive_rover_params.h"
 
-#include "vehicles/parts/validation.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow::vehicles {
+namespace {
+
+constexpr ParameterConversion kKmh = {[](double speed_kmh) { return speed_kmh / 3.6; },
+                                      [](double speed_mps) { return speed_mps * 3.6; }};
+
+const ParameterTable<DiffDriveRoverParams>& diff_drive_rover_table() {
+  using P = DiffDriveRoverParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .choice("fidelity", &P::kinematic, {{"physics", false}, {"kinematic", true}},
+                  "forces and slip, or the paper's pure kinematic model")
+          .number("max_speed_kmh", "km/h", &P::max_speed_mps, kPositive,
+                  "reference speed told to controllers", kKmh)
+          .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
+                  "smallest turning radius told to planners and controllers")
+          .include(chassis_of, chassis_table());
+  return table;
+}
+
+}  // namespace
 
 void DiffDriveRoverParams::validate() const {
-  validate_chassis();
-  demand_positive(name, "max_speed_mps", max_speed_mps);
-  demand_not_negative(name, "min_turning_radius_m", min_turning_radius_m);
+  diff_drive_rover_table().validate(*this, name);
 }
 
 PartSpec diff_drive_rover_spec() {
-  const DiffDriveRoverParams d;
   PartSpec spec;
   spec.name = "diff_drive_rover";
   spec.description =
       "Four-wheel skid-steered rover of paper B (table 1), on the shared wheel or, with fidelity: "
       "kinematic, as the paper's pure rolling model (eq. 1-2)";
   spec.writes = {"wheels", "battery"};
-  spec.parameters = {
-      choice_parameter("fidelity", "physics", {"physics", "kinematic"},
-                       "forces and slip, or the paper's pure kinematic model"),
-      positive_parameter("max_speed_kmh", "km/h", 7.0, "reference speed told to controllers"),
-      number_parameter("min_turning_radius_m", "m", d.min_turning_radius_m, 0.0, 1e3,
-                       "smallest turning radius told to planners and controllers"),
-  };
-  for (ParameterSpec& shared : chassis_parameter_specs(d)) {
-    spec.parameters.push_back(std::move(shared));
-  }
+  spec.parameters = diff_drive_rover_table().specs();
   return spec;
 }
 
 DiffDriveRoverParams read_diff_drive_rover_params(const ParameterSet& parameters,
                                                   const std::string& name) {
-  DiffDriveRoverParams p;
-  read_chassis_params(parameters, name, p);
-  p.kinematic = parameters.text("fidelity") == "kinematic";
-  p.max_speed_mps = parameters.number("max_speed_kmh") / 3.6;
-  p.min_turning_radius_m = parameters.number("min_turning_radius_m");
-  p.validate();
+  DiffDriveRoverParams p = diff_drive_rover_table().read(parameters, name);
+  p.name = name;
   return p;
 }
 

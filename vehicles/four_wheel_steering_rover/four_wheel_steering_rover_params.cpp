@@ -4,10 +4,39 @@
 
 #include <cmath>
 
-#include "engine/core/error.h"
-#include "vehicles/parts/validation.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow::vehicles {
+namespace {
+
+std::string find_fault_in_tightest_turn(const FourWheelSteeringRoverParams& p) {
+  if (p.min_turning_radius_m() > 0.5 * p.track_m) return "";
+  return fmt::format(
+      "max_steer_deg = {:.4g} puts the centre of the tightest turn {:.3g} m beside the centre of "
+      "mass, under the wheels of track_m = {:.4g}",
+      deg_from_rad(p.max_steer_rad), p.min_turning_radius_m(), p.track_m);
+}
+
+const ParameterTable<FourWheelSteeringRoverParams>& four_wheel_steering_rover_table() {
+  using P = FourWheelSteeringRoverParams;
+  using Servo = SteeringServoParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .degrees("max_steer_deg", &P::max_steer_rad, between(1.0, 45.0),
+                   "steering range, both ways")
+          .choice("steer_limit", &P::limits_wheels, {{"axle", false}, {"wheel", true}},
+                  "whose range that is: of the axle's (bicycle) angle, or of the inner wheel in "
+                  "the tightest turn")
+          .number("steer_rate_radps", "rad/s", inside(&P::servo, &Servo::rate_radps), kPositive,
+                  "largest rate of an axle angle")
+          .number("steer_lag_s", "s", inside(&P::servo, &Servo::lag_s), between(0.0, 10.0),
+                  "time constant of the steering servos")
+          .include(chassis_of, chassis_table())
+          .rule(find_fault_in_tightest_turn);
+  return table;
+}
+
+}  // namespace
 
 FourWheelSteeringRoverParams::FourWheelSteeringRoverParams() {
   wheel_base_m = 1.5;
@@ -27,16 +56,7 @@ FourWheelSteeringRoverParams::FourWheelSteeringRoverParams() {
 }
 
 void FourWheelSteeringRoverParams::validate() const {
-  validate_chassis();
-  demand_range(name, "max_steer_deg", deg_from_rad(max_steer_rad), 1.0, 45.0);
-  demand_positive(name, "steer_rate_radps", servo.rate_radps);
-  demand_not_negative(name, "steer_lag_s", servo.lag_s);
-  if (min_turning_radius_m() <= 0.5 * track_m) {
-    throw ConfigError(fmt::format(
-        "{}: max_steer_deg = {:.4g} puts the centre of the tightest turn {:.3g} m beside the "
-        "centre of mass, under the wheels of track_m = {:.4g}",
-        name, deg_from_rad(max_steer_rad), min_turning_radius_m(), track_m));
-  }
+  four_wheel_steering_rover_table().validate(*this, name);
 }
 
 TwoAxles FourWheelSteeringRoverParams::axles() const {
@@ -55,39 +75,20 @@ double FourWheelSteeringRoverParams::min_turning_radius_m() const {
 }
 
 PartSpec four_wheel_steering_rover_spec() {
-  const FourWheelSteeringRoverParams d;
   PartSpec spec;
   spec.name = "four_wheel_steering_rover";
   spec.description =
       "Paper A's rover with Ackermann steering on both axles and four hub motors, on the shared "
       "wheel";
   spec.writes = {"wheels", "battery"};
-  spec.parameters = {
-      number_parameter("max_steer_deg", "deg", deg_from_rad(d.max_steer_rad), 1.0, 45.0,
-                       "steering range, both ways"),
-      choice_parameter("steer_limit", "axle", {"axle", "wheel"},
-                       "whose range that is: of the axle's (bicycle) angle, or of the inner wheel "
-                       "in the tightest turn"),
-      positive_parameter("steer_rate_radps", "rad/s", d.servo.rate_radps,
-                         "largest rate of an axle angle"),
-      number_parameter("steer_lag_s", "s", d.servo.lag_s, 0.0, 10.0,
-                       "time constant of the steering servos"),
-  };
-  for (ParameterSpec& shared : chassis_parameter_specs(d)) {
-    spec.parameters.push_back(std::move(shared));
-  }
+  spec.parameters = four_wheel_steering_rover_table().specs();
   return spec;
 }
 
 FourWheelSteeringRoverParams read_four_wheel_steering_rover_params(const ParameterSet& parameters,
                                                                    const std::string& name) {
-  FourWheelSteeringRoverParams p;
-  read_chassis_params(parameters, name, p);
-  p.max_steer_rad = rad_from_deg(parameters.number("max_steer_deg"));
-  p.limits_wheels = parameters.text("steer_limit") == "wheel";
-  p.servo.rate_radps = parameters.number("steer_rate_radps");
-  p.servo.lag_s = parameters.number("steer_lag_s");
-  p.validate();
+  FourWheelSteeringRoverParams p = four_wheel_steering_rover_table().read(parameters, name);
+  p.name = name;
   return p;
 }
 

@@ -11,26 +11,25 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 
 namespace vinerow::vehicles {
 
 struct AirDragParams {
-  double drag_area_m2 = 0.0;       ///< wind from ahead or behind; 0: none
-  double side_drag_area_m2 = 0.0;  ///< wind from the side
+  double drag_area_m2 = 0.0;                ///< wind from ahead or behind; 0: none
+  std::optional<double> side_drag_area_m2;  ///< wind from the side; absent: drag_area_m2
   /// Of the centre of pressure above level ground; absent: the centre of mass.
   std::optional<double> pressure_height_m;
 
   /// @throws ConfigError
   void validate(const std::string& name) const;
-  bool none() const { return drag_area_m2 == 0.0 && side_drag_area_m2 == 0.0; }
+  double side_area_m2() const { return side_drag_area_m2.value_or(drag_area_m2); }
+  bool none() const { return drag_area_m2 == 0.0 && side_area_m2() == 0.0; }
 };
 
-/// `drag_area_m2`, `side_drag_area_m2`, `pressure_centre_height_m`.
-std::vector<ParameterSpec> air_drag_parameter_specs();
-AirDragParams read_air_drag_params(const ParameterSet& parameters);
+/// drag_area_m2, side_drag_area_m2, pressure_centre_height_m
+const ParameterTable<AirDragParams>& air_drag_table();
 
 /// @param air_B  velocity of the air relative to the vehicle, in B, m/s @returns force in B, N
 Eigen::Vector3d calc_air_drag_B(const AirDragParams& params, double air_density_kgm3,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/vehicle.h"
 #include "vehicles/parts/air_drag.h"
 #include "vehicles/parts/wheel_mesh.h"
@@ -43,17 +44,14 @@ struct ChassisParams {
   BatteryParams battery;
   AirDragParams air;  ///< none: set it to feel the wind
 
-  /// @throws ConfigError
-  void validate_chassis() const;
   /// Centre of a wheel in B, as drawn.
   Eigen::Vector3d hub_B(const Corner& corner) const;
 };
 
-/// Sizes, masses, springs, then motor, tyre, battery and air drag. @param defaults  of the vehicle
-std::vector<ParameterSpec> chassis_parameter_specs(const ChassisParams& defaults);
-/// Fills everything but the checks. @param parameters  with chassis_parameter_specs()
-void read_chassis_params(const ParameterSet& parameters, const std::string& name,
-                         ChassisParams& params);
+/// Sizes, masses, springs, then motor, tyre, battery and air drag. A vehicle whose params derive
+/// from ChassisParams includes it by chassis_of.
+const ParameterTable<ChassisParams>& chassis_table();
+inline constexpr auto chassis_of = [](auto& params) -> ChassisParams& { return params; };
 
 /// Body, wheels and battery; without collision shapes.
 WheeledPlatformParams chassis_platform_params(const ChassisParams& params, double gravity_mps2);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/api/messages/motion.h"
-#include "vehicles/parts/validation.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -13,11 +13,20 @@ namespace {
 constexpr double kSearchUp_m = 1.0;
 constexpr double kSearchDown_m = 3.0;
 
+/// Vehicles fill it.
+const ParameterTable<KinematicPlatformParams>& kinematic_platform_table() {
+  using P = KinematicPlatformParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("track_m", "m", &P::track_m, kPositive, "left to right wheel centre")
+          .number("wheel_base_m", "m", &P::wheel_base_m, kPositive, "front to rear axle");
+  return table;
+}
+
 }  // namespace
 
 KinematicPlatform::KinematicPlatform(KinematicPlatformParams params) : params_(std::move(params)) {
-  demand_positive(params_.name, "track_m", params_.track_m);
-  demand_positive(params_.name, "wheel_base_m", params_.wheel_base_m);
+  kinematic_platform_table().validate(params_, params_.name);
 }
 
 void KinematicPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vehicles/parts/validation.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -14,18 +14,38 @@ constexpr double kFadeStart = 0.9;
 }  // namespace
 
 void MotorParams::validate(const std::string& who) const {
-  demand_not_negative(who, "max_torque_Nm", max_torque_Nm);
-  demand_positive(who, "max_power_W", max_power_W);
-  demand_positive(who, "no_load_speed_radps", max_speed_radps);
-  demand_not_negative(who, "motor_lag_s", lag_s);
-  demand_not_negative(who, "speed_gain_Nms", speed_gain_Nms);
-  demand_not_negative(who, "speed_integral_gain_Nm", speed_integral_gain_Nm);
-  demand_not_negative(who, "brake_torque_Nm", brake_torque_Nm);
-  demand_not_negative(who, "brake_below_radps", brake_below_radps);
-  demand_not_negative(who, "brake_release_s", brake_release_s);
-  demand_range(who, "motor_efficiency", efficiency, 0.01, 1.0);
-  demand_range(who, "regeneration", regeneration, 0.0, 1.0);
-  demand_not_negative(who, "loss_W_per_Nm2", loss_W_per_Nm2);
+  motor_table().validate(*this, who);
+}
+
+const ParameterTable<MotorParams>& motor_table() {
+  using P = MotorParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("max_torque_Nm", "Nm", &P::max_torque_Nm, between(0.0, 1e5),
+                  "largest torque of one wheel motor at the axle; 0 = free wheels")
+          .number("max_power_W", "W", &P::max_power_W, kPositive,
+                  "largest mechanical power of one wheel motor")
+          .number("no_load_speed_radps", "rad/s", &P::max_speed_radps, kPositive,
+                  "wheel spin at which the motor has no torque left")
+          .number("motor_lag_s", "s", &P::lag_s, between(0.0, 10.0),
+                  "time constant of the motor's torque")
+          .number("speed_gain_Nms", "Nm s/rad", &P::speed_gain_Nms, between(0.0, 1e5),
+                  "proportional gain of the wheel speed controller")
+          .number("speed_integral_gain_Nm", "Nm/rad", &P::speed_integral_gain_Nm, between(0.0, 1e6),
+                  "integral gain of the wheel speed controller")
+          .number("brake_torque_Nm", "Nm", &P::brake_torque_Nm, between(0.0, 1e5),
+                  "parking brake of one wheel; 0 = none")
+          .number("brake_below_radps", "rad/s", &P::brake_below_radps, between(0.0, 10.0),
+                  "the brake closes below this spin when zero is commanded")
+          .number("brake_release_s", "s", &P::brake_release_s, between(0.0, 10.0),
+                  "the motor must carry the load this long before the brake opens")
+          .number("motor_efficiency", "", &P::efficiency, between(0.01, 1.0),
+                  "mechanical over electric power when driving")
+          .number("regeneration", "", &P::regeneration, between(0.0, 1.0),
+                  "share of the braking power that returns to the battery")
+          .number("loss_W_per_Nm2", "W/Nm2", &P::loss_W_per_Nm2, between(0.0, 1e3),
+                  "copper loss over torque squared");
+  return table;
 }
 
 double Motor::driving_limit_Nm(double spin_radps) const {

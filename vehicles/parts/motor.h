@@ -15,6 +15,8 @@
 
 #include <string>
 
+#include "engine/api/parameter_table_fwd.h"
+
 namespace vinerow::vehicles {
 
 struct MotorParams {
@@ -31,8 +33,12 @@ struct MotorParams {
   double regeneration = 0.5;              ///< eta_r, share of braking power won back, [0, 1]
   double loss_W_per_Nm2 = 0.02;           ///< r, copper loss, >= 0
 
+  /// @throws ConfigError
   void validate(const std::string& who) const;
 };
+
+/// max_torque_Nm, max_power_W, no_load_speed_radps, motor_lag_s, gains, brake, efficiencies
+const ParameterTable<MotorParams>& motor_table();
 
 struct MotorState {
   double torque_Nm = 0.0;    ///< on the wheel, after lag and limits

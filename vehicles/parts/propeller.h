@@ -7,10 +7,9 @@
 /// left and grows with d_t^2.
 
 #include <string>
-#include <vector>
 
 #include "engine/api/flight_model.h"
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 
 namespace vinerow::vehicles {
 
@@ -27,6 +26,9 @@ struct PropellerParams {
   void validate(const std::string& who) const;
 };
 
+/// propeller_area_m2, ..., propulsion_efficiency, throttle_lag_s
+const ParameterTable<PropellerParams>& propeller_table();
+
 /// N. @param airspeed_mps  >= 0  @param throttle_square  d_t^2, or its mean over a step
 double calc_thrust_N(const PropellerParams& params, double air_density_kgm3, double airspeed_mps,
                      double throttle_square);
@@ -38,8 +40,5 @@ AirLoad calc_propeller_load(const PropellerParams& params, double air_density_kg
 /// Electric power, W >= 0; nothing is won back.
 double calc_propeller_power_W(const PropellerParams& params, double thrust_N, double airspeed_mps,
                               double throttle);
-
-std::vector<ParameterSpec> propeller_parameter_specs();
-PropellerParams read_propeller_params(const ParameterSet& parameters);
 
 }  // namespace vinerow::vehicles

@@ -2,16 +2,33 @@
 
 #include <algorithm>
 
-#include "vehicles/parts/validation.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow::vehicles {
+namespace {
+
+/// No file states these: vehicles work them out of their own parameters.
+const ParameterTable<SuspensionParams>& suspension_table() {
+  using P = SuspensionParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("suspension_stiffness_N_per_m", "N/m", &P::stiffness_N_per_m, kPositive,
+                  "spring and tyre in series")
+          .number("suspension_damping_Ns_per_m", "N s/m", &P::damping_Ns_per_m, kNotNegative,
+                  "damper")
+          .number("design_load_N", "N", &P::design_load_N, kNotNegative,
+                  "force at the design position")
+          .number("bump_travel_m", "m", &P::bump_travel_m, kPositive,
+                  "compression from which the bump stop pushes too")
+          .number("bump_stiffness_N_per_m", "N/m", &P::bump_stiffness_N_per_m, kNotNegative,
+                  "of the bump stop");
+  return table;
+}
+
+}  // namespace
 
 void SuspensionParams::validate(const std::string& who) const {
-  demand_positive(who, "suspension_stiffness_N_per_m", stiffness_N_per_m);
-  demand_not_negative(who, "suspension_damping_Ns_per_m", damping_Ns_per_m);
-  demand_not_negative(who, "design_load_N", design_load_N);
-  demand_positive(who, "bump_travel_m", bump_travel_m);
-  demand_not_negative(who, "bump_stiffness_N_per_m", bump_stiffness_N_per_m);
+  suspension_table().validate(*this, who);
 }
 
 double calc_suspension_force(const SuspensionParams& params, double travel_m, double rate_mps) {

@@ -18,6 +18,7 @@ struct SuspensionParams {
   double bump_travel_m = 0.05;             ///< d_max, > 0
   double bump_stiffness_N_per_m = 200000;  ///< k_b, >= 0
 
+  /// @throws ConfigError
   void validate(const std::string& who) const;
   /// Travel at which the spring carries nothing, <= 0.
   double droop_m() const { return -design_load_N / stiffness_N_per_m; }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "vehicles/parts/validation.h"
+#include "engine/api/parameter_table.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -26,10 +26,22 @@ double length_of(double x, double y) {
 }  // namespace
 
 void TyreParams::validate(const std::string& who) const {
-  demand_positive(who, "relaxation_length_m", relaxation_length_m);
-  demand_not_negative(who, "damping_time_s", damping_time_s);
-  demand_positive(who, "lateral_friction_ratio", lateral_friction_ratio);
-  demand_positive(who, "stribeck_speed_mps", stribeck_speed_mps);
+  tyre_table().validate(*this, who);
+}
+
+const ParameterTable<TyreParams>& tyre_table() {
+  using P = TyreParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("relaxation_length_m", "m", &P::relaxation_length_m, kPositive,
+                  "rolling distance in which the tyre force builds up to 63 %")
+          .number("tyre_damping_time_s", "s", &P::damping_time_s, between(0.0, 1.0),
+                  "damping of the tyre's deflection over its stiffness")
+          .number("lateral_friction_ratio", "", &P::lateral_friction_ratio, kPositive,
+                  "lateral over longitudinal friction of the tyre")
+          .number("stribeck_speed_mps", "m/s", &P::stribeck_speed_mps, kPositive,
+                  "sliding speed at which friction has fallen to the sliding value");
+  return table;
 }
 
 double Tyre::calc_steady_force_ratio(double slip, double stiffness, double friction) {

@@ -26,6 +26,7 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "engine/api/parameter_table_fwd.h"
 #include "engine/api/soil.h"
 
 namespace vinerow::vehicles {
@@ -39,6 +40,9 @@ struct TyreParams {
   /// @throws ConfigError naming `who`, the field, its value and its range
   void validate(const std::string& who) const;
 };
+
+/// relaxation_length_m, tyre_damping_time_s, lateral_friction_ratio, stribeck_speed_mps
+const ParameterTable<TyreParams>& tyre_table();
 
 struct TyreState {
   Eigen::Vector2d xi = Eigen::Vector2d::Zero();  ///< deflection / L along x and y of C

@@ -5,15 +5,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "vehicles/parts/validation.h"
 
 namespace vinerow::vehicles {
 namespace {
 
 /// Below this speed slip and slip angle are reported as zero: they have no meaning at rest.
 constexpr double kRestSpeed_mps = 1e-4;
+
+/// What the wheel has beside the structs of its parts. Vehicles fill it.
+const ParameterTable<WheelParams>& wheel_table() {
+  using P = WheelParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .number("radius_m", "m", &P::radius_m, kPositive, "rolling radius")
+          .number("spin_inertia_kgm2", "kg m2", &P::spin_inertia_kgm2, kPositive,
+                  "about the axle, gear and rotor included");
+  return table;
+}
 
 /// Coulomb torque in the step: takes `limit_Nm` off `free_Nm`, or all of it.
 double take_off(double free_Nm, double limit_Nm) {
@@ -42,8 +53,7 @@ double WheelOutput::slip_angle_rad() const {
 
 void WheelParams::validate(const std::string& who) const {
   const std::string place = who + ".wheel_" + name;
-  demand_positive(place, "radius_m", radius_m);
-  demand_positive(place, "spin_inertia_kgm2", spin_inertia_kgm2);
+  wheel_table().validate(*this, place);
   if (probes != 1 && probes != 3) {
     throw ConfigError(fmt::format("{}: wheel_probes = {}, must be 1 or 3", place, probes));
   }

@@ -34,6 +34,7 @@ struct WheelParams {
   SuspensionParams suspension;
   MotorParams motor;
 
+  /// @throws ConfigError
   void validate(const std::string& who) const;
 };
 

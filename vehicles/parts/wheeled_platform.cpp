@@ -5,15 +5,26 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "vehicles/parts/validation.h"
 
 namespace vinerow::vehicles {
+namespace {
+
+/// What the platform has beside the structs of its parts. Vehicles fill it.
+const ParameterTable<WheeledPlatformParams>& wheeled_platform_table() {
+  using P = WheeledPlatformParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>().number("mass_kg", "kg", &P::mass_kg, kPositive, "wheels included");
+  return table;
+}
+
+}  // namespace
 
 void WheeledPlatformParams::validate() const {
-  demand_positive(name, "mass_kg", mass_kg);
+  wheeled_platform_table().validate(*this, name);
   if (!inertia_B.allFinite() || Eigen::LLT<Eigen::Matrix3d>(inertia_B).info() != Eigen::Success) {
     throw ConfigError(fmt::format("{}: inertia must be finite and positive definite", name));
   }

@@ -20,10 +20,9 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <vector>
 
 #include "engine/api/flight_model.h"
-#include "engine/api/parameters.h"
+#include "engine/api/parameter_table_fwd.h"
 
 namespace vinerow::vehicles {
 
@@ -78,8 +77,7 @@ AirLoad calc_wing_load(const WingParams& params, const AirPoint& air, const Elev
 /// within +-`elevon_max_rad`.
 double calc_trimmed_lift_max(const WingParams& params, double elevon_max_rad);
 
-/// The numbers above as scenario parameters, coefficients per rad, without stall's angle in rad.
-std::vector<ParameterSpec> wing_parameter_specs();
-WingParams read_wing_params(const ParameterSet& parameters);
+/// The numbers above as scenario parameters: coefficients per rad, the stall's angle in deg.
+const ParameterTable<WingParams>& wing_table();
 
 }  // namespace vinerow::vehicles

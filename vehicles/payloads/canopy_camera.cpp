@@ -1,14 +1,12 @@
 #include "vehicles/payloads/canopy_camera.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/api/messages/commands.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/plan_stretch.h"
-#include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "vehicles/payloads/canopy_patches.h"
 
@@ -20,6 +18,73 @@ using Eigen::Vector3d;
 constexpr double kMmPerM = 1000.0;
 constexpr SurfaceMask kOpaque = kAllSurfaces & ~mask_of(SurfaceClass::kWire);
 
+/// Defaults: a 5 Mpx machine vision camera (Sony IMX264: 2448 x 2048 pixels of 3.45 um) behind a
+/// lens of 6 mm: 2 atan(2448 * 3.45 um / 2 / 6 mm) by 2 atan(2048 * 3.45 um / 2 / 6 mm).
+struct CanopyCameraParams {
+  Vector3d p_BS = {0.0, 0.0, 0.0};
+  std::vector<double> yaws_rad = {rad_from_deg(90.0), rad_from_deg(-90.0)};  ///< of each camera
+  double pitch_rad = 0.0;
+  bool stabilised = true;
+  double fov_horizontal_rad = rad_from_deg(70.3);
+  double fov_vertical_rad = rad_from_deg(61.0);
+  int image_columns = 2448;
+  int image_rows = 2048;
+  double range_m = 5.0;
+  double max_incidence_rad = rad_from_deg(65.0);
+  double wanted_gsd_m = 0.002;
+  int wanted_views = 1;
+  bool on_legs_only = false;
+  int ray_columns = 24;
+  int ray_rows = 20;
+  double step_m = 0.25;  ///< of a patch along the row
+  double band_m = 0.25;  ///< of a patch in height
+};
+
+constexpr ParameterConversion kMillimetres = {[](double value_mm) { return value_mm / kMmPerM; },
+                                              [](double value_m) { return value_m * kMmPerM; }};
+
+const ParameterTable<CanopyCameraParams>& canopy_camera_table() {
+  using P = CanopyCameraParams;
+  constexpr double kMostPixels = 100'000.0;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .numbers("position_m", "m", &P::p_BS, kAnyNumber,
+                   "place of the cameras in the body frame (x forward, y left, z up)")
+          .numbers("yaws_deg", "deg", &P::yaws_rad, kAnyNumber,
+                   "heading of each camera against the vehicle's, positive to the left", 0,
+                   kDegrees)
+          .degrees("pitch_deg", &P::pitch_rad, between(-90.0, 90.0),
+                   "of the optical axes, positive looks down")
+          .boolean("stabilised", &P::stabilised,
+                   "a gimbal takes the vehicle's roll and pitch out of the pictures")
+          .degrees("fov_horizontal_deg", &P::fov_horizontal_rad, between(1.0, 170.0),
+                   "angle of view across")
+          .degrees("fov_vertical_deg", &P::fov_vertical_rad, between(1.0, 170.0),
+                   "angle of view in height")
+          .integer("image_columns", &P::image_columns, between(1.0, kMostPixels),
+                   "pixels of a picture across")
+          .integer("image_rows", &P::image_rows, between(1.0, kMostPixels),
+                   "pixels of a picture in height")
+          .number("range_m", "m", &P::range_m, between(0.1, 200.0), "farther canopy does not count")
+          .degrees("max_incidence_deg", &P::max_incidence_rad, between(0.0, 89.0),
+                   "largest angle between a ray and the surface's normal")
+          .number("wanted_gsd_mm", "mm", &P::wanted_gsd_m, kPositive,
+                  "largest ground sampling distance", kMillimetres)
+          .integer("wanted_views", &P::wanted_views, between(1.0, 1000.0),
+                   "pictures that must show a patch for it to count as covered")
+          .choice("on", &P::on_legs_only, {{"legs", true}, {"always", false}},
+                  "where it takes pictures: on the plan's legs only, or all the time")
+          .integer("ray_columns", &P::ray_columns, between(1.0, 1000.0), "rays of a picture across")
+          .integer("ray_rows", &P::ray_rows, between(1.0, 1000.0), "rays of a picture in height")
+          .number("patch_step_m", "m", &P::step_m, between(0.02, 10.0),
+                  "size of a patch along the row")
+          .number("patch_band_m", "m", &P::band_m, between(0.02, 10.0), "size of a patch in height")
+          .rule([](const P& p) -> std::string {
+            return p.yaws_rad.empty() ? "yaws_deg = [], must name at least one camera" : "";
+          });
+  return table;
+}
+
 struct ViewRay {
   Vector3d dir_S;  ///< unit; x of S is the optical axis, y to the picture's left, z up in it
   double cos_off_axis;
@@ -27,33 +92,26 @@ struct ViewRay {
 
 class CanopyCamera final : public Payload {
  public:
-  CanopyCamera(const ParameterSet& parameters, const PayloadContext& context)
+  CanopyCamera(const CanopyCameraParams& params, const PayloadContext& context)
       : name_(context.name),
         scene_(*context.scene),
-        on_legs_only_(parameters.text("on") == "legs"),
-        stabilised_(parameters.boolean("stabilised")),
-        range_m_(parameters.number("range_m")),
-        least_cos_(std::cos(rad_from_deg(parameters.number("max_incidence_deg")))),
-        wanted_gsd_m_(parameters.number("wanted_gsd_mm") / kMmPerM),
-        patches_(*context.world, parameters.number("patch_step_m"),
-                 parameters.number("patch_band_m")),
+        on_legs_only_(params.on_legs_only),
+        stabilised_(params.stabilised),
+        range_m_(params.range_m),
+        least_cos_(std::cos(params.max_incidence_rad)),
+        wanted_gsd_m_(params.wanted_gsd_m),
+        p_BS_(params.p_BS),
+        patches_(*context.world, params.step_m, params.band_m),
         coverage_(patches_.empty_coverage()),
         best_gsd_m_(coverage_.patches.size(), std::numeric_limits<double>::infinity()),
         last_picture_(coverage_.patches.size(), 0) {
     coverage_.quantity = "seen";
     coverage_.unit = "pictures";
-    coverage_.wanted = static_cast<double>(parameters.integer("wanted_views"));
-    const auto& p = parameters.numbers("position_m");
-    p_BS_ = {p[0], p[1], p[2]};
-    if (parameters.numbers("yaws_deg").empty()) {
-      throw ConfigError(
-          fmt::format("{}: yaws_deg = [], must name at least one camera", context.part));
+    coverage_.wanted = params.wanted_views;
+    for (const double yaw_rad : params.yaws_rad) {
+      cameras_.push_back(quaternion_from_rpy({0.0, params.pitch_rad, yaw_rad}));
     }
-    for (const double yaw_deg : parameters.numbers("yaws_deg")) {
-      cameras_.push_back(quaternion_from_rpy(
-          {0.0, rad_from_deg(parameters.number("pitch_deg")), rad_from_deg(yaw_deg)}));
-    }
-    make_rays(parameters);
+    make_rays(params);
     told_.names = {"pictures", "patches_in_picture", "gsd_mm", "seen_share"};
     told_.values.assign(told_.names.size(), 0.0);
   }
@@ -102,17 +160,15 @@ class CanopyCamera final : public Payload {
   const CanopyCoverage* coverage() const override { return &coverage_; }
 
  private:
-  void make_rays(const ParameterSet& parameters) {
-    const double half_width = std::tan(0.5 * rad_from_deg(parameters.number("fov_horizontal_deg")));
-    const double half_height = std::tan(0.5 * rad_from_deg(parameters.number("fov_vertical_deg")));
-    pixel_ = 2.0 * std::sqrt(half_width / static_cast<double>(parameters.integer("image_columns")) *
-                             half_height / static_cast<double>(parameters.integer("image_rows")));
-    const auto columns = parameters.integer("ray_columns"), rows = parameters.integer("ray_rows");
-    for (std::int64_t row = 0; row < rows; ++row) {
-      for (std::int64_t column = 0; column < columns; ++column) {
-        const double left =
-            1.0 - (2.0 * static_cast<double>(column) + 1.0) / static_cast<double>(columns);
-        const double up = 1.0 - (2.0 * static_cast<double>(row) + 1.0) / static_cast<double>(rows);
+  void make_rays(const CanopyCameraParams& params) {
+    const double half_width = std::tan(0.5 * params.fov_horizontal_rad);
+    const double half_height = std::tan(0.5 * params.fov_vertical_rad);
+    pixel_ = 2.0 * std::sqrt(half_width / params.image_columns * half_height / params.image_rows);
+    const int columns = params.ray_columns, rows = params.ray_rows;
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const double left = 1.0 - (2.0 * column + 1.0) / columns;
+        const double up = 1.0 - (2.0 * row + 1.0) / rows;
         const Vector3d dir_S = Vector3d(1.0, left * half_width, up * half_height).normalized();
         rays_.push_back({dir_S, dir_S.x()});
       }
@@ -188,40 +244,12 @@ class CanopyCamera final : public Payload {
 }  // namespace
 
 PartSpec canopy_camera_spec() {
-  constexpr double kMostPixels = 100'000.0;
   PartSpec spec;
   spec.name = "canopy_camera";
   spec.description =
       "Scouting cameras that look at the rows: patches of the true canopy that their pictures show "
       "sharply enough";
-  // Defaults: a 5 Mpx machine vision camera (Sony IMX264: 2448 x 2048 pixels of 3.45 um) behind a
-  // lens of 6 mm: 2 atan(2448 * 3.45 um / 2 / 6 mm) by 2 atan(2048 * 3.45 um / 2 / 6 mm).
-  spec.parameters = {
-      number_list_parameter("position_m", "m", {0.0, 0.0, 0.0},
-                            "place of the cameras in the body frame (x forward, y left, z up)", 3),
-      number_list_parameter("yaws_deg", "deg", {90.0, -90.0},
-                            "heading of each camera against the vehicle's, positive to the left"),
-      number_parameter("pitch_deg", "deg", 0.0, -90.0, 90.0,
-                       "of the optical axes, positive looks down"),
-      boolean_parameter("stabilised", true,
-                        "a gimbal takes the vehicle's roll and pitch out of the pictures"),
-      number_parameter("fov_horizontal_deg", "deg", 70.3, 1.0, 170.0, "angle of view across"),
-      number_parameter("fov_vertical_deg", "deg", 61.0, 1.0, 170.0, "angle of view in height"),
-      integer_parameter("image_columns", 2448, 1.0, kMostPixels, "pixels of a picture across"),
-      integer_parameter("image_rows", 2048, 1.0, kMostPixels, "pixels of a picture in height"),
-      number_parameter("range_m", "m", 5.0, 0.1, 200.0, "farther canopy does not count"),
-      number_parameter("max_incidence_deg", "deg", 65.0, 0.0, 89.0,
-                       "largest angle between a ray and the surface's normal"),
-      positive_parameter("wanted_gsd_mm", "mm", 2.0, "largest ground sampling distance"),
-      integer_parameter("wanted_views", 1, 1.0, 1000.0,
-                        "pictures that must show a patch for it to count as covered"),
-      choice_parameter("on", "always", {"legs", "always"},
-                       "where it takes pictures: on the plan's legs only, or all the time"),
-      integer_parameter("ray_columns", 24, 1.0, 1000.0, "rays of a picture across"),
-      integer_parameter("ray_rows", 20, 1.0, 1000.0, "rays of a picture in height"),
-      number_parameter("patch_step_m", "m", 0.25, 0.02, 10.0, "size of a patch along the row"),
-      number_parameter("patch_band_m", "m", 0.25, 0.02, 10.0, "size of a patch in height"),
-  };
+  spec.parameters = canopy_camera_table().specs();
   spec.default_rate_Hz = 2.0;
   spec.reads = {"truth", "estimate and plan (where on: legs)"};
   spec.writes = {"<name>"};
@@ -230,7 +258,8 @@ PartSpec canopy_camera_spec() {
 
 std::unique_ptr<Payload> make_canopy_camera(const ParameterSet& parameters,
                                             const PayloadContext& context) {
-  return std::make_unique<CanopyCamera>(parameters, context);
+  return std::make_unique<CanopyCamera>(canopy_camera_table().read(parameters, context.part),
+                                        context);
 }
 
 }  // namespace vinerow::vehicles

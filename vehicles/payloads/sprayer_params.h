@@ -5,30 +5,31 @@
 #include <vector>
 
 #include "engine/api/parameters.h"
+#include "engine/math/angles.h"
 #include "vehicles/payloads/spray_jet.h"
 
 namespace vinerow::vehicles {
 
 struct SprayerParams {
   // Nozzles, the same on both sides. Heights are above the ground on level ground.
-  std::vector<double> nozzle_heights_m;
-  std::vector<double> nozzle_elevation_rad;  ///< of each nozzle's axis, positive upward
-  double boom_x_m = 0.0;                     ///< of all nozzles in B
-  double nozzle_offset_m = 0.0;              ///< to the left and to the right of B's x axis
-  double spray_half_angle_rad = 0.0;         ///< of the outer cone
-  double hollow_half_angle_rad = 0.0;        ///< of the inner cone, which is empty
-  double nozzle_flow_lps = 0.0;              ///< of one nozzle at the working pressure
-  double tank_l = 0.0;
-  SprayParams spray;
+  std::vector<double> nozzle_heights_m = {0.85, 1.1, 1.4, 1.65};
+  std::vector<double> nozzle_elevation_rad = {0.0};  ///< of each nozzle's axis, positive upward
+  double boom_x_m = -0.6;                            ///< of all nozzles in B
+  double nozzle_offset_m = 0.3;                      ///< to the left and to the right of B's x axis
+  double spray_half_angle_rad = rad_from_deg(25.0);  ///< of the outer cone
+  double hollow_half_angle_rad = 0.0;  ///< of the inner cone, which is empty; follows from a share
+  double nozzle_flow_lps = 0.0;        ///< of one nozzle; follows from the working pressure
+  double tank_l = 60.0;
+  SprayParams spray;  ///< its extinction follows from the leaves
 
   // Sections: left and right.
   bool on_legs_only = false;
   double row_reach_m = 2.0;
-  double most_angle_rad = 0.5;
+  double most_angle_rad = rad_from_deg(20.0);
   double beyond_end_m = 0.0;
   double min_speed_mps = 0.2;
   double valve_lag_s = 0.2;
-  double lead_s = 0.2;
+  double lead_s = 0.2;  ///< follows from valve_lag_s where not given
 
   // What is told of it.
   int rays_per_nozzle = 2;

@@ -5,33 +5,73 @@
 #include <cmath>
 
 #include "engine/api/file_shelf.h"
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
-#include "vehicles/parts/validation.h"
-#include "vehicles/parts/wheel_parameters.h"
+#include "vehicles/parts/effective_track.h"
 
 namespace vinerow::vehicles {
 namespace {
 
-/// Motors of a 50 kg class robot; sources in assets/vehicles/husky.yaml.
-MotorParams default_motor() {
-  MotorParams motor;
-  motor.max_torque_Nm = 40.0;
-  motor.max_power_W = 200.0;
-  motor.max_speed_radps = 12.0;
-  motor.speed_gain_Nms = 15.0;
-  motor.speed_integral_gain_Nm = 80.0;
-  motor.brake_torque_Nm = 40.0;
-  return motor;
+std::string find_fault_in_packages(const UrdfRoverParams& p) {
+  for (const std::string& entry : p.packages) {
+    const std::size_t equals = entry.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return fmt::format("packages: '{}' must be written as 'name=folder'", entry);
+    }
+  }
+  return "";
+}
+
+std::string find_fault_in_joints(const UrdfRoverParams& p) {
+  if (p.options.left_joints.empty() == p.options.right_joints.empty()) return "";
+  return "left_wheel_joints and right_wheel_joints must be given together or not at all";
+}
+
+const ParameterTable<UrdfRoverParams>& urdf_rover_table() {
+  using P = UrdfRoverParams;
+  using Options = UrdfRoverOptions;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .path("urdf", &P::urdf, "the robot's URDF file")
+          .required()
+          .texts("packages", &P::packages,
+                 "folders of package:// names, each as 'name=folder', relative to the URDF file")
+          .texts("left_wheel_joints", inside(&P::options, &Options::left_joints),
+                 "joints of the left wheels; without both lists: every continuous joint whose "
+                 "axis points across")
+          .texts("right_wheel_joints", inside(&P::options, &Options::right_joints),
+                 "joints of the right wheels")
+          .number("wheel_radius_m", "m", inside(&P::options, &Options::wheel_radius_m), kPositive,
+                  "instead of the radius of the wheel's collision shape or mesh")
+          .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "told to controllers")
+          .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
+                  "told to planners and controllers")
+          .number("wheel_speed_limit_radps", "rad/s", &P::wheel_speed_limit_radps, kPositive,
+                  "largest wheel speed command, both ways")
+          .number("static_deflection_m", "m", &P::static_deflection_m, kPositive,
+                  "of tyres and suspension under the robot's weight")
+          .number("damping_ratio", "", &P::damping_ratio, between(0.0, 5.0),
+                  "of heave on the wheels")
+          .integer("wheel_probes", &P::wheel_probes, between(1, 3),
+                   "ground rays per wheel and step on smooth ground: 1 or 3")
+          .include(&P::motor, motor_table())
+          .include(&P::tyre, tyre_table())
+          .include(&P::battery, battery_table(), {.only = {"battery_capacity_Wh", "electronics_W"}})
+          .include(&P::air, air_drag_table())
+          .rule(find_fault_in_packages)
+          .rule(find_fault_in_joints);
+  return table;
 }
 
 /// The robot of a URDF file, meshes included.
 UrdfRoverModel read_model(const UrdfRoverParams& params, FileShelf* shelf) {
+  const std::map<std::string, std::filesystem::path> packages = params.package_folders();
   std::string key = file_mark(params.urdf);
-  for (const auto& [name, folder] : params.packages) {
+  for (const auto& [name, folder] : packages) {
     key += fmt::format("{}={}\n", name, folder.string());
   }
-  const auto urdf = keep<io::UrdfModel>(
-      shelf, key, [&] { return io::load_urdf(params.urdf, params.packages); });
+  const auto urdf =
+      keep<io::UrdfModel>(shelf, key, [&] { return io::load_urdf(params.urdf, packages); });
   for (const io::UrdfLink& link : urdf->links) {
     for (const auto* shapes : {&link.visuals, &link.collisions}) {
       for (const io::UrdfShape& shape : *shapes) {
@@ -40,13 +80,10 @@ UrdfRoverModel read_model(const UrdfRoverParams& params, FileShelf* shelf) {
     }
   }
   key += fmt::format("{} {} {}", fmt::join(params.options.left_joints, ","),
-                     fmt::join(params.options.right_joints, ","), params.options.wheel_radius_m);
+                     fmt::join(params.options.right_joints, ","),
+                     params.options.wheel_radius_m.value_or(0.0));
   return *keep<UrdfRoverModel>(shelf, key,
                                [&] { return read_urdf_rover(*urdf, params.options); });
-}
-
-BatteryParams default_battery() {
-  return {480.0, 20.0};
 }
 
 WheeledPlatformParams platform_params(const UrdfRoverParams& p, const UrdfRoverModel& model,
@@ -95,80 +132,31 @@ WheeledPlatformParams platform_params(const UrdfRoverParams& p, const UrdfRoverM
 }  // namespace
 
 void UrdfRoverParams::validate() const {
-  demand_positive(name, "max_speed_mps", max_speed_mps);
-  demand_not_negative(name, "min_turning_radius_m", min_turning_radius_m);
-  demand_positive(name, "wheel_speed_limit_radps", wheel_speed_limit_radps);
-  demand_positive(name, "static_deflection_m", static_deflection_m);
-  demand_not_negative(name, "damping_ratio", damping_ratio);
+  urdf_rover_table().validate(*this, name);
+}
+
+std::map<std::string, std::filesystem::path> UrdfRoverParams::package_folders() const {
+  std::map<std::string, std::filesystem::path> folders;
+  for (const std::string& entry : packages) {
+    const std::size_t equals = entry.find('=');
+    folders[entry.substr(0, equals)] = urdf.parent_path() / entry.substr(equals + 1);
+  }
+  return folders;
 }
 
 PartSpec urdf_rover_spec() {
-  const UrdfRoverParams d;
   PartSpec spec;
   spec.name = "urdf_rover";
   spec.description =
       "Skid-steered robot from a URDF file, on the shared wheel, with the file's own masses";
   spec.writes = {"wheels", "battery"};
-  spec.parameters = {
-      required(path_parameter("urdf", "the robot's URDF file")),
-      text_list_parameter(
-          "packages", {},
-          "folders of package:// names, each as 'name=folder', relative to the URDF file"),
-      text_list_parameter("left_wheel_joints", {},
-                          "joints of the left wheels; without both lists: every continuous joint "
-                          "whose axis points across"),
-      text_list_parameter("right_wheel_joints", {}, "joints of the right wheels"),
-      optional(positive_parameter("wheel_radius_m", "m", 0.2,
-                                  "instead of the radius of the wheel's collision shape or mesh")),
-      positive_parameter("max_speed_mps", "m/s", d.max_speed_mps, "told to controllers"),
-      number_parameter("min_turning_radius_m", "m", d.min_turning_radius_m, 0.0, 1e3,
-                       "told to planners and controllers"),
-      positive_parameter("wheel_speed_limit_radps", "rad/s", d.wheel_speed_limit_radps,
-                         "largest wheel speed command, both ways"),
-      positive_parameter("static_deflection_m", "m", d.static_deflection_m,
-                         "of tyres and suspension under the robot's weight"),
-      number_parameter("damping_ratio", "", d.damping_ratio, 0.0, 5.0, "of heave on the wheels"),
-      integer_parameter("wheel_probes", d.wheel_probes, 1, 3,
-                        "ground rays per wheel and step on smooth ground: 1 or 3"),
-  };
-  for (ParameterSpec& drive : drive_parameter_specs(default_motor(), d.tyre, default_battery())) {
-    spec.parameters.push_back(std::move(drive));
-  }
-  for (ParameterSpec& air : air_drag_parameter_specs()) spec.parameters.push_back(std::move(air));
+  spec.parameters = urdf_rover_table().specs();
   return spec;
 }
 
 UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std::string& name) {
-  UrdfRoverParams p;
+  UrdfRoverParams p = urdf_rover_table().read(parameters, name);
   p.name = name;
-  p.urdf = parameters.text("urdf");
-  for (const std::string& entry : parameters.texts("packages")) {
-    const std::size_t equals = entry.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw ConfigError(
-          fmt::format("{}: packages: '{}' must be written as 'name=folder'", name, entry));
-    }
-    p.packages[entry.substr(0, equals)] = p.urdf.parent_path() / entry.substr(equals + 1);
-  }
-  p.options.left_joints = parameters.texts("left_wheel_joints");
-  p.options.right_joints = parameters.texts("right_wheel_joints");
-  if (p.options.left_joints.empty() != p.options.right_joints.empty()) {
-    throw ConfigError(fmt::format(
-        "{}: left_wheel_joints and right_wheel_joints must be given together or not at all", name));
-  }
-  if (parameters.has("wheel_radius_m"))
-    p.options.wheel_radius_m = parameters.number("wheel_radius_m");
-  p.max_speed_mps = parameters.number("max_speed_mps");
-  p.min_turning_radius_m = parameters.number("min_turning_radius_m");
-  p.wheel_speed_limit_radps = parameters.number("wheel_speed_limit_radps");
-  p.static_deflection_m = parameters.number("static_deflection_m");
-  p.damping_ratio = parameters.number("damping_ratio");
-  p.wheel_probes = static_cast<int>(parameters.integer("wheel_probes"));
-  p.motor = read_motor_params(parameters);
-  p.tyre = read_tyre_params(parameters);
-  p.battery = read_battery_params(parameters);
-  p.air = read_air_drag_params(parameters);
-  p.validate();
   return p;
 }
 

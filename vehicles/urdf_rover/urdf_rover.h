@@ -16,7 +16,7 @@ namespace vinerow::vehicles {
 struct UrdfRoverParams {
   std::string name = "rover";
   std::filesystem::path urdf;
-  std::map<std::string, std::filesystem::path> packages;
+  std::vector<std::string> packages;  ///< folders of package:// names, "name=folder" each
   UrdfRoverOptions options;
   double max_speed_mps = 1.0;
   double min_turning_radius_m = 0.5;
@@ -24,13 +24,21 @@ struct UrdfRoverParams {
   double static_deflection_m = 0.008;  ///< of the wheels' springs under the robot's weight
   double damping_ratio = 0.5;          ///< of the heave on them
   int wheel_probes = 3;
-  MotorParams motor;
+  /// Of a 50 kg class robot; sources in assets/vehicles/husky.yaml.
+  MotorParams motor{.max_torque_Nm = 40.0,
+                    .max_power_W = 200.0,
+                    .max_speed_radps = 12.0,
+                    .speed_gain_Nms = 15.0,
+                    .speed_integral_gain_Nm = 80.0,
+                    .brake_torque_Nm = 40.0};
   TyreParams tyre;
-  BatteryParams battery;
+  BatteryParams battery{480.0, 20.0};
   AirDragParams air;
 
   /// @throws ConfigError
   void validate() const;
+  /// The folders by their names, relative ones to the URDF file.
+  std::map<std::string, std::filesystem::path> package_folders() const;
 };
 
 PartSpec urdf_rover_spec();

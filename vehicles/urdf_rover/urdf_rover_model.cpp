@@ -244,7 +244,7 @@ UrdfRoverModel read_urdf_rover(const io::UrdfModel& urdf, const UrdfRoverOptions
     wheel.hub_B = X_BR * X_RL[link_index].p;
     wheel.left = X_RL[link_index].p.y() > 0.0;
     measure_wheel(link, joint.axis_J, wheel);
-    if (options.wheel_radius_m > 0.0) wheel.radius_m = options.wheel_radius_m;
+    if (options.wheel_radius_m) wheel.radius_m = *options.wheel_radius_m;
     if (!(wheel.radius_m > 0.0)) {
       throw ConfigError(fmt::format(
           "{}: wheel link '{}' has no cylinder, sphere or mesh to take a radius from; give "

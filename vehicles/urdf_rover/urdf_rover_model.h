@@ -2,6 +2,7 @@
 /// What a URDF robot is as a skid-steered rover: one rigid body, its wheels, its pictures.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct UrdfRoverModel {
 /// How to read the robot.
 struct UrdfRoverOptions {
   std::vector<std::string> left_joints, right_joints;  ///< empty: continuous joints by position
-  double wheel_radius_m = 0.0;                         ///< 0: from collision shape or mesh
+  std::optional<double> wheel_radius_m;                ///< absent: from collision shape or mesh
 };
 
 /// Everything that does not roll is taken as one rigid body with all joints at zero. The wheels'

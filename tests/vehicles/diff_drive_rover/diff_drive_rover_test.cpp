@@ -102,12 +102,13 @@ TEST(DiffDriveRoverParams, RejectsBadNumbersByName) {
     EXPECT_NE(std::string(error.what()).find("mass_kg = -2 kg, must be > 0 kg"), std::string::npos)
         << error.what();
   }
-  set.set("inertia_kgm2", std::vector<double>{1.0, -1.0, 1.0});
+  DiffDriveRoverParams params;
+  params.inertia_kgm2 = {1.0, -1.0, 1.0};
   try {
-    read_diff_drive_rover_params(set, "rover");
+    params.validate();
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "rover: inertia_kgm2 = -1, must be > 0");
+    EXPECT_STREQ(error.what(), "rover: inertia_kgm2[1] = -1 kg m2, must be > 0 kg m2");
   }
 }
 

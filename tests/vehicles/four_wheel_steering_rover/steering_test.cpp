@@ -201,7 +201,7 @@ TEST(FourWheelSteeringRoverParams, RejectsBadNumbersByName) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(message(), "rover: max_steer_deg = 0, must be 1 to 45");
+  EXPECT_EQ(message(), "rover: max_steer_deg = 0 deg, must be >= 1 deg and <= 45 deg");
   params.max_steer_rad = rad_from_deg(45.0);
   params.track_m = 1.6;
   EXPECT_EQ(message(),
@@ -209,10 +209,10 @@ TEST(FourWheelSteeringRoverParams, RejectsBadNumbersByName) {
             "centre of mass, under the wheels of track_m = 1.6");
   params.track_m = 0.85;
   params.servo.rate_radps = 0.0;
-  EXPECT_EQ(message(), "rover: steer_rate_radps = 0, must be > 0");
+  EXPECT_EQ(message(), "rover: steer_rate_radps = 0 rad/s, must be > 0 rad/s");
   params.servo.rate_radps = 2.0;
   params.mass_kg = -1.0;
-  EXPECT_EQ(message(), "rover: mass_kg = -1, must be > 0");
+  EXPECT_EQ(message(), "rover: mass_kg = -1 kg, must be > 0 kg");
 }
 
 }  // namespace

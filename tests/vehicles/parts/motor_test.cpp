@@ -100,7 +100,7 @@ TEST(MotorParams, RejectsEfficiencyAboveOne) {
     p.validate("rover");
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "rover: motor_efficiency = 1.2, must be 0.01 to 1");
+    EXPECT_STREQ(error.what(), "rover: motor_efficiency = 1.2, must be >= 0.01 and <= 1");
   }
 }
 

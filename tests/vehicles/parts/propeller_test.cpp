@@ -50,7 +50,7 @@ TEST(Propeller, RefusesBadNumbers) {
     p.validate("plane");
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "plane: propulsion_efficiency = 0, must be 0.01 to 1");
+    EXPECT_STREQ(error.what(), "plane: propulsion_efficiency = 0, must be >= 0.01 and <= 1");
   }
 }
 

@@ -146,7 +146,7 @@ TEST(TyreParams, RejectsBadValuesByName) {
     params.validate("rover.wheel_fl");
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "rover.wheel_fl: relaxation_length_m = 0, must be > 0");
+    EXPECT_STREQ(error.what(), "rover.wheel_fl: relaxation_length_m = 0 m, must be > 0 m");
   }
 }
 

@@ -10,7 +10,7 @@
 #include "engine/math/angles.h"
 #include "tests/vehicles/small_worlds.h"
 #include "vehicles/diff_drive_rover/diff_drive_rover.h"
-#include "vehicles/parts/wheel_parameters.h"
+#include "vehicles/parts/effective_track.h"
 
 namespace vinerow::vehicles::wheeled_platform_test {
 namespace {
@@ -356,7 +356,7 @@ TEST(WheeledPlatformParams, RejectsBadMass) {
     params.validate();
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "rover: mass_kg = -3, must be > 0");
+    EXPECT_STREQ(error.what(), "rover: mass_kg = -3 kg, must be > 0 kg");
   }
 }
 

@@ -172,11 +172,11 @@ TEST(WingAerodynamics, RefusesBadNumbers) {
     return std::string();
   };
   EXPECT_EQ(message([](WingParams& p) { p.area_m2 = 0.0; }),
-            "plane: wing_area_m2 = 0, must be > 0");
+            "plane: wing_area_m2 = 0 m2, must be > 0 m2");
   EXPECT_EQ(message([](WingParams& p) { p.roll_p = 0.5; }),
-            "plane: roll_p = 0.5, must be -100 to 0");
+            "plane: roll_p = 0.5 1/rad, must be >= -100 1/rad and <= 0 1/rad");
   EXPECT_EQ(message([](WingParams& p) { p.lift_alpha = NAN; }),
-            "plane: lift_alpha = nan, must be 0 to 10");
+            "plane: lift_alpha = nan, must be a finite number");
 }
 
 }  // namespace

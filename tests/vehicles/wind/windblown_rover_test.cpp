@@ -89,7 +89,7 @@ TEST(AirDrag, RefusesNegativeAreas) {
     DiffDriveRover rover(params);
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "rover: drag_area_m2 = -1, must be >= 0");
+    EXPECT_STREQ(error.what(), "rover: drag_area_m2 = -1 m2, must be >= 0 m2 and <= 1000 m2");
   }
 }
 

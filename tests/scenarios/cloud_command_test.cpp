@@ -127,7 +127,7 @@ TEST(CloudCommand, RefusesInASentence) {
   EXPECT_THAT(refused(out), HasSubstr("give a scenario, or a flown survey by --log"));
   EXPECT_THAT(refused(kSmall + " --out x.laz"), HasSubstr("'x.laz' must end in .las, .ply, .xyz"));
   EXPECT_THAT(refused(kSmall + out + " --density 0"),
-              HasSubstr("density is 0 points per square metre, must be above 0"));
+              HasSubstr("--density: density_per_m2 = 0 1/m2, must be >= 0.001 1/m2 and <= "));
   EXPECT_THAT(refused(kSmall + out + " --uniform -5"),
               HasSubstr("density is -5 points per square metre, must be above 0"));
   EXPECT_THAT(refused(kSmall + out + " --uniform 5 --density 3"),

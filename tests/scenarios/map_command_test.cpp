@@ -272,7 +272,8 @@ TEST_F(MapCommand, RefusesInOneSentence) {
   expect_refused("map " + cloud_ + " --truth none.json" + out, "none.json");
   expect_refused("map " + cloud_ + " --boundary none.csv" + out,
                  "--boundary: 'none.csv' does not exist");
-  expect_refused("map " + cloud_ + " --spacing 3" + out, "--spacing: must be two numbers");
+  expect_refused("map " + cloud_ + " --spacing 3" + out,
+                 "--spacing: row_spacing_m has 1 entries, must have 2");
   expect_refused(
       "map " + cloud_ + " --boundary " + folder_->file("bow.csv", "0,0\n10,10\n10,0\n0,10\n") + out,
       "crosses its edge from point");

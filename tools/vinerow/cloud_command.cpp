@@ -4,16 +4,18 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "engine/math/angles.h"
 #include "engine/physics/check_world.h"
 #include "engine/physics/world_scene.h"
 #include "engine/sim/pictures.h"
 #include "engine/sim/simulation.h"
 #include "tools/vinerow/cloud_poses.h"
 #include "tools/vinerow/commands.h"
+#include "tools/vinerow/table_flags.h"
 #include "worlds/mapping/cloud/sampling/write_cloud.h"
+#include "worlds/mapping/jobs/photogrammetry_job_params.h"
 
 namespace vinerow::tools {
 namespace {
@@ -22,22 +24,20 @@ struct CloudArguments {
   ScenarioArguments scenario;
   std::filesystem::path out, log;
   std::string vehicle, sensor;
-  worlds::CloudFileOptions file;
-  std::vector<double> area;
-  double margin_m = 0.0;
-  std::optional<double> density_per_m2, uniform_per_m2;
-  std::optional<double> noise_m, weeds_m, outliers;
-  double match_px = 0.5, max_incidence_deg = 80.0, min_baseline_deg = 3.0;
-  int min_views = 3, max_views = 6;
+  std::shared_ptr<const ParameterSet> method;  ///< rows of photogrammetry_job_table()
+  std::optional<double> uniform_per_m2, noise_m, weeds_m, outliers;
 };
 
-void check_cloud_arguments(const CloudArguments& arguments) {
+void check_cloud_arguments(const CloudArguments& arguments,
+                           const worlds::PhotogrammetryJobParams& params) {
   const bool uniform = arguments.uniform_per_m2.has_value();
   if (arguments.scenario.file.empty() && arguments.log.empty()) {
     throw ConfigError("cloud: give a scenario, or a flown survey by --log");
   }
-  if (uniform && (!arguments.log.empty() || arguments.density_per_m2)) {
-    throw ConfigError("cloud: --uniform takes no pictures: leave out --log and --density");
+  if (uniform && (!arguments.log.empty() || params.options.density_per_m2 ||
+                  !params.options.missing_rows.empty())) {
+    throw ConfigError(
+        "cloud: --uniform takes no pictures: leave out --log, --density and --missing-rows");
   }
   if (!uniform && (arguments.noise_m || arguments.weeds_m || arguments.outliers)) {
     throw ConfigError(
@@ -58,19 +58,6 @@ void make_folder_of(const std::filesystem::path& file) {
     throw ConfigError(fmt::format("--out: folder '{}' cannot be made: {}",
                                   file.parent_path().string(), error.message()));
   }
-}
-
-worlds::PhotogrammetryOptions photogrammetry_of(const CloudArguments& arguments,
-                                                std::uint64_t seed) {
-  worlds::PhotogrammetryOptions options;
-  options.density_per_m2 = arguments.density_per_m2;
-  options.match_px = arguments.match_px;
-  options.min_views = arguments.min_views;
-  options.max_views = arguments.max_views;
-  options.max_incidence_rad = rad_from_deg(arguments.max_incidence_deg);
-  options.min_baseline_rad = rad_from_deg(arguments.min_baseline_deg);
-  options.seed = seed;
-  return options;
 }
 
 worlds::UniformCloudOptions uniform_of(const CloudArguments& arguments, std::uint64_t seed) {
@@ -112,7 +99,10 @@ void print_cloud(const worlds::WrittenCloud& written, double wall_s, const std::
 }
 
 void make_cloud(const CloudArguments& arguments) {
-  check_cloud_arguments(arguments);
+  worlds::PhotogrammetryJobParams params =
+      worlds::photogrammetry_job_table().read(*arguments.method, "cloud");
+  worlds::check_options(params.options);
+  check_cloud_arguments(arguments, params);
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path log = arguments.log.empty() ? "" : log_of(arguments.log);
   Registry registry;
@@ -124,6 +114,7 @@ void make_cloud(const CloudArguments& arguments) {
   } else {
     scenario = load(arguments.scenario, registry);
   }
+  params.options.seed = scenario.seed;
   const bool uniform = arguments.uniform_per_m2.has_value();
   PictureSet pictures;
   if (!uniform) {
@@ -135,15 +126,15 @@ void make_cloud(const CloudArguments& arguments) {
   physics::check_world(*world);
   const physics::WorldScene scene(*world);
   const worlds::SurveyArea area =
-      worlds::make_survey_area(arguments.area, arguments.margin_m, *world, "--area");
+      worlds::make_survey_area(params.area_m, params.margin_m, *world, "--area");
   make_folder_of(arguments.out);
-  const worlds::CloudTarget target = {arguments.out, arguments.file, arguments.out.string(),
+  const worlds::CloudTarget target = {arguments.out, params.file, arguments.out.string(),
                                       scenario.name};
   const Result<worlds::WrittenCloud> written =
       uniform ? worlds::write_uniform_cloud(scene, *world, area,
                                             uniform_of(arguments, scenario.seed), target)
               : worlds::write_photogrammetry(scene, *world, pictures, area,
-                                             photogrammetry_of(arguments, scenario.seed), target);
+                                             params.options, target);
   if (!written) throw ConfigError("cloud: " + written.reason());
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -169,36 +160,11 @@ void add_cloud_command(CLI::App& app, int& exit_status) {
                       "default: those that the scenario's survey plans");
   command->add_option("--vehicle", arguments->vehicle, "that surveys, where several do");
   command->add_option("--sensor", arguments->sensor, "camera_trigger, where it has several");
-  command->add_option("--area", arguments->area,
-                      "instead of the world's parcel: x y of each corner in m, east and north of "
-                      "the origin");
-  command->add_option("--margin", arguments->margin_m, "around the area, m (default: 0)");
-  command->add_option("--crs", arguments->file.crs,
-                      "coordinates of the file, like EPSG:32632; default: m east, north, up of "
-                      "the world's origin");
-  command->add_flag("--truth-classes", arguments->file.truth_classes,
-                    "give points their true classes, which no survey knows");
-  const char* pictures = "Pictures";
-  command
-      ->add_option("--density", arguments->density_per_m2,
-                   "points per m2 of ground (default: one per pixel)")
-      ->group(pictures);
-  command
-      ->add_option("--match-noise", arguments->match_px,
-                   "1 sigma of a match in each picture, pixels (default: 0.5)")
-      ->group(pictures);
-  command->add_option("--min-views", arguments->min_views, "that a point needs (default: 3)")
-      ->group(pictures);
-  command->add_option("--max-views", arguments->max_views, "that fix a point (default: 6)")
-      ->group(pictures);
-  command
-      ->add_option("--max-incidence", arguments->max_incidence_deg,
-                   "of a view off the surface's normal, degrees (default: 80)")
-      ->group(pictures);
-  command
-      ->add_option("--min-baseline", arguments->min_baseline_deg,
-                   "widest angle between a point's rays at least, degrees (default: 3)")
-      ->group(pictures);
+  arguments->method = add_table_flags(*command, worlds::photogrammetry_job_table().specs(),
+                                      {.without = {},
+                                       .names = {},
+                                       .group = "Pictures",
+                                       .general = {"area_m", "margin_m", "crs", "truth_classes"}});
   const char* even = "Without pictures";
   command
       ->add_option("--uniform", arguments->uniform_per_m2,

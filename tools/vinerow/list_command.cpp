@@ -1,36 +1,15 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "tools/vinerow/commands.h"
+#include "tools/vinerow/parameter_words.h"
+#include "tools/vinerow/parts_page.h"
 
 namespace vinerow::tools {
 namespace {
-
-std::string default_text(const ParameterSpec& spec) {
-  if (spec.required) return "required";
-  const auto list = [](const auto& values) { return fmt::format("[{}]", fmt::join(values, ", ")); };
-  if (const auto* v = std::get_if<double>(&spec.default_value)) return fmt::format("{}", *v);
-  if (const auto* v = std::get_if<std::int64_t>(&spec.default_value)) return fmt::format("{}", *v);
-  if (const auto* v = std::get_if<bool>(&spec.default_value)) return *v ? "true" : "false";
-  if (const auto* v = std::get_if<std::string>(&spec.default_value))
-    return v->empty() ? "\"\"" : *v;
-  if (const auto* v = std::get_if<std::vector<double>>(&spec.default_value)) return list(*v);
-  if (const auto* v = std::get_if<std::vector<std::string>>(&spec.default_value)) return list(*v);
-  return "-";
-}
-
-std::string range_text(const ParameterSpec& spec) {
-  if (!spec.choices.empty()) return fmt::format("{}", fmt::join(spec.choices, " | "));
-  const bool has_min = std::isfinite(spec.min), has_max = std::isfinite(spec.max);
-  if (has_min && has_max)
-    return fmt::format("{}{:g}, {:g}]", spec.min_exclusive ? "(" : "[", spec.min, spec.max);
-  if (has_min) return fmt::format("{} {:g}", spec.min_exclusive ? ">" : ">=", spec.min);
-  if (has_max) return fmt::format("<= {:g}", spec.max);
-  return "";
-}
 
 void print_parameters(const std::vector<ParameterSpec>& specs, int indent) {
   for (const ParameterSpec& spec : specs) {
@@ -56,6 +35,7 @@ void add_list_command(CLI::App& app, int& exit_status) {
   struct Arguments {
     std::string part;
     std::vector<std::filesystem::path> plugins;
+    bool markdown = false;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
@@ -64,19 +44,27 @@ void add_list_command(CLI::App& app, int& exit_status) {
                       "only this kind (world, sensor, ...) or this part (pure_pursuit)");
   command->add_option("--plugin", arguments->plugins, "include the parts of a plug-in")
       ->allow_extra_args(false);
+  command->add_flag("--markdown", arguments->markdown, "as a page of tables (docs/parts.md)");
   command->callback([arguments, &exit_status] {
     const Registry registry = make_registry(arguments->plugins);
     std::vector<std::string> known;
     bool found = false;
+    if (arguments->markdown) fmt::print("{}", parts_page_opening());
     for (const PartKind kind : kAllPartKinds) {
       known.emplace_back(to_string(kind));
+      bool opened = false;
       for (const std::string& name : registry.names(kind)) {
         known.push_back(name);
         const bool wanted = arguments->part.empty() || arguments->part == to_string(kind) ||
                             arguments->part == name;
         if (!wanted) continue;
         found = true;
-        print_part(registry, kind, name);
+        if (!arguments->markdown) {
+          print_part(registry, kind, name);
+          continue;
+        }
+        if (!std::exchange(opened, true)) fmt::print("{}", kind_heading(kind));
+        fmt::print("{}", part_markdown(registry, kind, name));
       }
       found = found || arguments->part == to_string(kind);
     }

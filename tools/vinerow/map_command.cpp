@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "controllers/planning/survey_area.h"
+#include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/io/mesh_scene_writer.h"
@@ -21,9 +22,11 @@
 #include "tools/vinerow/map_picture_files.h"
 #include "tools/vinerow/map_truth.h"
 #include "tools/vinerow/report/map_captions.h"
+#include "tools/vinerow/table_flags.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
 #include "worlds/mapping/cloud/make_cloud_map.h"
 #include "worlds/mapping/cloud/reading/cloud_source.h"
+#include "worlds/mapping/jobs/cloud_map_job_params.h"
 
 namespace vinerow::tools {
 namespace {
@@ -33,12 +36,11 @@ namespace fs = std::filesystem;
 struct MapArguments {
   fs::path cloud, out, scenario, boundary, truth;
   std::vector<fs::path> plugins;
-  std::string crs, title, first_wall = "auto";
-  std::vector<double> origin, spacing;
+  std::string title;
+  std::vector<double> origin;
   std::vector<std::string> exports;  ///< "obj", "glb", "ply"
-  std::uint64_t thin = 1;
-  bool no_virtual_walls = false, no_pictures = false;
-  worlds::CloudMapOptions options;
+  bool no_pictures = false;
+  std::shared_ptr<const ParameterSet> method;  ///< rows of cloud_map_job_table()
 };
 
 /// Wall time and peak memory, phase by phase.
@@ -142,10 +144,11 @@ void export_meshes(const std::vector<RowMesh>& meshes, const std::vector<std::st
 
 std::vector<ReportPicture> write_pictures(const worlds::CloudMap& map,
                                           const worlds::ParcelCloud& cloud,
-                                          const MapArguments& arguments, const std::string& title) {
+                                          const worlds::OccupancyOptions& occupancy,
+                                          const fs::path& folder, const std::string& title) {
   std::vector<ReportPicture> pictures;
-  for (const fs::path& file : write_map_pictures(map, cloud, arguments.options.occupancy, title,
-                                                 arguments.out / "pictures")) {
+  for (const fs::path& file :
+       write_map_pictures(map, cloud, occupancy, title, folder / "pictures")) {
     pictures.push_back(
         {"pictures/" + file.filename().string(), map_picture_caption(file.stem().string())});
   }
@@ -180,34 +183,23 @@ void print_phases(const std::vector<worlds::MapPhase>& phases) {
              phases.empty() ? 0.0 : phases.back().peak_memory_MB);
 }
 
-void make_map(MapArguments& arguments) {
+void make_map(const MapArguments& arguments) {
   Stopwatch watch;
   // Faults that can be seen before the long work are told before it.
+  const worlds::CloudMapJobParams params =
+      worlds::cloud_map_job_table().read(*arguments.method, "map");
+  worlds::CloudMapOptions options = params.options;
+  worlds::check_options(options);
   std::optional<worlds::CloudTruth> truth;
   if (!arguments.truth.empty()) truth = worlds::read_cloud_truth(arguments.truth);
-  worlds::CloudReadOptions read_options;
-  read_options.crs = arguments.crs;
+  worlds::CloudReadOptions read_options = params.reading;
   read_options.origin = find_map_origin(arguments);
-  read_options.thin = arguments.thin;
   make_folder(arguments.out);
   if (!arguments.scenario.empty()) watch.end_phase("scenario");
 
   worlds::CloudReadReport read;
   worlds::ParcelCloud cloud = worlds::read_parcel_cloud(arguments.cloud, read_options, read);
   watch.end_phase("read");
-  worlds::CloudMapOptions& options = arguments.options;
-  options.occupancy.virtual_walls = !arguments.no_virtual_walls;
-  if (arguments.first_wall != "auto") {
-    options.occupancy.first_wall =
-        arguments.first_wall == "first" ? worlds::RowEnd::kFirst : worlds::RowEnd::kLast;
-  }
-  if (!arguments.spacing.empty()) {
-    if (arguments.spacing.size() != 2) {
-      throw ConfigError("--spacing: must be two numbers, the least and the largest in m");
-    }
-    options.spacing_low_m = arguments.spacing[0];
-    options.spacing_high_m = arguments.spacing[1];
-  }
   if (!arguments.boundary.empty()) {
     options.boundary_W = read_boundary(arguments.boundary, read.origin, read.has_origin);
   }
@@ -222,7 +214,7 @@ void make_map(MapArguments& arguments) {
       arguments.title.empty() ? arguments.cloud.stem().string() : arguments.title;
   std::vector<ReportPicture> pictures;
   if (!arguments.no_pictures) {
-    pictures = write_pictures(map, cloud, arguments, title);
+    pictures = write_pictures(map, cloud, options.occupancy, arguments.out, title);
     watch.end_phase("pictures");
   }
   write_text(arguments.out / "report.html", map_report_html(map, pictures, title));
@@ -245,9 +237,6 @@ void add_map_command(CLI::App& app, int& exit_status) {
   command->add_option("cloud", a.cloud, "point cloud: LAS, PLY, PCD, XYZ or CSV")->required();
   command->add_option("--out", a.out, "folder of the map (default: maps/<name of the cloud>)");
   command->add_option("--title", a.title, "of the report (default: the name of the cloud)");
-  command->add_option("--crs", a.crs,
-                      "of the cloud's numbers, like EPSG:32632; none: metres of a local frame "
-                      "(default: as the file says)");
   command
       ->add_option("--origin", a.origin,
                    "latitude,longitude[,altitude] of the map's x = y = z = 0 (default: the middle "
@@ -258,7 +247,6 @@ void add_map_command(CLI::App& app, int& exit_status) {
       ->allow_extra_args(false);
   command->add_option("--boundary", a.boundary,
                       "the parcel: GeoJSON, or CSV with x,y in metres of the map");
-  command->add_option("--thin", a.thin, "take every n-th point");
   command->add_option("--truth", a.truth,
                       "compare with the truth that `vinerow cloud` kept (.truth.json)");
   command
@@ -266,29 +254,14 @@ void add_map_command(CLI::App& app, int& exit_status) {
                    "all row meshes in one file, too: rows.obj, rows.glb, rows.ply")
       ->delimiter(',')
       ->check(CLI::IsMember({"obj", "glb", "ply"}));
-  const auto option = [&](const char* name, auto& value, const char* description) {
-    command->add_option(name, value, description)->capture_default_str()->group("Method");
-  };
-  option("--corners", a.options.corners, "corners of a cross-section");
-  option("--slice", a.options.slice_m, "m between cross-sections, before any is left out");
-  option("--gap", a.options.gap_m, "m without canopy that split a row's mesh");
-  option("--budget", a.options.budget_MB, "MB that all row meshes may take");
-  option("--canopy-cut", a.options.canopy_cut_m, "m above the ground where canopy may begin");
-  option("--row-length", a.options.row_length_low_m, "m that a row is long at least");
-  option("--terrain-cell", a.options.terrain_cell_m, "m between heights of the ground");
-  option("--headland", a.options.headland_m,
-         "m of ground beyond the rows, where no boundary is given");
-  command
-      ->add_option("--spacing", a.spacing,
-                   "least,largest distance of rows that are looked for, m (default: 1,6)")
-      ->delimiter(',')
-      ->group("Method");
-  option("--cell", a.options.occupancy.cell_m, "m, cell of the occupancy grid");
-  option("--first-wall", a.first_wall,
-         "end of row 0 that is walled: auto, first or last; the others alternate");
-  command->get_option("--first-wall")->check(CLI::IsMember({"auto", "first", "last"}));
-  command->add_flag("--no-virtual-walls", a.no_virtual_walls, "the grid has rows and boundary only")
-      ->group("Method");
+  // A boundary comes from a file here, and there is no world that rows could be counted as.
+  a.method = add_table_flags(*command, worlds::cloud_map_job_table().specs(),
+                             {.without = {"boundary", "numbering"},
+                              .names = {{"row_spacing_m", "--spacing"},
+                                        {"least_row_length_m", "--row-length"},
+                                        {"occupancy_cell_m", "--cell"}},
+                              .group = "Method",
+                              .general = {"crs", "thin"}});
   command->add_flag("--no-pictures", a.no_pictures, "draw no pictures");
   command->callback([arguments, &exit_status] {
     if (arguments->out.empty()) arguments->out = fs::path("maps") / arguments->cloud.stem();

@@ -1,0 +1,16 @@
+#pragma once
+/// Default and range of a parameter in words, for lists and help.
+
+#include <string>
+
+#include "engine/api/parameters.h"
+
+namespace vinerow::tools {
+
+/// @returns "0.14", "[1, 6]", "\"\"" for an empty text, "required", "-" where it has none
+std::string default_text(const ParameterSpec& spec);
+
+/// @returns "a | b" of choices, "[0, 1]", "(0, 1]", "> 0", "" where everything is allowed
+std::string range_text(const ParameterSpec& spec);
+
+}  // namespace vinerow::tools

@@ -4,9 +4,10 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS vinerow EXPORT vinerowTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS vinerow_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY engine vehicles worlds controllers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vinerow
-        FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY tools/testing/include/vinerow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# include/vinerow: api, core, math, session.h, testing.h, version.h. The rest is private.
+install(CODE "set(VINEROW_SOURCE_DIR \"${PROJECT_SOURCE_DIR}\")
+set(VINEROW_INCLUDEDIR \"${CMAKE_INSTALL_INCLUDEDIR}\")")
+install(SCRIPT cmake/install_headers.cmake)
 install(FILES ${CMAKE_BINARY_DIR}/generated/vinerow/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vinerow)
 install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/vinerow)
 install(EXPORT vinerowTargets NAMESPACE vinerow:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vinerow)

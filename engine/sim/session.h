@@ -195,7 +195,8 @@ class Session {
 
   /// Of this run, with its resolved text; not valid after the next reset().
   const io::Scenario& scenario() const;
-  /// The run itself (engine/sim/simulation.h), for observers; not valid after the next reset().
+  /// The run itself (engine/sim/simulation.h, private), for observers in the tree; not
+  /// valid after the next reset().
   Simulation& simulation();
   const Simulation& simulation() const;
 

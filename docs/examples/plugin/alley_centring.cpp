@@ -1,5 +1,7 @@
 #include "alley_centring.h"
 
+#include <vinerow/api/messages.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -5,7 +5,7 @@
 /// Offset e = (right - left) / 2 is positive when the rover is left of the middle; the wanted turn
 /// is yaw rate = -k e - d (de/dt). Without a reading on both sides it drives straight on.
 
-#include <vinerow/testing.h>
+#include <vinerow/api/registry.h>
 
 vinerow::PartSpec alley_centring_spec();
 std::unique_ptr<vinerow::Controller> make_alley_centring(const vinerow::ParameterSet& parameters,

@@ -1,6 +1,7 @@
 #include "alley_centring.h"
 
 #include <gtest/gtest.h>
+#include <vinerow/testing.h>
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include <engine/api/plugin.h>
+#include <vinerow/api/plugin.h>
 
 #include "alley_centring.h"
 

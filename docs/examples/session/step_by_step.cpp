@@ -1,8 +1,8 @@
 /// Drives a rover from outside: straight on, and slower after it has gone two metres.
 
-#include <cstdio>
+#include <vinerow/session.h>
 
-#include "vinerow/session.h"
+#include <cstdio>
 
 int main(int, char** arguments) {
   using namespace vinerow;

@@ -1,5 +1,5 @@
 #pragma once
-/// Test a controller against physics: build a tiny world, put a vehicle and a controller in it,
+/// Test a part of your own against physics: build a tiny world, put a vehicle and the part in it,
 /// step, assert.
 ///
 ///   TEST(MyController, FollowsARow) {
@@ -57,7 +57,9 @@ class TestRun {
   /// Last value of any signal, e.g. signal<FollowerState>("rover/follower").
   /// @throws ConfigError if there is none, it has another type, or was never written
   template <class T>
-  const T& signal(const std::string& name) const;
+  const T& signal(const std::string& name) const {
+    return static_cast<const Signal<T>&>(written_signal(name, message_type<T>())).value();
+  }
   std::string digest() const;
   /// The same run with all that it can do.
   Session& session() { return session_; }
@@ -66,12 +68,18 @@ class TestRun {
  private:
   friend class SmallWorld;
   explicit TestRun(Session session) : session_(std::move(session)) {}
+  /// @throws ConfigError unless it bears this message and has been written
+  const SignalBase& written_signal(const std::string& name, const MessageType& type) const;
 
   Session session_;
 };
 
 /// Builds a TestRun: by default a flat block of two 20 m rows, 2.5 m apart, with one alley between
 /// them, and a physics step of 1 ms. Every call returns the builder.
+///
+/// A part is named by its type, as in a scenario file, or is one of yours, without a plug-in: its
+/// spec and its factory. The first call with a spec makes the type known to the whole world; others
+/// name it. `parameters` is the inside of a YAML mapping throughout.
 class SmallWorld {
  public:
   SmallWorld();
@@ -79,24 +87,83 @@ class SmallWorld {
   SmallWorld(SmallWorld&&) noexcept;
   SmallWorld& operator=(SmallWorld&&) noexcept;
 
-  /// Another world. @param parameters  inside of a YAML mapping
+  /// Another world.
   SmallWorld& world(const std::string& type, const std::string& parameters = "");
+  SmallWorld& world(PartSpec spec, PartFactory<WorldModel, WorldContext> make,
+                    const std::string& parameters = "");
+
   /// @param parameters  of the vehicle; spawn is `alley: 0` unless given as "spawn: {...}" among
   /// them
   SmallWorld& vehicle(const std::string& name, const std::string& type,
                       const std::string& parameters = "");
+  SmallWorld& vehicle(const std::string& name, PartSpec spec,
+                      PartFactory<Vehicle, VehicleContext> make,
+                      const std::string& parameters = "");
+
+  /// What the vehicle is told of the world; without it the true rows.
+  SmallWorld& map(const std::string& vehicle, const std::string& type,
+                  const std::string& parameters = "");
+  SmallWorld& map(const std::string& vehicle, PartSpec spec, PartFactory<RowMap, MapContext> make,
+                  const std::string& parameters = "");
+
   SmallWorld& sensor(const std::string& vehicle, const std::string& name, const std::string& type,
                      const std::string& parameters = "");
+  SmallWorld& sensor(const std::string& vehicle, const std::string& name, PartSpec spec,
+                     PartFactory<Sensor, SensorContext> make, const std::string& parameters = "");
+
+  /// Without it the estimate is the truth.
   SmallWorld& estimator(const std::string& vehicle, const std::string& type,
                         const std::string& parameters = "");
+  SmallWorld& estimator(const std::string& vehicle, PartSpec spec,
+                        PartFactory<Estimator, EstimatorContext> make,
+                        const std::string& parameters = "");
+
+  /// An estimator beside the one on which the vehicle acts.
+  SmallWorld& observer(const std::string& vehicle, const std::string& name,
+                       const std::string& type, const std::string& parameters = "");
+  SmallWorld& observer(const std::string& vehicle, const std::string& name, PartSpec spec,
+                       PartFactory<Estimator, EstimatorContext> make,
+                       const std::string& parameters = "");
+
   SmallWorld& planner(const std::string& vehicle, const std::string& type,
                       const std::string& parameters = "");
+  SmallWorld& planner(const std::string& vehicle, PartSpec spec,
+                      PartFactory<Planner, PlannerContext> make,
+                      const std::string& parameters = "");
+
+  /// Works for a controller: it runs only where the vehicle has one.
+  SmallWorld& guidance(const std::string& vehicle, const std::string& type,
+                       const std::string& parameters = "");
+  SmallWorld& guidance(const std::string& vehicle, PartSpec spec,
+                       PartFactory<Guidance, ControllerContext> make,
+                       const std::string& parameters = "");
+
   SmallWorld& controller(const std::string& vehicle, const std::string& type,
                          const std::string& parameters = "");
-  /// A controller class of your own, without a plug-in.
   SmallWorld& controller(const std::string& vehicle, PartSpec spec,
                          PartFactory<Controller, ControllerContext> make,
                          const std::string& parameters = "");
+
+  SmallWorld& payload(const std::string& vehicle, const std::string& name, const std::string& type,
+                      const std::string& parameters = "");
+  SmallWorld& payload(const std::string& vehicle, const std::string& name, PartSpec spec,
+                      PartFactory<Payload, PayloadContext> make,
+                      const std::string& parameters = "");
+
+  /// Judges every vehicle, beside all built-in metrics.
+  SmallWorld& metric(PartSpec spec, PartFactory<Metric, MetricContext> make);
+
+  /// A phase of a mission (docs/missions.md): these vehicles at work.
+  /// @param keys  of the phase: "after: [survey], timeout_s: 60", "map: from build_map"
+  SmallWorld& phase(const std::string& name, const std::vector<std::string>& vehicles,
+                    const std::string& keys = "");
+  /// A phase that is a job.
+  /// @param keys  of the phase, with the products it takes: "cloud: from build_cloud"
+  SmallWorld& job(const std::string& phase, const std::string& type,
+                  const std::string& parameters = "", const std::string& keys = "");
+  SmallWorld& job(const std::string& phase, PartSpec spec, PartFactory<Job, JobContext> make,
+                  const std::string& parameters = "", const std::string& keys = "");
+
   /// Parts of a plug-in, by its file.
   SmallWorld& plugin(const std::filesystem::path& file);
   SmallWorld& seed(std::uint64_t seed);

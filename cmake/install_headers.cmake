@@ -1,0 +1,45 @@
+# Installs the public headers, so that every file of the package includes as users do: vinerow/api/plugin.h.
+# In the tree they lie below engine/, and say so in their includes; the copies are changed here and nowhere else.
+#   in: VINEROW_SOURCE_DIR, VINEROW_INCLUDEDIR (relative to the prefix, or absolute)
+
+# tree -> package: folders with all their headers, and single headers.
+set(places engine/api engine/core engine/math engine/sim/session.h tools/testing/include/vinerow)
+set(installed_as vinerow/api vinerow/core vinerow/math vinerow/sim/session.h vinerow)
+
+if(IS_ABSOLUTE "${VINEROW_INCLUDEDIR}")
+  set(include_dir "${VINEROW_INCLUDEDIR}")
+else()
+  set(include_dir "${CMAKE_INSTALL_PREFIX}/${VINEROW_INCLUDEDIR}")
+endif()
+
+# install_header(FILE PATH): a changed copy of FILE as PATH; an equal one stays, so that nobody compiles again for it.
+function(install_header file path)
+  file(READ "${VINEROW_SOURCE_DIR}/${file}" text)
+  foreach(place name IN ZIP_LISTS places installed_as)
+    string(REPLACE "${place}" "${name}" text "${text}")
+  endforeach()
+  set(target "$ENV{DESTDIR}${include_dir}/${path}")
+  set(present "")
+  if(EXISTS "${target}")
+    file(READ "${target}" present)
+  endif()
+  if("${present}" STREQUAL "${text}")
+    message(STATUS "Up-to-date: ${target}")
+  else()
+    message(STATUS "Installing: ${target}")
+    file(WRITE "${target}" "${text}")
+  endif()
+endfunction()
+
+foreach(place name IN ZIP_LISTS places installed_as)
+  if(IS_DIRECTORY "${VINEROW_SOURCE_DIR}/${place}")
+    file(GLOB_RECURSE headers RELATIVE "${VINEROW_SOURCE_DIR}/${place}" "${VINEROW_SOURCE_DIR}/${place}/*.h")
+    foreach(header IN LISTS headers)
+      install_header("${place}/${header}" "${name}/${header}")
+      list(APPEND CMAKE_INSTALL_MANIFEST_FILES "${include_dir}/${name}/${header}")
+    endforeach()
+  else()
+    install_header("${place}" "${name}")
+    list(APPEND CMAKE_INSTALL_MANIFEST_FILES "${include_dir}/${name}")
+  endif()
+endforeach()

@@ -1,6 +1,7 @@
 #pragma once
 /// Vertex and index buffers on the GPU. They live as long as the context.
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 

@@ -6,6 +6,7 @@
 
 #include <thread>
 
+#include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
 #include "engine/io/scenario_seed.h"
 #include "engine/sim/vehicle_runtime.h"

@@ -1,6 +1,7 @@
 #pragma once
 /// Sessions with every built-in part: load a scenario, step it, change its commands, read its
-/// signals (engine/sim/session.h).
+/// signals (engine/sim/session.h). Comes with the messages of commands, events and motion; those of
+/// other signals are in engine/api/messages/.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
+#include "engine/api/messages/motion.h"
 #include "engine/sim/session.h"
 
 namespace vinerow {

@@ -19,7 +19,7 @@ MOST = {
     "engine/api/world_model.h": 230,
     "engine/api/mesh.h": 375,
     "engine/api/height_field.h": 350,
-    "engine/api/messages.h": 80,
+    "engine/api/messages.h": 85,
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.MULTILINE)

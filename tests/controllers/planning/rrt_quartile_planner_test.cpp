@@ -85,7 +85,7 @@ TEST(RrtQuartilePlanner, DrivesEveryAlleyAndReportsItsWork) {
       alleys.push_back(point.alley);
     }
     EXPECT_LE(std::abs(point.curvature_per_m), (1.0 + 1e-12) / 1.767);
-    EXPECT_FALSE(hand_grids::touches(mission.map->occupancy, hand_grids::rover_outline_B(),
+    EXPECT_FALSE(hand_grids::touches(mission.map.occupancy, hand_grids::rover_outline_B(),
                                      {point.p_W.head<2>(), point.yaw_rad}));
   }
   EXPECT_EQ(alleys, (std::vector<int>{0, 1, 2, 3}));
@@ -156,7 +156,7 @@ TEST(RrtQuartilePlanner, RefusesWhatCannotWork) {
   EXPECT_EQ(mission.refusal({}), "accepted");
 
   Mission blank(make_vineyard(2));
-  blank.map->occupancy = {};
+  blank.map.occupancy = {};
   EXPECT_NE(blank.refusal({}).find("no occupancy grid"), std::string::npos);
   Mission stiff(make_vineyard(2));
   stiff.rover.wheeled->wheel_base_m = 0.0;

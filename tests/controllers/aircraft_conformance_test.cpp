@@ -331,7 +331,8 @@ TEST_P(EveryAircraftController, RefusesVehiclesWithoutWingsAndThoseThatCannotFly
     });
   };
   EXPECT_EQ(refusal(make_rover_description()),
-            "plane.controller (" + GetParam() + "): vehicle type 'test_rover' has no wings");
+            "plane.controller (" + GetParam() +
+                ") needs a vehicle with wings; vehicle type 'test_rover' has wheels");
   EXPECT_EQ(refusal(describe(make_scaled_zagi()))
                 .find("plane.controller (" + GetParam() +
                       "): no steady flight at 12.00 m/s, climb 0.0 deg, bank 0.0 deg: it takes "

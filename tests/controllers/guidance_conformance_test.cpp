@@ -388,7 +388,9 @@ TEST_P(EveryFlightGuidance, RefusesVehiclesThatDoNotFly) {
     FAIL() << "must be refused";
   } catch (const ConfigError& error) {
     const std::string text = error.what();
-    EXPECT_EQ(text.find("drone.guidance (" + GetParam() + ") needs 'rotor_count'"), 0u) << text;
+    EXPECT_EQ(text, "drone.guidance (" + GetParam() +
+                        ") needs a vehicle with rotors; vehicle type 'four_wheel_steering_rover' "
+                        "has wheels and steered axles");
   }
 }
 
@@ -484,7 +486,9 @@ TEST_P(EveryAirGuidance, RefusesVehiclesWithoutWings) {
     FAIL() << "must be refused";
   } catch (const ConfigError& error) {
     const std::string text = error.what();
-    EXPECT_EQ(text.find("plane.guidance (" + GetParam() + ") needs 'wing_span_m'"), 0u) << text;
+    EXPECT_EQ(text, "plane.guidance (" + GetParam() +
+                        ") needs a vehicle with wings; vehicle type 'four_wheel_steering_rover' "
+                        "has wheels and steered axles");
   }
 }
 

@@ -155,7 +155,7 @@ TEST(Session, BuildsAWorldAnewThatTheSeedChanges) {
   registry->add_world(spec, make_seeded_ground);
   const io::Scenario scenario = io::parse_scenario(
       "{vinerow: 1, name: x, seed: 3, duration_s: 1, world: {type: seeded_ground}, "
-      "vehicles: {rover: {type: diff_drive_rover}}}",
+      "vehicles: {rover: {type: diff_drive_rover, spawn: {x_m: 0, y_m: 0, yaw_deg: 0}}}}",
       ".", *registry);
   Session session(scenario, registry);
   const double low_m = session.simulation().truth("rover").X_WB.p.z();
@@ -195,7 +195,7 @@ TEST(Session, ViewsSeeEveryRunAndNoneAfterTheSession) {
 }
 
 TEST(Session, TellsWhatThereIs) {
-  Session session = open_session(scenario_file("cooperative_small"), {{"duration_s=2"}, {}});
+  Session session = open_session(scenario_file("cooperative_small"), {{"duration_s=11"}, {}});
   EXPECT_EQ(session.vehicles().size(), session.simulation().vehicles().size());
   const std::vector<SignalInfo> signals = session.signals();
   EXPECT_EQ(signals.front().name, "run/events");
@@ -204,15 +204,18 @@ TEST(Session, TellsWhatThereIs) {
   EXPECT_EQ(&session.any_signal(signals.back().name),
             session.simulation().bus().signals().back().get());
 
+  // The survey waits for calm air.
+  session.advance(Time{8'000'000'000});
   EXPECT_EQ(session.phases().front().state, "waiting");
-  session.advance(Time{});
+  session.advance(Time{9'000'000'000});
   EXPECT_EQ(session.phases().front().state, "running");
+  EXPECT_EQ(session.phases().front().begin, Time{9'000'000'000});
   const std::vector<SessionEvent> events = session.take_events();
   ASSERT_FALSE(events.empty());
-  EXPECT_THAT(events.front().event.text, HasSubstr("begins"));
+  EXPECT_THAT(events.back().event.text, HasSubstr("begins"));
   EXPECT_TRUE(session.take_events().empty());
   while (!session.over()) session.advance_for(Duration{500'000'000});
-  EXPECT_EQ(session.now().ns, 2'000'000'000);
+  EXPECT_EQ(session.now().ns, 11'000'000'000);
   EXPECT_EQ(session.phases().front().state, "failed");
   EXPECT_FALSE(session.finished());
   EXPECT_TRUE(session.crashes().empty());

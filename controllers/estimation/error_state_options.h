@@ -10,12 +10,7 @@
 namespace vinerow {
 
 struct ErrorStateOptions {
-  // Noise: VectorNav VN-100/VN-200 data sheet (gyro 0.0035 deg/s/rtHz and 10 deg/h in-run,
-  // accelerometer 0.14 mg/rtHz and 0.04 mg in-run). The walks reach the in-run figure within 100 s.
-  ErrorStateKalmanParams filter{.imu = {.gyro_radps_rtHz = rad_from_deg(0.0035),
-                                        .accel_mps2_rtHz = 0.00137,
-                                        .gyro_walk_radps2_rtHz = rad_from_deg(2.8e-4),
-                                        .accel_walk_mps3_rtHz = 3.9e-5}};
+  ErrorStateKalmanParams filter;
   std::string imu = "imu", gnss = "gps";        ///< signals
   std::string barometer, magnetometer, wheels;  ///< signals; empty: none
 

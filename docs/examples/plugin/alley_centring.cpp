@@ -1,19 +1,36 @@
 #include "alley_centring.h"
 
 #include <vinerow/api/messages.h>
+#include <vinerow/api/parameter_table.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace {
 
+struct AlleyCentringParams {
+  double speed_mps = 0.8;
+  double gain_radps_per_m = 0.8;
+  double damping_rad_per_m = 1.5;
+};
+
+/// States each parameter once: spec, default, checks and reader come from here.
+const vinerow::ParameterTable<AlleyCentringParams>& alley_centring_table() {
+  using P = AlleyCentringParams;
+  static const auto table =
+      vinerow::ParameterTable<P>()
+          .number("speed_mps", "m/s", &P::speed_mps, vinerow::kPositive, "forward speed")
+          .number("gain_radps_per_m", "rad/s/m", &P::gain_radps_per_m, vinerow::kPositive,
+                  "turn per offset")
+          .number("damping_rad_per_m", "rad/m", &P::damping_rad_per_m, vinerow::kPositive,
+                  "turn per speed of the offset");
+  return table;
+}
+
 class AlleyCentring final : public vinerow::Controller {
  public:
-  AlleyCentring(const vinerow::ParameterSet& parameters, const vinerow::ControllerContext& context)
-      : speed_mps_(parameters.number("speed_mps")),
-        gain_(parameters.number("gain_radps_per_m")),
-        damping_(parameters.number("damping_rad_per_m")),
-        period_s_(context.period.s()) {
+  AlleyCentring(const AlleyCentringParams& params, const vinerow::ControllerContext& context)
+      : params_(params), period_s_(context.period.s()) {
     const vinerow::VehicleDescription& vehicle = *context.vehicle_description;
     const vinerow::WheeledVehicle& wheeled = vehicle.need_wheeled(context.part);
     wheel_radius_m_ = wheeled.wheel_radius_m;
@@ -38,19 +55,21 @@ class AlleyCentring final : public vinerow::Controller {
       const double before_m = offset_m_;
       offset_m_ += 0.1 * (seen_m - offset_m_);
       const double rate_mps = (offset_m_ - before_m) / period_s_;
-      yaw_rate_radps = std::clamp(-gain_ * offset_m_ - damping_ * rate_mps, -0.5, 0.5);
+      yaw_rate_radps = std::clamp(-params_.gain_radps_per_m * offset_m_ -
+                                      params_.damping_rad_per_m * rate_mps, -0.5, 0.5);
     }
     for (std::size_t i = 0; i < command_.names.size(); ++i) {
       const bool left_wheel =
           command_.names[i].find("wheel_fl") == 0 || command_.names[i].find("wheel_rl") == 0;
       const double side = left_wheel ? -0.5 : 0.5;
-      command_.values[i] = (speed_mps_ + side * track_m_ * yaw_rate_radps) / wheel_radius_m_;
+      command_.values[i] = (params_.speed_mps + side * track_m_ * yaw_rate_radps) / wheel_radius_m_;
     }
     actuators_.write(now, command_);
   }
 
  private:
-  double speed_mps_, gain_, damping_, period_s_;
+  AlleyCentringParams params_;
+  double period_s_;
   double wheel_radius_m_ = 0.0;
   double track_m_ = 0.0;
   double offset_m_ = 0.0;
@@ -66,11 +85,7 @@ vinerow::PartSpec alley_centring_spec() {
   spec.name = "alley_centring";
   spec.description = "Keeps the middle of an alley by two ultrasonic rangers";
   spec.default_rate_Hz = 20.0;
-  spec.parameters = {
-      vinerow::positive_parameter("speed_mps", "m/s", 0.8, "forward speed"),
-      vinerow::positive_parameter("gain_radps_per_m", "rad/s/m", 0.8, "turn per offset"),
-      vinerow::positive_parameter("damping_rad_per_m", "rad/m", 1.5,
-                                  "turn per speed of the offset")};
+  spec.parameters = alley_centring_table().specs();
   spec.reads = {"sonar_left", "sonar_right"};
   spec.writes = {"actuators"};
   return spec;
@@ -78,5 +93,6 @@ vinerow::PartSpec alley_centring_spec() {
 
 std::unique_ptr<vinerow::Controller> make_alley_centring(
     const vinerow::ParameterSet& parameters, const vinerow::ControllerContext& context) {
-  return std::make_unique<AlleyCentring>(parameters, context);
+  return std::make_unique<AlleyCentring>(alley_centring_table().read(parameters, context.part),
+                                         context);
 }

@@ -49,7 +49,8 @@ void add_list_command(CLI::App& app, int& exit_status) {
     const Registry registry = make_registry(arguments->plugins);
     std::vector<std::string> known;
     bool found = false;
-    if (arguments->markdown) fmt::print("{}", parts_page_opening());
+    // A part that does not exist must not leave the head of a page.
+    std::string page = parts_page_opening();
     for (const PartKind kind : kAllPartKinds) {
       known.emplace_back(to_string(kind));
       bool opened = false;
@@ -63,8 +64,8 @@ void add_list_command(CLI::App& app, int& exit_status) {
           print_part(registry, kind, name);
           continue;
         }
-        if (!std::exchange(opened, true)) fmt::print("{}", kind_heading(kind));
-        fmt::print("{}", part_markdown(registry, kind, name));
+        if (!std::exchange(opened, true)) page += kind_heading(kind);
+        page += part_markdown(registry, kind, name);
       }
       found = found || arguments->part == to_string(kind);
     }
@@ -73,6 +74,7 @@ void add_list_command(CLI::App& app, int& exit_status) {
                                     arguments->part, did_you_mean(arguments->part, known),
                                     join(known)));
     }
+    if (arguments->markdown) fmt::print("{}", page);
     exit_status = 0;
   });
 }

@@ -88,7 +88,7 @@ class DwaGuide {
   PlanAhead plan_;
   Recovery recovery_;
   StopProfile stop_;
-  Trace trace_;
+  DrivenTrace trace_;
   LocalPath lane_;
   LocalPath back_;
   double lane_left_m_ = 0.0;

@@ -10,7 +10,7 @@ constexpr double kStanding_mps = 0.05;
 constexpr int kSearch = 20;
 }  // namespace
 
-void Trace::record(const Pose2& pose) {
+void DrivenTrace::record(const Pose2& pose) {
   if (count_ > 0 && (pose.p - poses_[count_ - 1].p).norm() < kPitch_m) return;
   if (count_ == kCapacity) {
     std::move(poses_.begin() + 1, poses_.end(), poses_.begin());
@@ -19,7 +19,7 @@ void Trace::record(const Pose2& pose) {
   poses_[count_++] = pose;
 }
 
-void Trace::drive_back(const Pose2& pose) {
+void DrivenTrace::drive_back(const Pose2& pose) {
   int nearest = count_ - 1;
   for (int i = count_ - 1; i >= std::max(count_ - kSearch, 0); --i) {
     if ((poses_[i].p - pose.p).norm() < (poses_[nearest].p - pose.p).norm()) nearest = i;
@@ -27,7 +27,7 @@ void Trace::drive_back(const Pose2& pose) {
   count_ = nearest + 1;
 }
 
-void Trace::copy_back(LocalPath* path) const {
+void DrivenTrace::copy_back(LocalPath* path) const {
   path->clear();
   for (int i = count_ - 1; i >= 0; --i) path->add(poses_[i], (count_ - 1 - i) * kPitch_m);
 }

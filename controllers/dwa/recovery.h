@@ -11,12 +11,12 @@
 namespace vinerow {
 
 /// The poses the vehicle came along. Fixed capacity: the last kCapacity * kPitch_m metres.
-class Trace {
+class DrivenTrace {
  public:
   static constexpr int kCapacity = 90;
   static constexpr double kPitch_m = 0.05;
 
-  Trace() : poses_(kCapacity) {}
+  DrivenTrace() : poses_(kCapacity) {}
   void clear() { count_ = 0; }
   /// Forward: adds the pose if it is new.
   void record(const Pose2& pose);

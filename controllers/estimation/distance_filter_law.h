@@ -201,7 +201,7 @@ class DistanceFilterLaw {
   SlicePlane slice_plane_;
   PositionKalman kalman_;
   IntegritySet set_;
-  Trace<Past> trace_;
+  RecentTrace<Past> trace_;
   Past now_;
   Eigen::Quaterniond q_WB_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v_W_ = Eigen::Vector3d::Zero();

@@ -147,7 +147,7 @@ class ErrorStateKalman {
   Eigen::Vector3d f_W_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d drift_p_ = Eigen::Vector3d::Zero(), drift_v_ = Eigen::Vector3d::Zero(),
                   drift_att_ = Eigen::Vector3d::Zero();
-  Trace<PastState> trace_;
+  RecentTrace<PastState> trace_;
   std::int64_t refused_readings_ = 0, gaps_ = 0, repairs_ = 0;
 };
 

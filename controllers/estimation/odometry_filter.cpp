@@ -209,7 +209,7 @@ class OdometryFilter final : public Estimator {
   std::vector<Wheel> wheels_;
   double height_m_ = 0.0;
   Eigen::Vector2d velocity_B_ = Eigen::Vector2d::Zero();  ///< last from a valid fix
-  Trace<Eigen::Vector2d> trace_;                          ///< of the estimate
+  RecentTrace<Eigen::Vector2d> trace_;                    ///< of the estimate
   std::uint64_t seen_fix_ = 0;
   SignalReader<GnssFix> gps_;
   SignalReader<VelocityCommand> command_;

@@ -11,7 +11,7 @@ namespace vinerow {
 /// The last `Capacity` entries, oldest overwritten. No heap.
 /// @tparam Value  with between(older, newer, share), found by its namespace, or + - and scalar *
 template <class Value, std::size_t Capacity = 256>
-class Trace {
+class RecentTrace {
  public:
   void add(Time now, const Value& value) {
     entries_[next_] = {now, value};

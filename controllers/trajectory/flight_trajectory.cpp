@@ -103,7 +103,7 @@ void FlightTrajectory::add_run(int run, bool is_first, bool is_last,
                                std::optional<double> next_yaw_rad, const FlightOptions& options) {
   const SmoothRun& curve = runs_[run];
   const TimeLaw& law = laws_[run];
-  const FlightLimits& limits = options.limits;
+  const TrajectoryLimits& limits = options.limits;
   Stage stage;
   stage.run = run;
   stage.start_m = now_m_;

@@ -19,7 +19,7 @@ struct FlightHold {
 };
 
 struct FlightOptions {
-  FlightLimits limits;
+  TrajectoryLimits limits;
   double spin_up_s = 1.0;                 ///< rest on the ground before the take-off
   double landing_reserve_m = 1.0;         ///< how far below the plan's end the landing goes on
   double sharp_rad = rad_from_deg(20.0);  ///< sharper bends are flown by a stop

@@ -13,7 +13,7 @@ constexpr double kStep_s = 0.02;
 constexpr double kReserve = 0.97;  // of the limits: for what lies between knots and is averaged
 constexpr double kTiny = 1e-9;
 
-double wanted_speed_mps(PathKind kind, const FlightLimits& limits) {
+double wanted_speed_mps(PathKind kind, const TrajectoryLimits& limits) {
   switch (kind) {
     case PathKind::kLeg:
     case PathKind::kTurn:
@@ -28,7 +28,7 @@ double wanted_speed_mps(PathKind kind, const FlightLimits& limits) {
 }
 
 /// Distances per second that no limit forbids, at the knots.
-std::vector<double> limit_speeds(const SmoothRun& run, const FlightLimits& limits,
+std::vector<double> limit_speeds(const SmoothRun& run, const TrajectoryLimits& limits,
                                  double slow_from_m) {
   std::vector<double> most;
   most.reserve(run.knots());
@@ -120,7 +120,7 @@ std::vector<double> sample_distances(const std::vector<double>& speeds, double s
 
 }  // namespace
 
-TimeLaw::TimeLaw(const SmoothRun& run, const FlightLimits& limits, double slow_from_m) {
+TimeLaw::TimeLaw(const SmoothRun& run, const TrajectoryLimits& limits, double slow_from_m) {
   const std::vector<double> most = limit_speeds(run, limits, slow_from_m);
   const double step_m = run.step_m();
   std::vector<double> speeds = limit_acceleration(most, step_m, limits.acceleration_mps2);

@@ -13,7 +13,7 @@
 namespace vinerow {
 
 /// Limits of the vehicle's motion.
-struct FlightLimits {
+struct TrajectoryLimits {
   double row_speed_mps = 3.0;
   double transit_speed_mps = 2.0;
   double return_speed_mps = 3.0;
@@ -32,7 +32,7 @@ struct FlightLimits {
 class TimeLaw {
  public:
   /// Allocates. @param slow_from_m  from here on along the run no faster than landing_speed_mps
-  TimeLaw(const SmoothRun& run, const FlightLimits& limits, double slow_from_m);
+  TimeLaw(const SmoothRun& run, const TrajectoryLimits& limits, double slow_from_m);
 
   double duration_s() const { return spline_.length(); }
   /// Distance along the run, its speed and acceleration. No heap.

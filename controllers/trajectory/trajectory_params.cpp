@@ -31,38 +31,38 @@ const ParameterTable<TrajectoryParams>& trajectory_table() {
                    "points of the reference after the present one: N of the controller")
           .number("sample_s", "s", &P::sample_s, kPositive,
                   "time between two points of the reference")
-          .number("row_speed_mps", "m/s", limits(&FlightLimits::row_speed_mps), kPositive,
+          .number("row_speed_mps", "m/s", limits(&TrajectoryLimits::row_speed_mps), kPositive,
                   "speed in rows (paper A, 4.2) and the most in turns")
-          .number("transit_speed_mps", "m/s", limits(&FlightLimits::transit_speed_mps), kPositive,
-                  "speed on the way to the first row")
-          .number("return_speed_mps", "m/s", limits(&FlightLimits::return_speed_mps), kPositive,
+          .number("transit_speed_mps", "m/s", limits(&TrajectoryLimits::transit_speed_mps),
+                  kPositive, "speed on the way to the first row")
+          .number("return_speed_mps", "m/s", limits(&TrajectoryLimits::return_speed_mps), kPositive,
                   "speed on the way home")
-          .number("climb_speed_mps", "m/s", limits(&FlightLimits::climb_speed_mps), kPositive,
+          .number("climb_speed_mps", "m/s", limits(&TrajectoryLimits::climb_speed_mps), kPositive,
                   "most upwards, also along slopes")
-          .number("descent_speed_mps", "m/s", limits(&FlightLimits::descent_speed_mps), kPositive,
-                  "most downwards, also along slopes")
-          .number("landing_speed_mps", "m/s", limits(&FlightLimits::landing_speed_mps), kPositive,
-                  "speed of the last landing_zone_m")
-          .number("landing_zone_m", "m", limits(&FlightLimits::landing_zone_m),
+          .number("descent_speed_mps", "m/s", limits(&TrajectoryLimits::descent_speed_mps),
+                  kPositive, "most downwards, also along slopes")
+          .number("landing_speed_mps", "m/s", limits(&TrajectoryLimits::landing_speed_mps),
+                  kPositive, "speed of the last landing_zone_m")
+          .number("landing_zone_m", "m", limits(&TrajectoryLimits::landing_zone_m),
                   between(0.0, 100.0),
                   "height above the plan's end that is flown at landing_speed_mps")
           .number("landing_reserve_m", "m", flight(&FlightOptions::landing_reserve_m),
                   between(0.0, 100.0),
                   "a landing is continued this far below the plan's end until the vehicle "
                   "stands, and standing counts up to this far above")
-          .number("acceleration_mps2", "m/s2", limits(&FlightLimits::acceleration_mps2), kPositive,
-                  "along the path, both ways")
+          .number("acceleration_mps2", "m/s2", limits(&TrajectoryLimits::acceleration_mps2),
+                  kPositive, "along the path, both ways")
           .number("lateral_acceleration_mps2", "m/s2",
-                  limits(&FlightLimits::lateral_acceleration_mps2), kPositive,
+                  limits(&TrajectoryLimits::lateral_acceleration_mps2), kPositive,
                   "across the path: 1.63 m/s in a turn of 1.77 m radius")
-          .number("yaw_rate_radps", "rad/s", limits(&FlightLimits::yaw_rate_radps), kPositive,
+          .number("yaw_rate_radps", "rad/s", limits(&TrajectoryLimits::yaw_rate_radps), kPositive,
                   "most")
           .number("yaw_acceleration_radps2", "rad/s2",
-                  limits(&FlightLimits::yaw_acceleration_radps2), kPositive,
+                  limits(&TrajectoryLimits::yaw_acceleration_radps2), kPositive,
                   "most; times the inertia it is the torque that turning takes")
-          .number("ease_s", "s", limits(&FlightLimits::ease_s), between(0.02, 5.0),
+          .number("ease_s", "s", limits(&TrajectoryLimits::ease_s), between(0.02, 5.0),
                   "time over which the acceleration along the path sets in")
-          .number("blend_m", "m", limits(&FlightLimits::blend_m), between(0.0, 5.0),
+          .number("blend_m", "m", limits(&TrajectoryLimits::blend_m), between(0.0, 5.0),
                   "length over which curvature sets in; corners are rounded over it")
           .degrees("sharp_deg", flight(&FlightOptions::sharp_rad), between(0.0, 180.0),
                    "bends of the plan sharper than this are flown by a stop and a turn on the "
@@ -92,7 +92,7 @@ TrajectoryParams read_trajectory_params(const ParameterSet& parameters,
   const VehicleDescription& vehicle = *context.vehicle_description;
   vehicle.need_rotorcraft(who);
   TrajectoryParams params = trajectory_table().read(parameters, who);
-  const FlightLimits& limits = params.flight.limits;
+  const TrajectoryLimits& limits = params.flight.limits;
   params.landing.landing_speed_mps = limits.landing_speed_mps;
   params.landing.zone_m = params.flight.landing_reserve_m;
   params.standing_m = vehicle.height_above_ground_m;
@@ -126,8 +126,7 @@ TrajectoryParams read_trajectory_params(const ParameterSet& parameters,
                     who, params.hover_m->z(), least_m, vehicle.type));
   }
   FlightHold hold;
-  hold.duration_s =
-      params.hover_s > 0.0 ? params.hover_s : std::numeric_limits<double>::infinity();
+  hold.duration_s = params.hover_s > 0.0 ? params.hover_s : std::numeric_limits<double>::infinity();
   hold.yaw_rad = params.hover_yaw_rad;
   params.flight.hold = hold;
   return params;

@@ -9,7 +9,7 @@
 
 namespace vinerow {
 
-void AirMission::lay_landing(const AirState& state) {
+void AirMission::lay_landing(const GuidanceState& state) {
   // With less wind than this its direction says little.
   constexpr double kWind_mps = 1.0;
   const double against_rad = std::atan2(-state.wind.y(), -state.wind.x());
@@ -46,7 +46,7 @@ void AirMission::lay_landing(const AirState& state) {
   tell(is_guess, std::move(news));
 }
 
-AirMission::Wanted AirMission::fly_descend(const AirState& state) {
+AirMission::Wanted AirMission::fly_descend(const GuidanceState& state) {
   Wanted wanted = hold();
   wanted.course = circle_.course(state, params_.pilot.cross_track_length_m, course_.course_rad);
   // On the way there what is below is not known.
@@ -64,7 +64,7 @@ AirMission::Wanted AirMission::fly_descend(const AirState& state) {
 }
 
 /// At the height where the glide begins, and leaving the circle now leads onto its line.
-bool AirMission::is_on_final(const AirState& state) const {
+bool AirMission::is_on_final(const GuidanceState& state) const {
   constexpr double kClose_m = 1.0, kQuarter_rad = 0.5 * kPi;
   const LegFrame& frame = final_.front().frame;
   if (std::abs(height_.height_m() - frame.from_W().z()) > kClose_m) return false;
@@ -82,7 +82,7 @@ bool AirMission::is_on_final(const AirState& state) const {
   return circle_.side * frame.left_m(turn.at_rest) <= 0.0 || std::abs(turn_rad) < kNearly_rad;
 }
 
-AirMission::Wanted AirMission::fly_land(double dt_s, const AirState& state) {
+AirMission::Wanted AirMission::fly_land(double dt_s, const GuidanceState& state) {
   constexpr double kSink_mps = 0.4, kBelow_m = 0.3;
   Wanted wanted = hold();
   wanted.course = pilot_.advance(final_, state, generator_, dt_s);

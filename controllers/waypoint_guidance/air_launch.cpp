@@ -9,7 +9,7 @@
 
 namespace vinerow {
 
-void AirMission::launch(const AirState& state) {
+void AirMission::launch(const GuidanceState& state) {
   stage_ = Stage::kLaunch;
   generator_.start(state.yaw_rad, state.bank_left_rad);
   height_.start(state.height_m);
@@ -18,7 +18,7 @@ void AirMission::launch(const AirState& state) {
                           deg_from_rad(state.yaw_rad), length_m_));
 }
 
-void AirMission::join(const AirState& state) {
+void AirMission::join(const GuidanceState& state) {
   const LegFrame& frame = legs_.front().frame;
   const double along_m = frame.along_m(state.position);
   const double beyond_m = along_m - std::clamp(along_m, 0.0, frame.length_m());
@@ -53,7 +53,7 @@ void AirMission::join(const AirState& state) {
                           away_m, length_m_));
 }
 
-AirMission::Wanted AirMission::fly_launch(const AirState& state) {
+AirMission::Wanted AirMission::fly_launch(const GuidanceState& state) {
   Wanted wanted = hold();
   is_launched_ = is_launched_ || state.height_m - launch_.height_m >= params_.launch_height_m;
   if (is_launched_) {
@@ -94,13 +94,13 @@ AirMission::Wanted AirMission::fly_launch(const AirState& state) {
   return wanted;
 }
 
-bool AirMission::is_too_steep(const AirState& state, double share) const {
+bool AirMission::is_too_steep(const GuidanceState& state, double share) const {
   const double way_m = (goal_W_.head<2>() - state.position).norm();
   const double rise_m = goal_W_.z() - height_.height_m();
   return rise_m > share * way_m * std::tan(params_.legs.climb_max_rad);
 }
 
-AirMission::Wanted AirMission::fly_climb(const AirState& state) {
+AirMission::Wanted AirMission::fly_climb(const GuidanceState& state) {
   Wanted wanted = hold();
   wanted.course = circle_.course(state, params_.pilot.cross_track_length_m, course_.course_rad);
   wanted.height_m = goal_W_.z();
@@ -111,7 +111,7 @@ AirMission::Wanted AirMission::fly_climb(const AirState& state) {
   return wanted;
 }
 
-void AirMission::start_transit(const AirState& state) {
+void AirMission::start_transit(const GuidanceState& state) {
   stage_ = Stage::kTransit;
   if (!has_own_first_leg_) {
     FlightLeg way;
@@ -124,7 +124,7 @@ void AirMission::start_transit(const AirState& state) {
 }
 
 /// While it turns, the way to the plan begins where the vehicle is.
-void AirMission::lay_transit(const AirState& state) {
+void AirMission::lay_transit(const GuidanceState& state) {
   const Eigen::Vector3d here_W(state.position.x(), state.position.y(), height_.height_m());
   if ((goal_W_ - here_W).head<2>().norm() < 1.0) return;
   legs_.front().frame = LegFrame(here_W, goal_W_);

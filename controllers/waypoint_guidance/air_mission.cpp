@@ -18,7 +18,7 @@ AirMission::AirMission(const WaypointGuidanceParams& params)
       airspeed_mps_(params.legs.airspeed_mps),
       wanted_airspeed_mps_(params.legs.airspeed_mps) {}
 
-void AirMission::take_plan(FlightLegs plan, const AirState& start) {
+void AirMission::take_plan(FlightLegs plan, const GuidanceState& start) {
   length_m_ = plan.length_m;
   legs_ = std::move(plan.legs);
   legs_.reserve(legs_.size() + 1);  // for the way to the plan
@@ -26,7 +26,7 @@ void AirMission::take_plan(FlightLegs plan, const AirState& start) {
   start_ = start;
 }
 
-void AirMission::begin(const AirState& state) {
+void AirMission::begin(const GuidanceState& state) {
   launch_ = state;
   has_power_ = true;
   const FlightLeg& first = legs_.front();
@@ -41,13 +41,13 @@ void AirMission::begin(const AirState& state) {
   }
 }
 
-bool AirMission::is_flying(const AirState& state) const {
+bool AirMission::is_flying(const GuidanceState& state) const {
   constexpr double kAirShare = 0.7, kGroundShare = 0.3;  // of the cruise speed
   return state.airspeed_mps() > kAirShare * params_.cruise_mps &&
          state.velocity.norm() > kGroundShare * params_.cruise_mps;
 }
 
-void AirMission::advance(double dt_s, const AirState& state) {
+void AirMission::advance(double dt_s, const GuidanceState& state) {
   news_.clear();
   Wanted wanted;
   switch (stage_) {
@@ -102,7 +102,7 @@ AirMission::Wanted AirMission::hold() const {
           params_.legs.descent_max_rad};
 }
 
-AirMission::Wanted AirMission::fly_legs(double dt_s, const AirState& state) {
+AirMission::Wanted AirMission::fly_legs(double dt_s, const GuidanceState& state) {
   if (stage_ == Stage::kTransit && pilot_.is_turning()) lay_transit(state);
   const std::size_t before = pilot_.leg();
   Wanted wanted = hold();
@@ -117,7 +117,7 @@ AirMission::Wanted AirMission::fly_legs(double dt_s, const AirState& state) {
   return wanted;
 }
 
-void AirMission::end_plan(const AirState& state) {
+void AirMission::end_plan(const GuidanceState& state) {
   using End = WaypointGuidanceParams::End;
   circling_s_ = 0.0;
   circle_ = {legs_.back().frame.to_W().head<2>(), params_.loiter_radius_m, params_.loiter_side};
@@ -138,7 +138,7 @@ void AirMission::end_plan(const AirState& state) {
   }
 }
 
-AirMission::Wanted AirMission::fly_loiter(double dt_s, const AirState& state) {
+AirMission::Wanted AirMission::fly_loiter(double dt_s, const GuidanceState& state) {
   Wanted wanted = hold();
   wanted.course = circle_.course(state, params_.pilot.cross_track_length_m, course_.course_rad);
   wanted.height_m = legs_.back().frame.to_W().z();
@@ -173,7 +173,7 @@ Phase AirMission::phase() const {
   return Phase::kDone;
 }
 
-double AirMission::cross_track_m(const AirState& state) const {
+double AirMission::cross_track_m(const GuidanceState& state) const {
   switch (stage_) {
     case Stage::kTransit:
     case Stage::kLegs:
@@ -206,7 +206,7 @@ int AirMission::waypoint() const {
   }
 }
 
-double AirMission::distance_m(const AirState& state) const {
+double AirMission::distance_m(const GuidanceState& state) const {
   if (stage_ == Stage::kWait || stage_ == Stage::kLaunch || stage_ == Stage::kClimb) return 0.0;
   if (stage_ != Stage::kTransit && stage_ != Stage::kLegs) return length_m_;
   const FlightLeg& leg = legs_[pilot_.leg()];
@@ -214,7 +214,7 @@ double AirMission::distance_m(const AirState& state) const {
   return leg.start_m + leg.plan_length_m * std::clamp(share, 0.0, 1.0);
 }
 
-void AirMission::watch_wind(double dt_s, const AirState& state) {
+void AirMission::watch_wind(double dt_s, const GuidanceState& state) {
   constexpr double kPatience_s = 2.0;
   const bool is_lying = stage_ == Stage::kLand && !has_power_;
   const bool is_possible =

@@ -26,14 +26,14 @@ class AirMission {
   explicit AirMission(const WaypointGuidanceParams& params);
 
   /// Before the first tick. Allocates. @param start  the first state known
-  void take_plan(FlightLegs plan, const AirState& start);
+  void take_plan(FlightLegs plan, const GuidanceState& start);
   bool has_plan() const { return !legs_.empty(); }
   /// Fast through the air and over the ground.
-  bool is_flying(const AirState& state) const;
+  bool is_flying(const GuidanceState& state) const;
   /// Leaves the launcher, or the place in the air where it is.
-  void begin(const AirState& state);
+  void begin(const GuidanceState& state);
   /// One tick after begin(). Sentences about what happened are made only when something does.
-  void advance(double dt_s, const AirState& state);
+  void advance(double dt_s, const GuidanceState& state);
 
   const HeadingGenerator& heading() const { return generator_; }
   const HeightReference& height() const { return height_; }
@@ -41,9 +41,9 @@ class AirMission {
   bool has_begun() const { return stage_ != Stage::kWait; }
   bool has_power() const { return has_power_; }
   double airspeed_mps() const { return airspeed_mps_; }
-  double cross_track_m(const AirState& state) const;
+  double cross_track_m(const GuidanceState& state) const;
   int waypoint() const;
-  double distance_m(const AirState& state) const;
+  double distance_m(const GuidanceState& state) const;
   double length_m() const { return length_m_; }
   /// What happened in the last call, "" if nothing did; and whether it is bad.
   const std::string& news() const { return news_; }
@@ -70,30 +70,30 @@ class AirMission {
     double climb_max_rad = 0.0;
     double descent_max_rad = 0.0;
   };
-  void launch(const AirState& state);
-  void join(const AirState& state);
+  void launch(const GuidanceState& state);
+  void join(const GuidanceState& state);
   Wanted hold() const;
-  Wanted fly_launch(const AirState& state);
-  Wanted fly_climb(const AirState& state);
-  Wanted fly_legs(double dt_s, const AirState& state);
-  Wanted fly_loiter(double dt_s, const AirState& state);
-  Wanted fly_descend(const AirState& state);
-  Wanted fly_land(double dt_s, const AirState& state);
-  bool is_too_steep(const AirState& state, double share) const;
-  void start_transit(const AirState& state);
-  void lay_transit(const AirState& state);
-  void end_plan(const AirState& state);
-  void lay_landing(const AirState& state);
-  bool is_on_final(const AirState& state) const;
-  void watch_wind(double dt_s, const AirState& state);
+  Wanted fly_launch(const GuidanceState& state);
+  Wanted fly_climb(const GuidanceState& state);
+  Wanted fly_legs(double dt_s, const GuidanceState& state);
+  Wanted fly_loiter(double dt_s, const GuidanceState& state);
+  Wanted fly_descend(const GuidanceState& state);
+  Wanted fly_land(double dt_s, const GuidanceState& state);
+  bool is_too_steep(const GuidanceState& state, double share) const;
+  void start_transit(const GuidanceState& state);
+  void lay_transit(const GuidanceState& state);
+  void end_plan(const GuidanceState& state);
+  void lay_landing(const GuidanceState& state);
+  bool is_on_final(const GuidanceState& state) const;
+  void watch_wind(double dt_s, const GuidanceState& state);
   void tell(bool is_bad, std::string text);
 
   WaypointGuidanceParams params_;
   std::vector<FlightLeg> legs_;   // with a way to the plan in front, if there is one
   std::vector<FlightLeg> final_;  // one leg: the glide
   double length_m_ = 0.0;
-  AirState start_;
-  AirState launch_;
+  GuidanceState start_;
+  GuidanceState launch_;
   Eigen::Vector3d goal_W_ = Eigen::Vector3d::Zero();  // where the way to the plan ends
   HeadingGenerator generator_;
   HeightReference height_;

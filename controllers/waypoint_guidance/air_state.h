@@ -9,7 +9,7 @@
 namespace vinerow {
 
 /// In W; plan view where it is two numbers.
-struct AirState {
+struct GuidanceState {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double height_m = 0.0;
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< over ground, m/s

@@ -12,7 +12,7 @@ double calc_corner_rad(const std::vector<FlightLeg>& legs, std::size_t leg) {
   return wrap_angle(legs[leg + 1].frame.course_rad() - legs[leg].frame.course_rad());
 }
 
-double calc_heading_rad(double course_rad, const AirState& state, double airspeed_mps) {
+double calc_heading_rad(double course_rad, const GuidanceState& state, double airspeed_mps) {
   return course_rad + calc_crab(course_rad, state.wind, airspeed_mps).angle_rad;
 }
 
@@ -27,8 +27,8 @@ double calc_fly_by_m(const TurnLimits& limits, double corner_rad, double ground_
   return radius_m * std::tan(0.5 * std::abs(corner_rad)) + ground_speed_mps * delay_s;
 }
 
-void LegPilot::start(const std::vector<FlightLeg>& legs, std::size_t leg, const AirState& state,
-                     double heading_rad, bool turns) {
+void LegPilot::start(const std::vector<FlightLeg>& legs, std::size_t leg,
+                     const GuidanceState& state, double heading_rad, bool turns) {
   leg_ = leg;
   has_ended_ = false;
   is_turning_ = turns;
@@ -42,7 +42,7 @@ void LegPilot::aim(const LegFrame& frame) {
   course_rad_ = unwrap_near(frame.course_rad(), course_rad_);
 }
 
-WantedCourse LegPilot::advance(const std::vector<FlightLeg>& legs, const AirState& state,
+WantedCourse LegPilot::advance(const std::vector<FlightLeg>& legs, const GuidanceState& state,
                                const HeadingGenerator& generator, double dt_s) {
   while (is_time_to_turn(legs, state, generator, dt_s)) take_next(legs, state, generator);
   const FlightLeg& leg = legs[leg_];
@@ -55,7 +55,7 @@ WantedCourse LegPilot::advance(const std::vector<FlightLeg>& legs, const AirStat
   return is_turning_ ? WantedCourse{course_rad_, 0.0} : ask_law(leg.frame, state);
 }
 
-bool LegPilot::is_time_to_turn(const std::vector<FlightLeg>& legs, const AirState& state,
+bool LegPilot::is_time_to_turn(const std::vector<FlightLeg>& legs, const GuidanceState& state,
                                const HeadingGenerator& generator, double dt_s) const {
   if (leg_ + 1 >= legs.size()) return false;
   const FlightLeg& leg = legs[leg_];
@@ -83,7 +83,7 @@ bool LegPilot::is_time_to_turn(const std::vector<FlightLeg>& legs, const AirStat
   return short_m <= 0.5 * dt_s * state.velocity.norm() * std::abs(std::sin(corner_rad));
 }
 
-void LegPilot::take_next(const std::vector<FlightLeg>& legs, const AirState& state,
+void LegPilot::take_next(const std::vector<FlightLeg>& legs, const GuidanceState& state,
                          const HeadingGenerator& generator) {
   const double corner_rad = calc_corner_rad(legs, leg_);
   turn_from_m_ = ramp_along_m_ - legs[leg_].frame.length_m();
@@ -118,7 +118,7 @@ void LegPilot::take_next(const std::vector<FlightLeg>& legs, const AirState& sta
   turn_to_m_ = leg.frame.along_m(turn.near_end);
 }
 
-void LegPilot::watch_turn(const FlightLeg& leg, const AirState& state,
+void LegPilot::watch_turn(const FlightLeg& leg, const GuidanceState& state,
                           const HeadingGenerator& generator, double dt_s) {
   const double wanted_rad = calc_heading_rad(course_rad_, state, leg.airspeed_mps);
   const double left_rad = std::abs(wanted_rad - generator.heading_rad());
@@ -139,7 +139,7 @@ void LegPilot::watch_turn(const FlightLeg& leg, const AirState& state,
   if (is_on_course || turned_s_ > kPatience_s) is_turning_ = false;
 }
 
-WantedCourse LegPilot::ask_law(const LegFrame& frame, const AirState& state) const {
+WantedCourse LegPilot::ask_law(const LegFrame& frame, const GuidanceState& state) const {
   const double left_m = frame.left_m(state.position);
   if (options_.is_smooth) {
     const double share = left_m / options_.cross_track_length_m;

@@ -34,12 +34,12 @@ class LegPilot {
 
   /// Begins on a leg. @param heading_rad  of the reference: the leg's course becomes the angle
   /// nearest to it  @param turns  whether it has to turn onto the leg first
-  void start(const std::vector<FlightLeg>& legs, std::size_t leg, const AirState& state,
+  void start(const std::vector<FlightLeg>& legs, std::size_t leg, const GuidanceState& state,
              double heading_rad, bool turns);
   /// The leg has been laid anew, e.g. from where the vehicle is now.
   void aim(const LegFrame& frame);
   /// Takes the next leg where it is time for it, then asks the law.
-  WantedCourse advance(const std::vector<FlightLeg>& legs, const AirState& state,
+  WantedCourse advance(const std::vector<FlightLeg>& legs, const GuidanceState& state,
                        const HeadingGenerator& generator, double dt_s);
 
   std::size_t leg() const { return leg_; }
@@ -51,13 +51,13 @@ class LegPilot {
   double ramp_speed_mps() const { return ramp_speed_mps_; }
 
  private:
-  bool is_time_to_turn(const std::vector<FlightLeg>& legs, const AirState& state,
+  bool is_time_to_turn(const std::vector<FlightLeg>& legs, const GuidanceState& state,
                        const HeadingGenerator& generator, double dt_s) const;
-  void take_next(const std::vector<FlightLeg>& legs, const AirState& state,
+  void take_next(const std::vector<FlightLeg>& legs, const GuidanceState& state,
                  const HeadingGenerator& generator);
-  void watch_turn(const FlightLeg& leg, const AirState& state, const HeadingGenerator& generator,
-                  double dt_s);
-  WantedCourse ask_law(const LegFrame& frame, const AirState& state) const;
+  void watch_turn(const FlightLeg& leg, const GuidanceState& state,
+                  const HeadingGenerator& generator, double dt_s);
+  WantedCourse ask_law(const LegFrame& frame, const GuidanceState& state) const;
 
   LegPilotOptions options_;
   std::size_t leg_ = 0;

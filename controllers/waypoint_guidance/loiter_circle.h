@@ -24,7 +24,7 @@ struct LoiterCircle {
 
   /// @param length_m  the course is 45 deg off the tangent where the circle is this far away
   /// @param near_rad  the course wanted so far
-  WantedCourse course(const AirState& state, double length_m, double near_rad) const {
+  WantedCourse course(const GuidanceState& state, double length_m, double near_rad) const {
     const Eigen::Vector2d out = state.position - centre;
     const double off_m = out.norm() - radius_m;
     const double angle_rad =

@@ -139,7 +139,7 @@ class WaypointGuidance final : public Guidance {
   WaypointGuidanceParams params_;
   WindEstimate wind_;
   AirMission mission_;
-  AirState state_;
+  GuidanceState state_;
   AirReference reference_;
   std::string warnings_;  // of the plan, not told yet
   bool has_stepped_ = false;

@@ -116,11 +116,11 @@ class CellOverlaps {
   std::vector<float> largest_, on_lane_, held_;
 };
 
-Summary find_forward_overlaps(const std::vector<Footprint>& footprints, const CoverageMap& map,
-                              CellOverlaps& cells) {
+Summary find_forward_overlaps(const std::vector<PictureFootprint>& footprints,
+                              const CoverageMap& map, CellOverlaps& cells) {
   Summary forward;
   for (std::size_t i = 0; i + 1 < footprints.size(); ++i) {
-    const Footprint &a = footprints[i], &b = footprints[i + 1];
+    const PictureFootprint &a = footprints[i], &b = footprints[i + 1];
     if (a.lane != b.lane) cells.end_lane();
     if (b.index != a.index + 1 || a.lane < 0 || a.lane != b.lane) continue;
     const Polygon common = clip(a.polygon_W, b.polygon_W);
@@ -209,11 +209,11 @@ void check_coverage_options(const CoverageOptions& options) {
 CoverageMap map_coverage(const std::vector<LaneShot>& shots, const CoverageOptions& options) {
   check_coverage_options(options);
   CoverageMap map = empty_map(options);
-  std::vector<Footprint> footprints;
+  std::vector<PictureFootprint> footprints;
   Summary gsd, error;
   double error_size = 0.0;
   for (const LaneShot& taken : shots) {
-    Footprint footprint;
+    PictureFootprint footprint;
     footprint.polygon_W = footprint_W(taken.shot);
     footprint.area_m2 = signed_area_m2(footprint.polygon_W);
     if (footprint.area_m2 <= 0.0) continue;

@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 
 struct Picture {
-  const Footprint* footprint = nullptr;
+  const PictureFootprint* footprint = nullptr;
   double along_m = 0.0;
 };
 
@@ -18,14 +18,14 @@ struct Lane {
   double across_m = 0.0;          ///< mean
 };
 
-Vector2d middle_of_footprint(const Footprint& footprint) {
+Vector2d middle_of_footprint(const PictureFootprint& footprint) {
   Vector2d sum = Vector2d::Zero();
   for (const Vector2d& corner : footprint.polygon_W) sum += corner;
   return sum / static_cast<double>(footprint.polygon_W.size());
 }
 
 /// Unit direction of the lanes: that of the one that is longest from first to last picture.
-Vector2d direction_of(const std::map<int, std::vector<const Footprint*>>& by_lane) {
+Vector2d direction_of(const std::map<int, std::vector<const PictureFootprint*>>& by_lane) {
   Vector2d longest = Vector2d::Zero();
   for (const auto& [lane, footprints] : by_lane) {
     const Vector2d way =
@@ -57,9 +57,9 @@ void add_overlaps(const Lane& from, const Lane& to, std::vector<double>& overlap
 
 }  // namespace
 
-std::vector<double> side_overlaps(const std::vector<Footprint>& footprints) {
-  std::map<int, std::vector<const Footprint*>> by_lane;
-  for (const Footprint& footprint : footprints) {
+std::vector<double> side_overlaps(const std::vector<PictureFootprint>& footprints) {
+  std::map<int, std::vector<const PictureFootprint*>> by_lane;
+  for (const PictureFootprint& footprint : footprints) {
     if (footprint.lane >= 0) by_lane[footprint.lane].push_back(&footprint);
   }
   const Vector2d along = direction_of(by_lane);
@@ -68,7 +68,7 @@ std::vector<double> side_overlaps(const std::vector<Footprint>& footprints) {
   std::vector<Lane> lanes;
   for (const auto& [number, members] : by_lane) {
     Lane lane;
-    for (const Footprint* footprint : members) {
+    for (const PictureFootprint* footprint : members) {
       const Vector2d middle = middle_of_footprint(*footprint);
       lane.pictures.push_back({footprint, along.dot(middle)});
       lane.across_m += Vector2d(-along.y(), along.x()).dot(middle);

@@ -8,7 +8,7 @@
 
 namespace vinerow {
 
-struct Footprint {
+struct PictureFootprint {
   Polygon polygon_W;  ///< convex, counter-clockwise
   double area_m2 = 0.0;
   std::int32_t index = 0;  ///< of its picture
@@ -18,6 +18,6 @@ struct Footprint {
 
 /// Of every picture that touches the parcel, with each neighbouring lane that has pictures on both
 /// sides of it. Empty for fewer than two lanes.
-std::vector<double> side_overlaps(const std::vector<Footprint>& footprints);
+std::vector<double> side_overlaps(const std::vector<PictureFootprint>& footprints);
 
 }  // namespace vinerow

@@ -78,7 +78,7 @@ TEST(TimeLaw, FliesAStraightAsFastAsItMay) {
   const PathPiece straight{Pose2{}, 100.0, 0.0, PathKind::kLeg, 0, 0.0};
   const auto runs = make_curve_runs(make_planned_path({straight}, 0.5), 0.3);
   const SmoothRun run(runs.front(), kBlend_m);
-  const FlightLimits limits;
+  const TrajectoryLimits limits;
   const TimeLaw law(run, limits, 1e9);
   // v / a to speed up, the same to slow down, and what the easing adds.
   const double least_s = 100.0 / 3.0 + 3.0 / limits.acceleration_mps2;

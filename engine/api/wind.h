@@ -4,7 +4,10 @@
 /// vines.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
+
+#include "engine/api/parameter_table_fwd.h"
 
 namespace vinerow {
 
@@ -26,12 +29,21 @@ enum class Atmosphere {
 struct WindGust {
   double start_s = 0.0;
   double duration_s = 2.0;
-  double amplitude_mps = 0.0;     ///< at the middle of the pulse; horizontal
-  double from_azimuth_rad = 0.0;  ///< where it comes from, clockwise from north
-  double vertical_mps = 0.0;      ///< its part along +z, with the same pulse
+  double amplitude_mps = 0.0;  ///< at the middle of the pulse; horizontal
+  /// Where it comes from, clockwise from north; absent: as the mean wind.
+  std::optional<double> from_azimuth_rad = std::nullopt;
+  double vertical_mps = 0.0;  ///< its part along +z, with the same pulse
   /// Speed of the front in the gust's direction: it is at W's origin at start_s, earlier upwind
   /// and later downwind. 0: everywhere at once.
   double front_speed_mps = 0.0;
+};
+
+/// Gusts that come at random times, from any side.
+struct GustStatistics {
+  double interval_s = 60.0;    ///< mean time from start to start; more than duration_s
+  double amplitude_mps = 1.0;  ///< at the middle of the pulse; horizontal
+  double duration_s = 2.0;     ///< from calm to calm
+  std::uint64_t seed = 0;      ///< of their schedule: the run's
 };
 
 struct Wind {
@@ -46,16 +58,12 @@ struct Wind {
   double ground_speed_mps = 0.0;  ///< of the linear law, at the ground; < 0: the other way
   /// Scales the standard deviations of the Dryden turbulence (MIL-F-8785C, low altitude); 0: none.
   double turbulence = 0.0;
-  /// Wind at 20 ft that sets them, m/s; < 0: what the mean wind has at that height.
-  double turbulence_wind_mps = -1.0;
+  /// Wind at 20 ft that sets them, m/s; absent: what the mean wind has at that height.
+  std::optional<double> turbulence_wind_mps = std::nullopt;
   /// Largest length of the turbulence's vector: what is beyond is cut to it; 0: no limit.
   double turbulence_limit_mps = 0.0;
   std::vector<WindGust> gusts;
-  /// Gusts that come by chance: one per this time on average, s, from any side; 0: none.
-  double random_gust_interval_s = 0.0;
-  double random_gust_amplitude_mps = 1.0;
-  double random_gust_duration_s = 2.0;
-  std::uint64_t random_gust_seed = 0;  ///< of their schedule: the run's
+  std::optional<GustStatistics> random_gusts = std::nullopt;
   /// Between the rows and below the canopy's top the wind is that at the top times
   /// exp(-attenuation (1 - z / top)) across the rows, less attenuated along them; 0: no shelter.
   double shelter_attenuation = 0.0;
@@ -63,13 +71,16 @@ struct Wind {
   bool calm() const {
     const bool still_ground = height_law != WindHeightLaw::kLinear || ground_speed_mps == 0.0;
     return mean_speed_mps == 0.0 && still_ground &&
-           (turbulence == 0.0 || turbulence_wind_mps <= 0.0) && gusts.empty() &&
-           random_gust_interval_s == 0.0;
+           (turbulence == 0.0 || turbulence_wind_mps.value_or(0.0) == 0.0) && gusts.empty() &&
+           !random_gusts;
   }
 };
 
-/// @throws ConfigError "wind.roughness_length_m = 12 m, must be < wind.reference_height_m = 10 m"
-/// and the like: one sentence with key, value and what is allowed.
+/// The group `wind` of worlds: keys, ranges, words, and the rules of what fits together.
+const ParameterTable<Wind>& wind_table();
+
+/// @throws ConfigError "wind: roughness_length_m = 12 m, must be < reference_height_m = 10 m" and
+/// the like: one sentence with key, value and what is allowed.
 void validate(const Wind& wind);
 
 }  // namespace vinerow

@@ -30,19 +30,29 @@ Eigen::Vector2d downwind_direction(double from_azimuth_rad) {
   return {-std::sin(from_azimuth_rad), -std::cos(from_azimuth_rad)};
 }
 
-double gust_pulse(const WindGust& gust, double time_s, const Eigen::Vector2d& p_W) {
+namespace {
+
+Eigen::Vector2d gust_direction(const Wind& wind, const WindGust& gust) {
+  return downwind_direction(gust.from_azimuth_rad.value_or(wind.from_azimuth_rad));
+}
+
+}  // namespace
+
+double gust_pulse(const Wind& wind, const WindGust& gust, double time_s,
+                  const Eigen::Vector2d& p_W) {
   double t_s = time_s - gust.start_s;
   if (gust.front_speed_mps > 0.0) {
-    t_s -= downwind_direction(gust.from_azimuth_rad).dot(p_W) / gust.front_speed_mps;
+    t_s -= gust_direction(wind, gust).dot(p_W) / gust.front_speed_mps;
   }
   if (t_s <= 0.0 || t_s >= gust.duration_s) return 0.0;
   return 0.5 * (1.0 - std::cos(2.0 * kPi * t_s / gust.duration_s));
 }
 
-Eigen::Vector3d calc_gust_W(const WindGust& gust, double time_s, const Eigen::Vector2d& p_W) {
-  const double pulse = gust_pulse(gust, time_s, p_W);
+Eigen::Vector3d calc_gust_W(const Wind& wind, const WindGust& gust, double time_s,
+                            const Eigen::Vector2d& p_W) {
+  const double pulse = gust_pulse(wind, gust, time_s, p_W);
   if (pulse == 0.0) return Eigen::Vector3d::Zero();
-  const Eigen::Vector2d to = downwind_direction(gust.from_azimuth_rad);
+  const Eigen::Vector2d to = gust_direction(wind, gust);
   return pulse * Eigen::Vector3d(gust.amplitude_mps * to.x(), gust.amplitude_mps * to.y(),
                                  gust.vertical_mps);
 }

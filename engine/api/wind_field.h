@@ -18,10 +18,12 @@ Eigen::Vector2d downwind_direction(double from_azimuth_rad);
 double mean_wind_mps(const Wind& wind, double height_m);
 
 /// Pulse (1 - cos(2 pi t / duration)) / 2 of a gust, 0 to 1; 0 outside. A gust with a front is
-/// late by the way from W's origin along its direction.
-double gust_pulse(const WindGust& gust, double time_s, const Eigen::Vector2d& p_W);
+/// late by the way from W's origin along its direction. @param wind  whose gust it is
+double gust_pulse(const Wind& wind, const WindGust& gust, double time_s,
+                  const Eigen::Vector2d& p_W);
 
 /// Its wind in W, m/s.
-Eigen::Vector3d calc_gust_W(const WindGust& gust, double time_s, const Eigen::Vector2d& p_W);
+Eigen::Vector3d calc_gust_W(const Wind& wind, const WindGust& gust, double time_s,
+                            const Eigen::Vector2d& p_W);
 
 }  // namespace vinerow

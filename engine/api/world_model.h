@@ -45,8 +45,8 @@ struct WorldModel {
   std::vector<std::string>
       notes;  ///< what the loader wants the user to know (missing textures, ...)
   /// Another seed of the run makes another world. A world that says no here takes nothing from
-  /// WorldContext's seed but `wind.random_gust_seed`, and a run that begins again with another seed
-  /// keeps it as it is.
+  /// WorldContext's seed but `wind.random_gusts->seed`, and a run that begins again with another
+  /// seed keeps it as it is.
   bool depends_on_seed = true;
 };
 

@@ -30,10 +30,10 @@ BuiltWorld reseed_world(const BuiltWorld& world, const io::Scenario& scenario,
   if (world.model->depends_on_seed) return build_static_world(scenario, registry, shelf);
   BuiltWorld result = world;
   result.seed = scenario.seed;
-  if (world.model->wind.random_gust_interval_s > 0.0) {
+  if (world.model->wind.random_gusts) {
     // Meshes are shared between both; terrain and rows are copied.
     auto model = std::make_shared<WorldModel>(*world.model);
-    model->wind.random_gust_seed = scenario.seed;
+    model->wind.random_gusts->seed = scenario.seed;
     result.model = std::move(model);
   }
   return result;

@@ -36,7 +36,7 @@ WeatherWatch::Verdict WeatherWatch::look(Time now) {
   Eigen::Vector3d wind_W = Eigen::Vector3d::Zero();
   wind_W.head<2>() =
       mean_wind_mps(wind_, window_.height_m) * downwind_direction(wind_.from_azimuth_rad);
-  for (const WindGust& gust : wind_.gusts) wind_W += calc_gust_W(gust, now.s(), p_W_);
+  for (const WindGust& gust : wind_.gusts) wind_W += calc_gust_W(wind_, gust, now.s(), p_W_);
   speeds_mps_.push_back(wind_W.head<2>().norm());
   const auto needed = static_cast<std::size_t>(std::ceil(window_.over_s));
   if (speeds_mps_.size() > needed) speeds_mps_.pop_front();

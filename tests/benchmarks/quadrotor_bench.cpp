@@ -62,7 +62,7 @@ WorldModel windy_field() {
   WorldModel model = bench::rolling_field();
   model.wind.mean_speed_mps = 3.0;
   model.wind.turbulence = 1.0;
-  model.wind.random_gust_interval_s = 10.0;
+  model.wind.random_gusts = GustStatistics{.interval_s = 10.0};
   return model;
 }
 

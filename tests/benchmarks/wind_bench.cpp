@@ -20,7 +20,7 @@ WorldModel windy_field(bool sheltered) {
   wind.mean_speed_mps = 3.0;
   wind.turbulence = 1.0;
   wind.gusts.push_back({.start_s = 10.0, .amplitude_mps = 1.0});
-  wind.random_gust_interval_s = 20.0;
+  wind.random_gusts = GustStatistics{.interval_s = 20.0};
   wind.shelter_attenuation = sheltered ? 1.2 : 0.0;
   for (int i = 0; i < 16; ++i) {
     const double y = 2.5 * i - 18.75;

@@ -132,7 +132,7 @@ TEST(Session, KeepsTheSceneWhereTheSeedChangesGustsAlone) {
       {{"world.wind={mean_speed_mps: 3, random_gusts: {interval_s: 5}}"}, std::nullopt});
   const auto scene = session.simulation().built_world().scene;
   session.reset(7);
-  EXPECT_EQ(session.simulation().world().wind.random_gust_seed, 7u);
+  EXPECT_EQ(session.simulation().world().wind.random_gusts->seed, 7u);
   EXPECT_EQ(session.simulation().built_world().scene, scene);
 }
 

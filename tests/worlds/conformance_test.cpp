@@ -94,8 +94,8 @@ TEST_P(WorldConformance, AWorldThatSaysSoIsTheSameForEverySeed) {
   EXPECT_EQ(first->notes, second->notes);
   EXPECT_EQ(first->soil.name, second->soil.name);
   EXPECT_EQ(first->spawn_points.size(), second->spawn_points.size());
-  EXPECT_EQ(first->wind.random_gust_seed, 1u);
-  EXPECT_EQ(second->wind.random_gust_seed, 2u);
+  EXPECT_EQ(first->wind.random_gusts->seed, 1u);
+  EXPECT_EQ(second->wind.random_gusts->seed, 2u);
 }
 
 TEST_P(WorldConformance, TerrainIsFiniteAndWholeWhereThereIsOne) {

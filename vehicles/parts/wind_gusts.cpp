@@ -7,16 +7,18 @@
 namespace vinerow::vehicles {
 
 RandomGusts::RandomGusts(const Wind& wind)
-    : interval_s_(wind.random_gust_interval_s),
-      random_(wind.random_gust_seed, "", "world.wind.random_gusts") {
-  gust_.amplitude_mps = wind.random_gust_amplitude_mps;
-  gust_.duration_s = wind.random_gust_duration_s;
+    : statistics_(wind.random_gusts),
+      random_(statistics_ ? statistics_->seed : 0, "", "world.wind.random_gusts") {
+  if (none()) return;
+  gust_.amplitude_mps = statistics_->amplitude_mps;
+  gust_.duration_s = statistics_->duration_s;
   gust_.start_s = -gust_.duration_s;
-  if (!none()) draw_next();
+  draw_next();
 }
 
 void RandomGusts::draw_next() {
-  const double rest_s = -(interval_s_ - gust_.duration_s) * std::log(1.0 - random_.uniform());
+  const double rest_s =
+      -(statistics_->interval_s - gust_.duration_s) * std::log(1.0 - random_.uniform());
   gust_.start_s += gust_.duration_s + rest_s;
   gust_.from_azimuth_rad = random_.uniform(0.0, 2.0 * kPi);
 }

@@ -1,7 +1,9 @@
 #pragma once
 /// 1-cosine gusts of a world that come by chance; those of its list: engine/api/wind_field.h.
 
-#include "engine/api/wind_field.h"
+#include <optional>
+
+#include "engine/api/wind.h"
 #include "engine/core/random.h"
 #include "engine/core/time.h"
 
@@ -14,18 +16,18 @@ namespace vinerow::vehicles {
 /// piece, however long the run. No heap.
 class RandomGusts {
  public:
-  /// @param wind  random_gust_interval_s == 0: none, else > random_gust_duration_s
+  /// @pre validate(wind)
   explicit RandomGusts(const Wind& wind);
 
   /// The gust that is on or comes next. @param time_s  never running back. Meaningless where
   /// the world has none.
   const WindGust& at(double time_s);
-  bool none() const { return interval_s_ <= 0.0; }
+  bool none() const { return !statistics_; }
 
  private:
   void draw_next();
 
-  double interval_s_;
+  std::optional<GustStatistics> statistics_;
   RandomStream random_;
   WindGust gust_;
 };

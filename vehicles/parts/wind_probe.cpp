@@ -24,8 +24,8 @@ Eigen::Vector3d horizontal(double speed_mps, const Eigen::Vector2d& direction) {
 }  // namespace
 
 double turbulence_wind_mps(const Wind& wind) {
-  return wind.turbulence_wind_mps >= 0.0 ? wind.turbulence_wind_mps
-                                         : std::abs(mean_wind_mps(wind, kTwentyFeet_m));
+  return wind.turbulence_wind_mps ? *wind.turbulence_wind_mps
+                                  : std::abs(mean_wind_mps(wind, kTwentyFeet_m));
 }
 
 WindProbe::WindProbe(const WorldModel& world, const SceneQuery& scene, RandomStream random)
@@ -102,9 +102,9 @@ const Eigen::Vector3d& WindProbe::sample(Time now, const Eigen::Vector3d& p_W,
   mean_W_ = left.apply(horizontal(mean_wind_mps(*wind_, law_height_m), downwind_), spot.axis);
 
   gust_W_.setZero();
-  for (const WindGust& gust : wind_->gusts) gust_W_ += calc_gust_W(gust, now.s(), place);
+  for (const WindGust& gust : wind_->gusts) gust_W_ += calc_gust_W(*wind_, gust, now.s(), place);
   if (!random_gusts_.none()) {
-    gust_W_ += calc_gust_W(random_gusts_.at(now.s()), now.s(), place);
+    gust_W_ += calc_gust_W(*wind_, random_gusts_.at(now.s()), now.s(), place);
   }
 
   const double airspeed_mps = (v_W - mean_W_).norm();

@@ -36,9 +36,10 @@ const ParameterTable<Surroundings>& surroundings_table() {
 void set_surroundings(const Surroundings& surroundings, std::uint64_t seed, WorldModel& world) {
   world.soil = find_soil(surroundings.soil);
   world.daylight = surroundings.daylight;
-  world.wind = make_wind(surroundings.wind, seed);
+  world.wind = surroundings.wind;
+  if (world.wind.random_gusts) world.wind.random_gusts->seed = seed;
   const bool without_wind =
-      world.wind.mean_speed_mps == 0.0 && world.wind.turbulence_wind_mps <= 0.0;
+      world.wind.mean_speed_mps == 0.0 && world.wind.turbulence_wind_mps.value_or(0.0) == 0.0;
   if (world.wind.turbulence > 0.0 && without_wind) {
     world.notes.emplace_back(
         "wind.turbulence has no wind to scale with and is left out; give wind.mean_speed_mps or "

@@ -6,8 +6,8 @@
 
 #include "engine/api/geo_origin.h"
 #include "engine/api/parameter_table_fwd.h"
+#include "engine/api/wind.h"
 #include "engine/api/world_model.h"
-#include "worlds/parts/wind.h"
 
 namespace vinerow::worlds {
 
@@ -17,12 +17,12 @@ const ParameterTable<GeoOrigin>& origin_table();
 struct Surroundings {
   std::string soil = "dry_grass";  ///< of soil_names()
   Daylight daylight;
-  WindParams wind;
+  Wind wind;
 };
 /// `soil`, `sun_azimuth_deg`, `sun_elevation_deg`, the group `wind`.
 const ParameterTable<Surroundings>& surroundings_table();
 /// @param seed  of the run, for gusts by chance
-/// @throws ConfigError as find_soil() and make_wind()
+/// @throws ConfigError as find_soil()
 void set_surroundings(const Surroundings& surroundings, std::uint64_t seed, WorldModel& world);
 
 }  // namespace vinerow::worlds

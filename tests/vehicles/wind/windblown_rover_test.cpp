@@ -177,7 +177,7 @@ TEST(WindblownRover, CalmWorldKeepsEveryBit) {
 TEST(WindblownRover, AnotherRoverChangesNoGustOfTheFirst) {
   Wind wind = south_wind(8.0);
   wind.turbulence = 1.0;
-  wind.random_gust_interval_s = 3.0;
+  wind.random_gusts = GustStatistics{.interval_s = 3.0};
   Rig alone(wind, windy_rover("first")), two(wind, windy_rover("first"));
   two.add(windy_rover("second"), 20.0);
   for (int i = 0; i < 40; ++i) {

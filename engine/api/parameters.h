@@ -27,7 +27,7 @@ enum class ParameterKind {
   kGroupList,   ///< list of mappings with their own `fields`
 };
 
-/// What a parameter is allowed to be.
+/// What a parameter is allowed to be. Parts get theirs from a ParameterTable (parameter_table.h).
 struct ParameterSpec {
   std::string name;  ///< key in files, unit as suffix
   ParameterKind kind = ParameterKind::kNumber;
@@ -46,34 +46,6 @@ struct ParameterSpec {
   std::vector<ParameterSpec> fields;  ///< for groups
   bool must_exist = true;             ///< for paths: a missing file or folder is refused while loading
 };
-
-// Short makers, so that a spec reads like a table.
-ParameterSpec number_parameter(std::string name, std::string unit, double default_value, double min,
-                               double max, std::string description);
-/// Like number_parameter, but the value must be > 0.
-ParameterSpec positive_parameter(std::string name, std::string unit, double default_value,
-                                 std::string description);
-ParameterSpec integer_parameter(std::string name, std::int64_t default_value, double min,
-                                double max, std::string description);
-ParameterSpec boolean_parameter(std::string name, bool default_value, std::string description);
-ParameterSpec text_parameter(std::string name, std::string default_value, std::string description);
-ParameterSpec choice_parameter(std::string name, std::string default_value,
-                               std::vector<std::string> choices, std::string description);
-/// Absent unless given.
-ParameterSpec path_parameter(std::string name, std::string description);
-ParameterSpec number_list_parameter(std::string name, std::string unit,
-                                    std::vector<double> default_value, std::string description,
-                                    int size = 0);
-ParameterSpec text_list_parameter(std::string name, std::vector<std::string> default_value,
-                                  std::string description);
-ParameterSpec group_list_parameter(std::string name, std::vector<ParameterSpec> fields,
-                                   std::string description);
-ParameterSpec group_parameter(std::string name, std::vector<ParameterSpec> fields,
-                              std::string description);
-/// The same parameter without default, required (`must be given`).
-ParameterSpec required(ParameterSpec spec);
-/// The same parameter without default, absent unless given (a part asks has()).
-ParameterSpec optional(ParameterSpec spec);
 
 /// Values that passed the checks of their specs. Reading a name or type that the spec does not have
 /// is our bug (VINEROW_DEMAND); writing a wrong value is the user's (ConfigError).

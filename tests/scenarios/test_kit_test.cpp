@@ -7,6 +7,7 @@
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "tests/support/spec_makers.h"
 #include "vinerow/testing.h"
 
 namespace vinerow::test_kit_test {

@@ -1,15 +1,11 @@
 #!/usr/bin/env python3
-"""Fails where a parameter can be stated twice: a spec made or read by hand instead of by its ParameterTable.
-
-parameters_by_hand.txt lists the files that still do; the list may only shrink. --update takes out what is done.
-"""
+"""Fails where a parameter can be stated twice: a spec made or read by hand instead of by its ParameterTable."""
 
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LIST = pathlib.Path(__file__).with_name("parameters_by_hand.txt")
 FOLDERS = ["engine", "vehicles", "worlds", "controllers", "tools"]
 # What tables are made of.
 MACHINERY = {
@@ -67,23 +63,13 @@ def check_the_check() -> None:
 
 def main() -> int:
     check_the_check()
-    listed = [line for line in LIST.read_text().splitlines() if line]
-    by_hand = {}
+    problems = []
     for folder in FOLDERS:
         for file in sorted((ROOT / folder).rglob("*")):
             name = file.relative_to(ROOT).as_posix()
-            if file.suffix not in (".h", ".cpp") or name in MACHINERY:
-                continue
-            if faults := faults_of(file.read_text()):
-                by_hand[name] = faults
-    if "--update" in sys.argv:
-        LIST.write_text("".join(f"{name}\n" for name in listed if name in by_hand))
-        return 0
-    problems = [f"{name}:{fault}" for name in by_hand if name not in listed for fault in by_hand[name]]
-    problems += [f"{name} is done: take it out of {LIST.name} (--update)" for name in listed if name not in by_hand]
-    for problem in problems:
-        print(problem)
-    print(f"{len(listed)} files still state parameters by hand")
+            if file.suffix in (".h", ".cpp") and name not in MACHINERY:
+                problems += [f"{name}:{fault}" for fault in faults_of(file.read_text())]
+    print("\n".join(problems) or "no parameter is stated by hand")
     return 1 if problems else 0
 
 

@@ -16,59 +16,14 @@
 #include "engine/api/messages.h"
 #include "engine/api/signal.h"
 #include "engine/core/error.h"
+#include "tests/support/soil_sample.h"
 
 namespace vinerow::message_test {
 
-// What a plug-in would bring.
-struct Layer {
-  static constexpr const char* kType = "Layer";
-  double depth_m = 0.0;
-  float moisture = 0.0f;
-
-  template <class Self, class F>
-  static void fields(Self& self, F&& f) {
-    f({"depth", "m"}, self.depth_m);
-    f({"moisture", "", "share of the pores that hold water"}, self.moisture);
-  }
-};
-
-struct SoilSample {
-  static constexpr const char* kType = "acme/SoilSample";
-  enum class State : std::uint16_t { kDry = 1, kWet = 7 };
-  State state = State::kDry;
-  std::vector<Layer> layers;
-  std::array<std::int64_t, 2> counts{};
-  std::string place;
-  Pose X_WP;
-
-  template <class Self, class F>
-  static void fields(Self& self, F&& f) {
-    f({"state"}, self.state);
-    f({"layers"}, self.layers);
-    f({"counts"}, self.counts);
-    f({"place"}, self.place);
-    f({"probe"}, self.X_WP);
-  }
-};
-
-std::span<const EnumName> enum_names(SoilSample::State) {
-  static constexpr EnumName kNames[] = {enum_name(SoilSample::State::kDry, "DRY"),
-                                        enum_name(SoilSample::State::kWet, "WET")};
-  return kNames;
-}
-
-// Another message of the same name.
-struct OtherSample {
-  static constexpr const char* kType = "acme/SoilSample";
-  double depth_m = 0.0;
-
-  template <class Self, class F>
-  static void fields(Self& self, F&& f) {
-    f({"depth", "m"}, self.depth_m);
-  }
-};
-
 namespace {
+
+using test::OtherSample;
+using test::SoilSample;
 
 /// Names and units of a message and of the records inside it.
 class ListFields final : public FieldVisitor {
@@ -136,7 +91,8 @@ TEST(Message, ViewsPointIntoTheSignal) {
   SoilSample sample;
   sample.state = SoilSample::State::kWet;
   sample.layers = {{0.1, 0.3f}, {0.2, 0.4f}};
-  sample.counts = {-5, 7};
+  sample.counts = {5, 7, 9};
+  sample.raw = {-5, 6};
   sample.place = "row 3";
   sample.X_WP.p = {1, 2, 3};
   out.write(Time{1}, sample);
@@ -154,8 +110,10 @@ TEST(Message, ViewsPointIntoTheSignal) {
   ASSERT_EQ(views.by_name.at("state").names.size(), 2u);
   EXPECT_EQ(views.by_name.at("state").names[1].name, "WET");
   EXPECT_EQ(views.by_name.at("counts").shape, FieldShape::kArray);
-  EXPECT_EQ(views.by_name.at("counts").value<std::int64_t>(1), 7);
+  EXPECT_EQ(views.by_name.at("counts").value<std::uint32_t>(1), 7u);
   EXPECT_EQ(views.by_name.at("counts").data, held.counts.data());
+  EXPECT_EQ(views.by_name.at("raw").shape, FieldShape::kSequence);
+  EXPECT_EQ(views.by_name.at("raw").value<std::int16_t>(0), -5);
   EXPECT_EQ(views.by_name.at("place").value<std::string>(), "row 3");
   EXPECT_EQ(views.by_name.at("probe").value<Pose>().p, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(views.by_name.at("probe").data, &held.X_WP);

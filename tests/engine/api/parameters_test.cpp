@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/error.h"
+#include "tests/support/spec_makers.h"
 
 namespace vinerow::parameters_test {
 namespace {

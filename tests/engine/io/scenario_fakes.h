@@ -9,6 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/scenario.h"
+#include "tests/support/spec_makers.h"
 
 namespace vinerow::io::test {
 

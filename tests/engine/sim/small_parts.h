@@ -10,6 +10,7 @@
 #include "engine/api/messages/event.h"
 #include "engine/api/registry.h"
 #include "engine/api/world_model.h"
+#include "tests/support/spec_makers.h"
 
 namespace vinerow::test {
 

@@ -26,8 +26,8 @@ struct WaypointGuidanceParams {
   double launch_height_m = 20.0;
   double join_m = 60.0;
   double airspeed_rate_mps2 = 0.5;
-  double loiter_radius_m = 30.0;
-  double loiter_side = 1.0;  ///< +1 left
+  double loiter_radius_m = 0.0;  ///< unless given: 1.5 times the radius of a turn
+  double loiter_side = 1.0;      ///< +1 left
   double loiter_s = 60.0;
   End end = End::kLand;
   std::optional<Eigen::Vector2d> land_at_m;
@@ -36,7 +36,7 @@ struct WaypointGuidanceParams {
   double standing_m = 0.0;  ///< of B above the ground at the start, on the launcher
   double belly_m = 0.0;     ///< of B above the ground when lying
   double approach_height_m = 30.0;
-  double approach_mps = 10.0;
+  double approach_mps = 0.0;  ///< unless given: legs.airspeed_mps
   double glide_rad = rad_from_deg(5.0);
   double flare_m = 1.0;
   double power_off_m = 0.1;

@@ -1,11 +1,11 @@
 // How the distance filter finds the facet of an echo and fuses it: one function per DistanceFusion.
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "controllers/estimation/distance_filter_law.h"
 #include "controllers/parts/ellipsoid.h"
+#include "engine/math/decomposition.h"
 
 namespace vinerow {
 
@@ -181,11 +181,11 @@ DatumStatus DistanceFilterLaw::fuse_increment_matrix(const Vector2d& centre,
   const Matrix2d after = covariance_m2.inverse();
   const Matrix2d added = after - kalman_.position_covariance().topLeftCorner<2, 2>().inverse();
   // Information along each axis of the difference; the negative one is left out.
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> axes(0.5 * (added + added.transpose()));
+  const SymmetricEigen<2> axes = decompose_symmetric<2>(0.5 * (added + added.transpose()));
   const Vector2d moved = after * (centre - p);
-  const Matrix2d directions = axes.eigenvectors();
+  const Matrix2d& directions = axes.vectors;
   for (int i = 0; i < 2; ++i) {
-    const double information = axes.eigenvalues()[i];
+    const double information = axes.values[i];
     if (!(information > 1e-9)) continue;
     PositionKalman::Scalar datum;
     datum.gradient.head<2>() = directions.col(i);

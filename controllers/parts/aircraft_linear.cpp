@@ -1,6 +1,5 @@
 #include "controllers/parts/aircraft_linear.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "controllers/parts/discretise.h"
 #include "controllers/parts/flight_equations.h"
 #include "controllers/parts/trim_solver.h"
+#include "engine/math/decomposition.h"
 
 namespace vinerow {
 namespace {
@@ -74,7 +74,7 @@ SampledAxis discretise(const LinearAxis& axis, double period_s) {
 }
 
 std::vector<FlightMode> calc_modes(const LinearAxis& axis) {
-  const Eigen::VectorXcd roots = Eigen::EigenSolver<Eigen::MatrixXd>(axis.A, false).eigenvalues();
+  const Eigen::VectorXcd roots = calc_eigenvalues(axis.A);
   std::vector<FlightMode> modes;
   for (const std::complex<double>& root : roots) {
     if (root.imag() < 0.0) continue;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <optional>
 
 #include "engine/core/check.h"
+#include "engine/math/decomposition.h"
 
 namespace vinerow {
 namespace {
@@ -32,7 +32,7 @@ MatrixXd symmetric(const MatrixXd& M) {
 /// none (test of Popov, Belevitch and Hautus).
 std::optional<std::complex<double>> mode_out_of_reach(const MatrixXd& A, const MatrixXd& B) {
   const Index n = A.rows(), m = B.cols();
-  const Eigen::VectorXcd eigenvalues = A.eigenvalues();
+  const Eigen::VectorXcd eigenvalues = calc_eigenvalues(A);
   std::optional<std::complex<double>> found;
   double smallest = kRankTolerance * (A.norm() + B.norm());
   for (const std::complex<double>& eigenvalue : eigenvalues) {
@@ -149,7 +149,7 @@ double spectral_radius(const MatrixXd& A) {
   VINEROW_DEMAND(A.rows() == A.cols());
   if (A.size() == 0) return 0.0;
   if (!A.allFinite()) return std::numeric_limits<double>::infinity();
-  return A.eigenvalues().cwiseAbs().maxCoeff();
+  return calc_eigenvalues(A).cwiseAbs().maxCoeff();
 }
 
 }  // namespace vinerow

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/math/decomposition.h"
 
 namespace vinerow {
 
@@ -25,9 +25,9 @@ RotorMixer::RotorMixer(const RotorcraftModel& craft, const std::string& who) : c
   const Eigen::Vector4d row_size = wrench_of_thrusts_.rowwise().norm().cwiseMax(1e-12);
   const Eigen::MatrixXd rows = row_size.cwiseInverse().asDiagonal() * wrench_of_thrusts_;
   const Eigen::Matrix4d gram = rows * rows.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(gram);
+  const Eigen::Vector4d eigenvalues = decompose_symmetric<4>(gram).values;
   constexpr double kLeastShare = 1e-12;
-  if (rotors < 4 || eigen.eigenvalues()(0) < kLeastShare * eigen.eigenvalues()(3)) {
+  if (rotors < 4 || eigenvalues(0) < kLeastShare * eigenvalues(3)) {
     throw ConfigError(fmt::format(
         "{}: {} rotors with these places and torque signs cannot make thrust and the torques about "
         "all three axes independently",

@@ -1,7 +1,8 @@
 #include "engine/physics/free_motion.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "engine/math/decomposition.h"
 
 namespace vinerow::physics {
 namespace {
@@ -43,10 +44,10 @@ PrincipalInertia PrincipalInertia::from_matrix(double mass_kg, const Eigen::Matr
   if (inertia_B.isDiagonal(0.0)) {
     result.moments_kgm2 = inertia_B.diagonal();
   } else {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_B);
-    Eigen::Matrix3d R_BP = solver.eigenvectors();
+    const SymmetricEigen<3> principal = decompose_symmetric<3>(inertia_B);
+    Eigen::Matrix3d R_BP = principal.vectors;
     if (R_BP.determinant() < 0.0) R_BP.col(0) = -R_BP.col(0);
-    result.moments_kgm2 = solver.eigenvalues();
+    result.moments_kgm2 = principal.values;
     result.q_BP = Quaterniond(R_BP).normalized();
   }
   result.inverse_moments_per_kgm2 = result.moments_kgm2.cwiseInverse();

@@ -1,10 +1,10 @@
 #include "engine/sim/estimate_drawing.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/math/angles.h"
+#include "engine/math/decomposition.h"
 
 namespace vinerow {
 namespace {
@@ -51,9 +51,9 @@ void add_with_rim(render::Polyline line, std::vector<render::Polyline>& lines) {
 }
 
 double longest_axis_m(const Odometry& estimate) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-      estimate.position_covariance().topLeftCorner<2, 2>());
-  return std::sqrt(kInside95 * std::max(0.0, axes.eigenvalues()[1]));
+  const SymmetricEigen<2> axes =
+      decompose_symmetric<2>(estimate.position_covariance().topLeftCorner<2, 2>());
+  return std::sqrt(kInside95 * std::max(0.0, axes.values[1]));
 }
 
 void add_earlier_ellipses(const Trace<Odometry>& trace, const Odometry& now, std::size_t end,
@@ -115,15 +115,15 @@ void add_marker(const Odometry& now, const EstimateLook& look, const Ground& gro
 std::vector<Eigen::Vector2d> ellipse_95(const Odometry& estimate, int count) {
   const Eigen::Matrix2d P = estimate.position_covariance().topLeftCorner<2, 2>();
   if (!P.allFinite()) return {};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(P);
-  const Eigen::Vector2d lambda = axes.eigenvalues();
+  const SymmetricEigen<2> axes = decompose_symmetric<2>(P);
+  const Eigen::Vector2d& lambda = axes.values;
   if (!(lambda[0] >= 0.0 && lambda[1] > 0.0)) return {};
   const Eigen::Vector2d semi = (kInside95 * lambda).cwiseSqrt();
   std::vector<Eigen::Vector2d> points;
   for (int k = 0; k < count; ++k) {
     const double angle = 2.0 * kPi * k / count;
     const Eigen::Vector2d along(semi[0] * std::cos(angle), semi[1] * std::sin(angle));
-    points.push_back(estimate.X_WB.p.head<2>() + axes.eigenvectors() * along);
+    points.push_back(estimate.X_WB.p.head<2>() + axes.vectors * along);
   }
   return points;
 }

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/math/decomposition.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -43,8 +44,7 @@ std::vector<double> calc_static_loads(std::span<const Eigen::Vector3d> hubs_B, d
     const Eigen::Vector3d& hub = hubs_B[static_cast<std::size_t>(i)];
     A.col(i) = Eigen::Vector3d(1.0, hub.x(), hub.y());
   }
-  const Eigen::VectorXd loads =
-      A.completeOrthogonalDecomposition().solve(Eigen::Vector3d(weight_N, 0.0, 0.0));
+  const Eigen::VectorXd loads = solve_least_norm(A, Eigen::Vector3d(weight_N, 0.0, 0.0));
   const bool balanced = (A * loads - Eigen::Vector3d(weight_N, 0, 0)).norm() < 1e-6 * weight_N;
   if (!balanced || loads.minCoeff() <= 0.0) return {};
   return {loads.data(), loads.data() + count};

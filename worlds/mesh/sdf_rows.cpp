@@ -1,10 +1,10 @@
 #include "worlds/mesh/sdf_rows.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/math/angles.h"
+#include "engine/math/decomposition.h"
 #include "worlds/parts/row_map.h"
 
 namespace vinerow::worlds {
@@ -68,8 +68,8 @@ Eigen::Vector3d fit_ground_plane(const std::vector<io::SdfInclude>& includes,
     A.row(row) << 1.0, feet[i].x(), feet[i].y();
     b(row) = feet[i].z();
   }
-  // The complete orthogonal decomposition gives the smallest slopes where pieces stand in one line.
-  return A.completeOrthogonalDecomposition().solve(b);
+  // Pieces in one line leave the slope across it open: the least norm gives none.
+  return solve_least_norm(A, b);
 }
 
 }  // namespace vinerow::worlds

@@ -1,11 +1,11 @@
 #include "worlds/mapping/cloud/reading/cloud_sample.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "engine/core/check.h"
+#include "engine/math/decomposition.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -67,11 +67,11 @@ Footprint footprint_of(const std::vector<Eigen::Vector3d>& points_m) {
     const Eigen::Vector2d d = p.head<2>() - mean;
     covariance += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
+  const SymmetricEigen<2> axes = decompose_symmetric<2>(covariance);
   std::array<double, 2> sizes{};
   std::vector<double> values(points_m.size());
   for (int k = 0; k < 2; ++k) {
-    const Eigen::Vector2d axis = axes.eigenvectors().col(k);
+    const Eigen::Vector2d axis = axes.vectors.col(k);
     std::transform(points_m.begin(), points_m.end(), values.begin(),
                    [&](const Eigen::Vector3d& p) { return axis.dot(p.head<2>() - mean); });
     constexpr double kTrim = 0.005;

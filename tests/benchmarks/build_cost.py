@@ -41,7 +41,7 @@ def cost(command, **options):
 
 
 def build(folder, targets=()):
-    return cost(["cmake", "--build", str(folder), *(["--target", *targets] if targets else [])])
+    return cost(["cmake", "--build", str(folder), "-j", str(os.cpu_count()), *(["--target", *targets] if targets else [])])
 
 
 def configure(preset, folder, *definitions):

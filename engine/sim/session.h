@@ -1,5 +1,5 @@
 #pragma once
-/// A scenario that is loaded once, run as often as wanted, and stepped by whoever holds it:
+/// A scenario that is loaded once, stepped by the calling program, and reset as often as needed:
 ///
 ///   Session session = open_session("riseholme_rover.yaml");   // vinerow/session.h
 ///   const SignalView<Odometry> truth = session.signal<Odometry>("rover/truth");
@@ -7,12 +7,12 @@
 ///     session.advance(session.now() + Duration{50'000'000});
 ///     follow(truth.value());
 ///   }
-///   session.reset(2);  // the same scenario with another seed, and nothing is read or built twice
+///   session.reset(2);  // the same scenario with another seed; nothing is read or built twice
 ///
 /// A session does not own the loop, starts no thread that outlives a call, and never reads the wall
 /// clock. One session belongs to one thread at a time; any number of them run side by side
-/// (`twin()`). What it computes is what a process of its own would compute, to the bit, however it
-/// is stepped. docs/session.md tells more.
+/// (`twin()`). Its results are those of a process of its own, to the bit, however it is stepped.
+/// Guide: docs/session.md.
 
 #include <cstdint>
 #include <filesystem>
@@ -35,32 +35,33 @@ struct Scenario;
 }
 class Simulation;
 
-/// Where a session keeps one of its signals: found anew after a reset, empty after the session.
+/// A session's reference to one of its signals. reset() looks it up again; the end of the session
+/// empties it.
 struct SignalSlot {
   std::string name;
   const SignalBase* signal = nullptr;
 };
 
-/// Looks at a signal without copying it. Cheap to copy; stays good across reset().
+/// Refers to a signal's value without copying it. Cheap to copy; remains valid across reset().
 template <class T>
 class SignalView {
  public:
   SignalView() = default;
   explicit SignalView(std::shared_ptr<const SignalSlot> slot) : slot_(std::move(slot)) {}
 
-  /// It has been written since the last reset, and its session lives.
+  /// True if the signal was written since the last reset and the session still exists.
   bool has_value() const { return sequence() > 0; }
   /// The last value written; changes with the next advance(). @pre has_value()
   const T& value() const {
     VINEROW_DEMAND(has_value());
     return reader().value();
   }
-  /// When it was written; of a sensor with a delay, when it was measured. @pre has_value()
+  /// Time of the write; for a sensor with a delay, of the measurement. @pre has_value()
   Time stamp() const {
     VINEROW_DEMAND(has_value());
     return reader().stamp();
   }
-  /// Number of writes so far by its present writer.
+  /// Number of writes so far by the present writer.
   std::uint64_t sequence() const { return reader().sequence(); }
   /// True once per advance() in which it was written, when asked after each.
   bool is_newer_than(std::uint64_t& seen) const { return reader().is_newer_than(seen); }
@@ -76,23 +77,23 @@ class SignalView {
 struct SignalInfo {
   std::string name;    ///< "rover/truth"
   std::string type;    ///< of the message, e.g. "Odometry"
-  std::string writer;  ///< e.g. "rover.controller", "outside"; empty: nobody, now
+  std::string writer;  ///< e.g. "rover.controller", "outside"; empty: none at present
 };
 
-/// What a part told people, and when.
+/// An event that a part reported, and when.
 struct SessionEvent {
   Time time;
   Event event;
 };
 
-/// The end of a vehicle.
+/// A vehicle that crashed.
 struct SessionCrash {
   std::string vehicle;
   Time time;
   std::string text;  ///< "hit the ground at 2.3 m/s"
 };
 
-/// How a mission's phase stands.
+/// State of one phase of a mission.
 struct SessionPhase {
   std::string name;
   std::string state;  ///< "waiting", "running", "succeeded", "failed", "blocked", ...
@@ -102,10 +103,10 @@ struct SessionPhase {
 };
 
 struct SessionOptions {
-  /// Signals that are written by command() in place of a part: those that the scenario's parts read
-  /// and none of them writes.
+  /// Signals that command() writes in place of a part. The scenario's parts read them, and none of
+  /// them writes them.
   std::vector<OutsideSignal> outside;
-  /// Folder for what the jobs of a mission make; empty: one that goes with the session.
+  /// Folder for the products of a mission's jobs; empty: a temporary one, removed with the session.
   std::filesystem::path products;
 
   /// E.g. take_over<NamedValues>("rover/actuators") of a vehicle without a controller.
@@ -118,7 +119,7 @@ struct SessionOptions {
 
 class Session {
  public:
-  /// Builds everything, up to the first instant. @param registry  not null
+  /// Builds everything; now() is 0. @param registry  not null
   /// @throws ConfigError
   Session(const io::Scenario& scenario, std::shared_ptr<const Registry> registry,
           SessionOptions options = {});
@@ -126,41 +127,42 @@ class Session {
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
 
-  /// Another session of the same scenario, seed and options, at its begin, for another thread: it
-  /// shares the world and what was read from files. Its mission's products go into a folder of its
-  /// own.
+  /// Another session of the same scenario, seed and options, at time 0, for another thread. It
+  /// shares the world and the contents of files with this one. Its mission's products have a folder
+  /// of their own.
   Session twin() const;
 
-  /// Begins again. Views stay good; commands that wait and events not taken are dropped. Reads no
-  /// file that was read before, and builds the world anew only where it depends on the seed.
-  /// @throws ConfigError, and then nothing has changed
+  /// Starts again at time 0. Views remain valid; pending commands and events that were not taken
+  /// are dropped. Reads no unchanged file again, and builds the world anew only if it depends on
+  /// the seed.
+  /// @throws ConfigError; the session is then unchanged
   void reset(std::uint64_t seed);
   /// With the same seed.
   void reset();
 
-  /// Works on every instant up to `until`, that one included, or to the end of the run. Nothing
-  /// happens where `until` is before now().
-  /// @throws ConfigError when the run is over or broke off before; on a plan that cannot be made
-  /// @throws SimulationError when it breaks off; what was reached can still be read
+  /// Processes every instant up to and including `until`, or to the end of the run. Does nothing if
+  /// `until` is before now().
+  /// @throws ConfigError if the run is over or has failed before, or a plan cannot be made
+  /// @throws SimulationError if the run fails; its results so far remain readable
   void advance(Time until);
-  /// Works on the instants of so long a time from now() on: advance_for(a), advance_for(b) is
+  /// Processes the instants of the next `duration`: advance_for(a), advance_for(b) equals
   /// advance_for(a + b).
   void advance_for(Duration duration);
-  /// The next instant to be worked on: 0 at the begin. Commands may bear this stamp or a later one.
+  /// The next instant to be processed, 0 at the start. The earliest stamp of a command.
   Time now() const;
-  /// From one instant to the next.
+  /// Time between two instants.
   Duration step() const;
-  /// Number of steps that physics has made.
+  /// Number of physics steps so far.
   std::uint64_t steps() const;
-  /// No further step will be made.
+  /// The run has ended: by its duration, because all vehicles finished, or by a crash.
   bool over() const;
   /// Every controller has finished and no vehicle crashed; of a mission: every phase succeeded.
   bool finished() const;
 
-  /// Lets a signal take this value at the first instant that is not before `stamp`, before any part
-  /// runs. The signal must have been taken over (SessionOptions). Its stamp on the bus is that
-  /// instant; it goes into the digest and the log as any other does. Where several values fall
-  /// into one instant the one with the latest stamp counts, of equal stamps the last one given.
+  /// Sets a signal at the first instant at or after `stamp`, before any part runs. The session must
+  /// have taken it over (SessionOptions). Its stamp on the bus is that instant; digest and log
+  /// contain it like any other value. Of several values for one instant the one with the latest
+  /// stamp counts; of equal stamps, the last one given.
   /// @throws ConfigError on a signal that is unknown, written by a part, or of another type; a
   ///   stamp before now(); a value that holds NaN; actuators that the vehicle does not have; when
   ///   over
@@ -182,12 +184,12 @@ class Session {
 
   /// In the scenario's order.
   std::vector<std::string> vehicles() const;
-  /// [vehicle][metric], and of a mission's jobs [phase][number], as they stand now.
+  /// Present values: [vehicle][metric], and for a mission's jobs [phase][number].
   std::map<std::string, std::map<std::string, double>> metrics() const;
   std::vector<SessionCrash> crashes() const;
   /// Of a mission, in the scenario's order; empty without one.
   std::vector<SessionPhase> phases() const;
-  /// Events since the last call, or since the begin.
+  /// Events since the last call, or since time 0.
   std::vector<SessionEvent> take_events();
   /// Over every signal written so far (docs/architecture.md).
   std::string digest() const;

@@ -4,7 +4,6 @@
 
 #include <bit>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -69,13 +68,12 @@ void write_obj(std::span<const NamedMesh> meshes, const std::filesystem::path& f
   std::string text = "# Vinerow: metres, z up\n";
   std::size_t first = 1;
   for (const NamedMesh& named : checked(meshes, file)) {
-    fmt::format_to(std::back_inserter(text), "o {}\n", named.name);
+    text += fmt::format("o {}\n", named.name);
     for (const Eigen::Vector3f& v : named.mesh->vertices) {
-      fmt::format_to(std::back_inserter(text), "v {:.4f} {:.4f} {:.4f}\n", v.x(), v.y(), v.z());
+      text += fmt::format("v {:.4f} {:.4f} {:.4f}\n", v.x(), v.y(), v.z());
     }
     for (const auto& t : named.mesh->triangles) {
-      fmt::format_to(std::back_inserter(text), "f {} {} {}\n", first + t[0], first + t[1],
-                     first + t[2]);
+      text += fmt::format("f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
     }
     first += named.mesh->vertices.size();
   }

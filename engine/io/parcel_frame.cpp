@@ -7,6 +7,15 @@
 #include "engine/core/error.h"
 
 namespace vinerow::io {
+namespace {
+
+/// Coefficients, a column for each column of `values`, of the functions whose values are the
+/// columns of `terms`. One type for both fits: a decomposition is expensive to compile.
+Eigen::MatrixXd fit_terms(const Eigen::MatrixXd& terms, const Eigen::MatrixXd& values) {
+  return terms.householderQr().solve(values);
+}
+
+}  // namespace
 
 ParcelFrame::ParcelFrame(const CloudFrame& exact, const Eigen::AlignedBox3d& box)
     : exact_(&exact), middle_(box.center()), half_(0.5 * box.sizes()) {
@@ -51,9 +60,8 @@ void ParcelFrame::fit() {
       slopes.row(row) = (high - low).transpose() / (2.0 * half_.z());
     }
   }
-  place_.topRows<3>() = terms.householderQr().solve(places).transpose();
-  const Eigen::Matrix<double, kNodes * kNodes, kSlopeTerms> few = terms.leftCols<kSlopeTerms>();
-  slope_.topRows<3>() = few.householderQr().solve(slopes).transpose();
+  place_.topRows<3>() = fit_terms(terms, places).transpose();
+  slope_.topRows<3>() = fit_terms(terms.leftCols<kSlopeTerms>(), slopes).transpose();
 }
 
 double ParcelFrame::measured_error_m() const {

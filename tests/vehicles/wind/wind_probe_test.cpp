@@ -182,6 +182,22 @@ TEST(Gusts, PulseIsOneMinusCosine) {
   }
 }
 
+TEST(Gusts, WithoutADirectionBlowsAsTheMeanWind) {
+  Wind wind;
+  wind.from_azimuth_rad = rad_from_deg(90.0);  // from the east: to -x
+  wind.gusts.push_back({.start_s = 0.0, .duration_s = 2.0, .amplitude_mps = 3.0});
+  wind.gusts.push_back({.start_s = 0.0,
+                        .duration_s = 2.0,
+                        .amplitude_mps = 1.0,
+                        .from_azimuth_rad = 0.0});  // from the north, whatever the wind does
+  EXPECT_LT((calc_gust_W(wind, wind.gusts[0], 1.0, {0, 0}) - Vector3d(-3, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((calc_gust_W(wind, wind.gusts[1], 1.0, {0, 0}) - Vector3d(0, -1, 0)).norm(), 1e-12);
+  // Its front comes from the east as well: 10 m to the west a second late, in its middle at 2 s.
+  wind.gusts[0].front_speed_mps = 10.0;
+  EXPECT_NEAR(gust_pulse(wind, wind.gusts[0], 2.0, {-10, 5}), 1.0, 1e-12);
+  EXPECT_EQ(gust_pulse(wind, wind.gusts[0], 2.0, {10, 5}), 0.0);
+}
+
 TEST(Gusts, AFrontArrivesLaterDownwind) {
   WindGust gust{.start_s = 10.0,
                 .duration_s = 2.0,

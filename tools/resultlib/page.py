@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from .expressions import NotRun, TableError, calls_of, evaluate
-from .table import NUMBER, ROOT, Entry, Run, Table
+from .table import NUMBER, ROOT, VERDICTS, Entry, Run, Table
 
 ASSET_NUMBER = r"^\s*{key}:\s*(?:\{{value:\s*)?(\[[^\]]*\]|[-+.\de]+)"
 NUMBER_TEXT = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?")
@@ -162,8 +162,15 @@ def write_page(page: Page, runs: int, cpu_s: float) -> None:
              "The figures themselves were not available to this work, only the texts: a plot is compared with the sentences "
              "about it. "
              "Where a paper misprints an equation,\nthe corrected one is used; the pages linked below list them. "
-             "*Reproduced* is what comes out as printed or, where no number is printed, as the text says.\n\n"
-             "| paper | |\n|---|---|\n")
+             "*Reproduced* is what could have failed and comes out as printed or, where no number is printed, "
+             "as the text says. *Taken over* is\nwhat is an input here, or was set so that it comes out. *In part* is what agrees in "
+             "some of its numbers or sentences only.\n\n")
+    verdicts = [verdict for verdict in VERDICTS if any(e.verdict == verdict for e in table.entries)]
+    page.add("| entries | " + " | ".join(verdicts) + " |\n" + "|---" * (len(verdicts) + 1) + "|\n")
+    for letter in table.papers:
+        counts = [sum(e.paper == letter and e.verdict == verdict for e in table.entries) for verdict in verdicts]
+        page.add(f"| paper {letter} | " + " | ".join(map(str, counts)) + " |\n")
+    page.add("\n| paper | |\n|---|---|\n")
     for letter, name in table.papers.items():
         page.add(f"| {letter} | {name} |\n")
     page.add("\n")

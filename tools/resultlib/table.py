@@ -10,7 +10,7 @@ from .expressions import TableError, calls_of
 
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "tools" / "results.toml"
-VERDICTS = ("reproduced", "in part", "not reproduced", "no figure to compare", "drawing")
+VERDICTS = ("reproduced", "in part", "not reproduced", "taken over", "no figure to compare", "drawing")
 # {expression|format} in any text of an entry.
 NUMBER = re.compile(r"\{([^{}|]+)\|([^{}|]+)\}")
 

@@ -20,6 +20,9 @@ namespace vinerow::worlds {
 namespace {
 
 constexpr double kSweepReach_m[] = {0.03, 0.02, 0.015, 0.01, 0.01, 0.01};  // of the sweeps
+// While sections are removed, points this deep inside are watched: where the row swells between two
+// sections that stay, the straight side between them passes that far inside of what it was.
+constexpr double kRemovalReach_m = 0.15;
 constexpr double kStraight_m = 0.01;  // a row's line may leave the mesh's between two sections
 constexpr double kSparseShare = 0.2;  // of a side's point density below which it was not seen
 // Price of a point in units of area per point: with noise of 1.5 cm it leaves 2 % outside.
@@ -92,7 +95,7 @@ class RowWork {
         line_W_.emplace_back(p.x(), p.y(), ground_(p.x(), p.y()));
       }
       const auto fewest = static_cast<int>(0.3 * share * stretch.slices());
-      fits_[i]->collect(0.03);
+      fits_[i]->collect(kRemovalReach_m);
       removals_[i] = fits_[i]->find_removals(
           price_m3_, options_.tolerance_m, free_m3(), fewest,
           [&](double from_m, double to_m) { return is_straight(stretch, from_m, to_m); });

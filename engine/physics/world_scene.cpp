@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 constexpr SurfaceMask kRigidMask =
     kAllSurfaces & ~mask_of(SurfaceClass::kCanopy) & ~mask_of(SurfaceClass::kWire);
 
-/// Calls `use(x0, y0, x1, y1)` with the plan of every triangle of a rigid mesh.
+/// Calls `use(x0, y0, x1, y1)` with the plan of every triangle that may carry a wheel.
 template <class Use>
-void for_each_rigid_triangle(const WorldModel& world, Use&& use) {
+void for_each_carrying_triangle(const WorldModel& world, Use&& use) {
   for (const MeshInstance& instance : world.meshes) {
-    if (!is_rigid(instance)) continue;
+    if (!carries_wheels(instance)) continue;
     const Eigen::Matrix3d R_WM = instance.X_WM.q.toRotationMatrix();
     for (const auto& triangle : instance.mesh->triangles) {
       Eigen::AlignedBox2d plan;
@@ -36,7 +36,7 @@ void for_each_rigid_triangle(const WorldModel& world, Use&& use) {
 
 RigidMap::RigidMap(const WorldModel& world) {
   Eigen::AlignedBox2d all;
-  for_each_rigid_triangle(world, [&](const Eigen::AlignedBox2d& plan) { all.extend(plan); });
+  for_each_carrying_triangle(world, [&](const Eigen::AlignedBox2d& plan) { all.extend(plan); });
   if (all.isEmpty()) return;
   constexpr double kMostCells = 2048.0;  // along an axis: 0.5 MB of bits
   corner_W_ = all.min();
@@ -44,7 +44,7 @@ RigidMap::RigidMap(const WorldModel& world) {
   columns_ = static_cast<int>(all.sizes().x() / cell_m_) + 1;
   rows_ = static_cast<int>(all.sizes().y() / cell_m_) + 1;
   marked_.assign(static_cast<std::size_t>(columns_) * rows_, false);
-  for_each_rigid_triangle(world, [&](const Eigen::AlignedBox2d& plan) {
+  for_each_carrying_triangle(world, [&](const Eigen::AlignedBox2d& plan) {
     // Single precision of the ray caster moves triangles by less than this.
     constexpr double kMargin_m = 1e-3;
     mark(plan.min().x() - kMargin_m, plan.min().y() - kMargin_m, plan.max().x() + kMargin_m,

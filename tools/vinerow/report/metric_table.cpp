@@ -246,9 +246,8 @@ constexpr Entry kMetrics[] = {
     {"rows_true", "true rows", "Rows that stand in the vineyard", ""},
     {"rows_extra", "rows that are none", "Rows of the map where no true one stands", ""},
     {"containment_share", "canopy inside the meshes",
-     "Share of the canopy's points within 1 cm of the map's meshes, which are made so wide that it "
-     "is "
-     "0.985 or more: a setting that was kept, no finding",
+     "Share of the canopy's points within 1 cm of the map's meshes, whose sides are moved outward "
+     "until it is 0.985: says whether that setting was kept",
      "paper A, §3"},
     {"reduction_share", "data saved by the map",
      "Share of the cloud's bytes that the map does without", "paper A, §3"},

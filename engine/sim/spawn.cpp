@@ -144,8 +144,11 @@ void refuse_start_in_contact(const io::SpawnConfig& spawn, const StartBox& box,
         "{}: vehicles.{}.spawn: at x = {:.3f} m, y = {:.3f} m the vehicle would stand in {}{}",
         spawn.where.text(), box.vehicle, box.X_WC.p.x(), box.X_WC.p.y(), what, remedy));
   };
+  // Side by side they may touch.
+  constexpr double kTouch_m = 1e-3;
+  const Eigen::Vector3d inner_m = (box.half_m.array() - kTouch_m).max(0.0);
   for (const StartBox& other : others) {
-    if (physics::box_distance_m(box.X_WC, box.half_m, other.X_WC, other.half_m) > 0.0) continue;
+    if (physics::box_distance_m(box.X_WC, inner_m, other.X_WC, other.half_m) > 0.0) continue;
     refuse(fmt::format("vehicle '{}', which starts at x = {:.3f} m, y = {:.3f} m", other.vehicle,
                        other.X_WC.p.x(), other.X_WC.p.y()),
            "; give one of them another place");

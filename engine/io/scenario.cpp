@@ -217,6 +217,8 @@ class ScenarioReader {
 
   void read_record() {
     scenario_.record = record_table().read(read_group("record"), "");
+    // Without a log nothing is written at this rate.
+    if (!scenario_.record.enabled) return;
     check_rate(scenario_.record.truth_rate_Hz, scenario_.physics_step,
                mark_of("record", "truth_rate_Hz"), "record.truth_rate_Hz");
   }

@@ -86,6 +86,17 @@ bool RigidMap::any_near(double x0, double y0, double x1, double y1) const {
 WorldScene::WorldScene(const WorldModel& world)
     : mesh_rays_(world), mesh_distance_(world), rigid_map_(world) {
   if (world.terrain) terrain_.emplace(*world.terrain);
+  // The ray caster's single precision moves triangles by far less.
+  constexpr double kMargin_m = 1.0;
+  for (const MeshInstance& instance : world.meshes) {
+    if (!is_seen_by_rays(instance) || (mask_of(instance.surface) & kGroundMask) == 0) continue;
+    const Vector3d up_M = instance.X_WM.q.conjugate() * Vector3d::UnitZ();
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      const double height_m = up_M.dot(v.cast<double>()) + instance.X_WM.p.z();
+      meshes_top_m_ = std::max(meshes_top_m_, height_m + kMargin_m);
+      meshes_bottom_m_ = std::min(meshes_bottom_m_, height_m - kMargin_m);
+    }
+  }
 }
 
 std::optional<RayHit> WorldScene::cast_ray(const Vector3d& p_W, const Vector3d& dir_W,
@@ -108,11 +119,11 @@ std::optional<double> WorldScene::ground_height_m(double x, double y, double z_f
     const double height = terrain_->field().height_m(x, y);
     if (height <= z_from) highest = height;
   }
-  // Deep enough for any parcel where there is no terrain to stop at.
-  constexpr double kDeepest_m = 1e5;
-  const double reach_m = highest ? z_from - *highest : kDeepest_m;
-  if (const auto hit = mesh_rays_.cast({x, y, z_from}, -Vector3d::UnitZ(), reach_m, kGroundMask)) {
-    highest = z_from - hit->distance_m;
+  const double top_m = std::min(z_from, meshes_top_m_);
+  const double reach_m = top_m - (highest ? *highest : meshes_bottom_m_);
+  if (!(reach_m > 0.0)) return highest;
+  if (const auto hit = mesh_rays_.cast({x, y, top_m}, -Vector3d::UnitZ(), reach_m, kGroundMask)) {
+    highest = top_m - hit->distance_m;
   }
   return highest;
 }

@@ -359,9 +359,7 @@ void Mission::finish(std::size_t i, Time now) {
   std::vector<std::string> missed;
   for (const CriterionResult& criterion : report.criteria) {
     if (criterion.met) continue;
-    missed.push_back(fmt::format("{} = {:.6g} ({} {:g})", criterion.metric, criterion.value,
-                                 criterion.kind == "max" ? "at most" : "at least",
-                                 criterion.limit));
+    missed.push_back(sentence_of(criterion));
   }
   if (!missed.empty()) {
     fail(i, now, "missed " + join(missed, " and "));

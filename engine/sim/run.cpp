@@ -236,10 +236,11 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
     simulation.emit(Event::Level::kInfo, "run", fmt::format("started '{}'", scenario.name));
     step_to_end(session, options, start);
     simulation.emit(Event::Level::kInfo, "run",
-                    simulation.finished()           ? "mission finished"
-                    : !scenario.phases.empty()      ? "mission ended"
-                    : !simulation.crashes().empty() ? "ended after a crash"
-                                                    : "duration is over");
+                    simulation.finished()                ? "mission finished"
+                    : !scenario.phases.empty()           ? "mission ended"
+                    : simulation.crashes().empty()       ? "duration is over"
+                    : simulation.crashes().front().stuck ? "ended: a vehicle is stuck"
+                                                         : "ended after a crash");
     if (log) log->on_instant(simulation.now());
   } catch (const SimulationError& error) {
     result.status = RunStatus::kBrokenOff;

@@ -12,6 +12,7 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/sim/camera_check.h"
 #include "engine/sim/mission.h"
 #include "engine/sim/separation.h"
 #include "engine/sim/traffic_control.h"
@@ -42,6 +43,8 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
   settings.gravity_mps2 = scenario_.gravity_mps2;
   physics_ = std::make_unique<physics::PhysicsWorld>(settings, world_.scene, *world_.model);
 
+  refuse_hidden_cameras(scenario_.pictures, world(), physics_->scene());
+
   events_ = bus_.advertise<Event>("run/events", "run");
   if (!world().rows->occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
   const RunContext run{scenario_,
@@ -53,8 +56,9 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
                        setup.shelf,
                        [this](Event::Level level, const std::string& source,
                               const std::string& text) { emit(level, source, text); }};
+  std::vector<StartBox> starts;
   for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
-    vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run));
+    vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run, starts));
     // In a mission a vehicle begins with its phase.
     if (scenario_.phases.empty()) {
       vehicles_.back()->begin(now_, {});

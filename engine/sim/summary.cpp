@@ -67,6 +67,7 @@ ordered_json crashes_json(const RunResult& result) {
   ordered_json list = ordered_json::array();
   for (const Crash& crash : result.crashes) {
     list.push_back({{"vehicle", crash.vehicle}, {"time_s", crash.time.s()}, {"text", crash.text}});
+    if (crash.stuck) list.back()["stuck"] = true;
   }
   return list;
 }
@@ -92,7 +93,8 @@ const char* status_name(const RunResult& result) {
       for (const PhaseReport& phase : result.phases) {
         if (phase.state == PhaseState::kFailed) return "a phase failed";
       }
-      return result.crashes.empty() ? "a criterion failed" : "a vehicle crashed";
+      if (result.crashes.empty()) return "a criterion failed";
+      return result.crashes.front().stuck ? "a vehicle is stuck" : "a vehicle crashed";
     case RunStatus::kBadInput:
       return "bad input";
     case RunStatus::kBrokenOff:
@@ -140,10 +142,9 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;
   summary["notes"] = simulation.world().notes;
   summary["cost"] = cost_json(simulation);
-  summary["versions"] = {
-      {"vinerow", program_version()},
-      {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
-      {"compiler", __VERSION__}};
+  summary["versions"] = {{"vinerow", program_version()},
+                         {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
+                         {"compiler", __VERSION__}};
   return summary.dump(2) + "\n";
 }
 

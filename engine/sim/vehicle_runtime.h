@@ -18,7 +18,9 @@
 #include "engine/physics/physics_world.h"
 #include "engine/sim/crash.h"
 #include "engine/sim/map_ground.h"
+#include "engine/sim/progress_watch.h"
 #include "engine/sim/scheduler.h"
+#include "engine/sim/spawn.h"
 
 namespace vinerow {
 
@@ -42,9 +44,11 @@ struct PhaseHandover {
 
 class VehicleRuntime {
  public:
-  /// Builds the vehicle and stands it in the physics world; nothing else runs yet. @throws
-  /// ConfigError
-  VehicleRuntime(const io::VehicleConfig& config, const RunContext& run);
+  /// Builds the vehicle and stands it in the physics world; nothing else runs yet.
+  /// @param others  vehicles that stand there already; it is added to them
+  /// @throws ConfigError
+  VehicleRuntime(const io::VehicleConfig& config, const RunContext& run,
+                 std::vector<StartBox>& others);
 
   /// Builds and connects its parts without letting them run, so that faults are found before the
   /// run. @throws ConfigError
@@ -140,7 +144,11 @@ class VehicleRuntime {
   void try_to_plan(Time now);
   void actuate(Time now);
   void watch_contacts(Time now);
+  /// Outside the ground a vehicle falls for ever. @throws SimulationError
+  void demand_ground(Time now, const Pose& X_WB) const;
   void watch_crash(Time now);
+  /// Of a vehicle that a controller drives.
+  void watch_progress(Time now);
   double control_rate_Hz() const;
   /// Runs a part's tick; turns what it throws and the NaN it writes into a SimulationError with a
   /// name.
@@ -194,12 +202,9 @@ class VehicleRuntime {
   std::string plan_failure_;
   bool said_finished_ = false;
   std::optional<Crash> crash_;
+  std::optional<ProgressWatch> progress_;
+  Time progress_seen_;
   std::vector<std::string> diagnostic_signals_;
 };
-
-/// Pose of a vehicle at the start, standing on the ground.
-/// @throws ConfigError naming what the world has, if the alley or spawn point is unknown
-Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, const SceneQuery& scene,
-                     const std::string& vehicle, double height_above_ground_m);
 
 }  // namespace vinerow

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "engine/core/error.h"
+#include "engine/sim/judge.h"
 #include "engine/sim/run.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/map_picture_files.h"
@@ -78,8 +79,7 @@ void print_phase(const PhaseReport& phase) {
 void print_result(const RunResult& result, const std::filesystem::path& out, bool with_log) {
   for (const PhaseReport& phase : result.phases) print_phase(phase);
   for (const CriterionResult& c : result.criteria) {
-    fmt::print("{}  {} = {:.6g} ({} {:g})\n", c.met ? "met   " : "FAILED", c.metric, c.value,
-               c.kind == "max" ? "at most" : "at least", c.limit);
+    fmt::print("{}  {}\n", c.met ? "met   " : "FAILED", sentence_of(c));
   }
   fmt::print("simulated {:.3f} s in {:.2f} s ({:.0f} x real time), mission {}\n",
              result.simulated_s, result.wall_s, result.real_time_factor(),

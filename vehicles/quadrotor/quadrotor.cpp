@@ -8,6 +8,7 @@
 #include "engine/api/height_field.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
+#include "vehicles/parts/step_validity.h"
 #include "vehicles/quadrotor/crash_watch.h"
 #include "vehicles/quadrotor/quadrotor_shapes.h"
 
@@ -60,6 +61,7 @@ Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& contex
 }
 
 void Quadrotor::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
+  demand_step(world.settings().step, kMostFlightStep, params_.name, "its rotors");
   world_ = &world;
   physics::BodySpec spec;
   spec.name = params_.name;

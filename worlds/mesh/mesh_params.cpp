@@ -33,14 +33,15 @@ const ParameterTable<MeshItem>& mesh_item_table() {
                   "axis of the file that points up; auto: what the file says, else z")
           .number("unit_m", "m", &P::unit_m, kPositive,
                   "metres per unit of the file; default: what the file says, else 1")
-          .choice("surface", &P::surface,
-                  {{"terrain", SurfaceClass::kTerrain},
-                   {"canopy", SurfaceClass::kCanopy},
-                   {"post", SurfaceClass::kPost},
-                   {"trunk", SurfaceClass::kTrunk},
-                   {"wire", SurfaceClass::kWire},
-                   {"obstacle", SurfaceClass::kObstacle}},
-                  "what the object is")
+          .choice(
+              "surface", &P::surface,
+              {{"terrain", SurfaceClass::kTerrain},
+               {"canopy", SurfaceClass::kCanopy},
+               {"post", SurfaceClass::kPost},
+               {"trunk", SurfaceClass::kTrunk},
+               {"wire", SurfaceClass::kWire},
+               {"obstacle", SurfaceClass::kObstacle}},
+              "what the object is; absent: terrain if it lies under the whole world, else obstacle")
           .boolean("collides", &P::collides, "whether vehicles and rays meet it")
           .boolean("visible", &P::visible, "whether pictures show it");
   return table;
@@ -64,7 +65,7 @@ const ParameterTable<MeshWorldParams>& mesh_world_table() {
                   {{"auto", MeshGround::kAuto},
                    {"none", MeshGround::kNone},
                    {"flat", MeshGround::kFlat}},
-                  "flat height field under everything; auto: if no item is terrain")
+                  "flat height field under everything; auto: if no mesh is terrain")
           .number("ground_margin_m", "m", &P::ground_margin_m, between(0.0, 500.0),
                   "of the flat ground beyond the objects")
           .number("vine_spacing_m", "m", &P::vine_spacing_m, kPositive,
@@ -72,6 +73,9 @@ const ParameterTable<MeshWorldParams>& mesh_world_table() {
           .include(&P::terrain, terrain_table())
           .include(&P::planting, planting_table())
           .include(&P::origin, origin_table())
+          .reword("origin_latitude_deg",
+                  "WGS84 latitude of the world's origin; latitude and longitude 0: what sdf_file "
+                  "says in <spherical_coordinates>")
           .include(&P::surroundings, surroundings_table())
           .include(&P::map, map_table());
   return table;

@@ -110,7 +110,8 @@ Verdict make_verdict(const RunFolder& run) {
   const std::vector<Judged> criteria = all_criteria(run);
   std::vector<std::string> faults;
   for (const Json& crash : list_in(run.summary, "crashes")) {
-    faults.push_back(fmt::format("{} crashed after {}: {}", crash.value("vehicle", ""),
+    faults.push_back(fmt::format("{} {} after {}: {}", crash.value("vehicle", ""),
+                                 crash.value("stuck", false) ? "got stuck" : "crashed",
                                  duration_text(number_of(crash.value("time_s", Json()))),
                                  crash.value("text", "")));
   }

@@ -18,6 +18,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kM2PerHa = 1e4;
+constexpr double kRotorAcceleration_mps2 = 2.0;  // at corners
 
 class SurveyPlanner {
  public:
@@ -25,6 +26,7 @@ class SurveyPlanner {
       : request_(request), start_W_(start_W), ground_(ground) {}
 
   Result<SurveyPlan> plan() {
+    plan_.rotorcraft = request_.rotorcraft;
     const bool is_sound = !find_polygon_fault(request_.polygon_W);
     if (request_.lane_yaw_rad) {
       plan_.frame.yaw_rad = *request_.lane_yaw_rad;
@@ -109,8 +111,12 @@ class SurveyPlanner {
     // Rolling in and out takes about three quarters of a second (paper A's reference, section 2:
     // phi / 2 phi' + tau), settling on the line about one.
     constexpr double kSettle_s = 2.0;
-    task_.run_out_m = request_.run_out_m.value_or(
-        task_.turn_radius_m + kSettle_s * (request_.speed_mps + request_.wind_W.norm()));
+    // A multirotor stops at corners: v^2 / 2a until it is as fast as on the lane.
+    const double usual_m =
+        request_.rotorcraft
+            ? 0.5 * request_.speed_mps * request_.speed_mps / kRotorAcceleration_mps2
+            : task_.turn_radius_m + kSettle_s * (request_.speed_mps + request_.wind_W.norm());
+    task_.run_out_m = request_.run_out_m.value_or(usual_m);
     OrderTask order_task;
     for (const SurveyLane& lane : plan_.lanes) {
       order_task.lanes.push_back(
@@ -183,6 +189,11 @@ class SurveyPlanner {
           calc_ground_speed_mps(request_.speed_mps, request_.wind_W, way.normalized());
       time_s += length_m / speed_mps.value_or(request_.speed_mps);
       if (samples[at].distance_m >= climb_m_) slope = std::max(slope, std::abs(rise_m / length_m));
+    }
+    // Slowing down to a stop and speeding up again takes v / a longer than passing.
+    if (request_.rotorcraft) {
+      time_s +=
+          static_cast<double>(route_.points.size()) * request_.speed_mps / kRotorAcceleration_mps2;
     }
     set("waypoints", static_cast<double>(split.size()));
     set("ramp_points", static_cast<double>(split.size() - route_.points.size()));

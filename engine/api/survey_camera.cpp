@@ -90,6 +90,10 @@ SurveyCamera SurveyCameraParams::resolve() const {
   made.columns = columns.value_or(made.columns);
   made.rows = rows.value_or(made.rows);
   made.max_rate_Hz = max_rate_Hz.value_or(made.max_rate_Hz);
+  // With other optics it is no longer the camera of that name.
+  if (focal_length_mm || sensor_width_mm || sensor_height_mm || columns || rows) {
+    made.name = "own";
+  }
   return made;
 }
 

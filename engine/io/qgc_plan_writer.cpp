@@ -63,7 +63,7 @@ json format_fences(const MissionFile& mission) {
 }  // namespace
 
 std::string format_qgc_plan(const MissionFile& mission) {
-  constexpr int kGenericAutopilot = 0, kFixedWing = 1,
+  constexpr int kGenericAutopilot = 0, kFixedWing = 1, kQuadrotor = 2,
                 kDefaultHover_mps = 5;  // MAV_AUTOPILOT, MAV_TYPE
   json items = json::array();
   for (const MissionItem& item : mission.items) {
@@ -86,7 +86,7 @@ std::string format_qgc_plan(const MissionFile& mission) {
                        {"hoverSpeed", mission.hover_speed_mps.value_or(kDefaultHover_mps)},
                        {"items", items},
                        {"plannedHomePosition", home},
-                       {"vehicleType", kFixedWing},
+                       {"vehicleType", mission.rotorcraft ? kQuadrotor : kFixedWing},
                        {"version", 2}}},
                      {"rallyPoints", {{"points", rally}, {"version", 2}}},
                      {"version", 1}};

@@ -24,6 +24,7 @@
 #include "tools/vinerow/report/map_captions.h"
 #include "tools/vinerow/table_flags.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_gis.h"
 #include "worlds/mapping/cloud/make_cloud_map.h"
 #include "worlds/mapping/cloud/reading/cloud_source.h"
 #include "worlds/mapping/jobs/cloud_map_job_params.h"
@@ -207,6 +208,7 @@ void make_map(const MapArguments& arguments) {
       cloud, options, [&](const std::string& phase) { watch.end_phase(phase); });
   worlds::add_source(read, map);
   worlds::save_map(map, arguments.out);
+  worlds::save_gis(map, cloud, arguments.out);
   export_meshes(map.map.meshes, arguments.exports, arguments.out);
   watch.end_phase("files");
 

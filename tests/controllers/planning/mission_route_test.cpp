@@ -236,5 +236,42 @@ TEST(MissionRoute, SurveysComeBackFromBothFormats) {
   }
 }
 
+/// What QGroundControl must be told so that it takes a plan for a multirotor.
+TEST(MissionRoute, RotorcraftPlansAreOfAMultirotor) {
+  SurveyRequest request;
+  request.polygon_W = {{0, 0}, {60, 0}, {60, 40}, {0, 40}};
+  request.height_m = 40.0;
+  request.speed_mps = 4.0;
+  request.rotorcraft = true;
+  const GroundHeight ground = [](const Vector2d&) { return std::optional<double>(0.0); };
+  const Pose start{Eigen::Quaterniond::Identity(), {-10, -5, 0}};
+  const MissionFlight setup;
+  const auto survey = plan_survey(request, start, ground);
+  ASSERT_TRUE(survey.ok()) << survey.reason();
+  const io::MissionFile mission = make_survey_mission(*survey, setup.origin, 0.0, true);
+  const std::string text = io::format_qgc_plan(mission);
+  EXPECT_NE(text.find("\"vehicleType\": 2"), std::string::npos);
+  EXPECT_NE(text.find("\"hoverSpeed\": 4.0"), std::string::npos);
+  ASSERT_GT(mission.items.size(), 6u);
+  // Off the ground straight up: to 40 m above the start itself.
+  const io::MissionItem& off = mission.items[0];
+  EXPECT_EQ(off.command, 22);
+  EXPECT_EQ(off.params[0], 0.0);
+  // W's up leans by 40 m x 11 m / R = 0.07 mm against the vertical there: 1e-9 deg.
+  EXPECT_NEAR(off.params[4], deg_from_rad(mission.planned_home->latitude_rad), 2e-9);
+  EXPECT_NEAR(off.params[5], deg_from_rad(mission.planned_home->longitude_rad), 2e-9);
+  EXPECT_NEAR(off.params[6], 40.0, 1e-9);
+  EXPECT_EQ(mission.items[1].command, 178);
+  EXPECT_EQ(mission.items[1].params[0], 1.0) << "speed over ground";
+  EXPECT_EQ(mission.items[1].params[1], 4.0);
+  const auto count = [&](int command) {
+    return std::count_if(mission.items.begin(), mission.items.end(),
+                         [&](const io::MissionItem& item) { return item.command == command; });
+  };
+  EXPECT_EQ(count(206), 2 * static_cast<long>(survey->lanes.size()));
+  EXPECT_EQ(count(16), static_cast<long>(survey->path.points.size()) - 2);
+  EXPECT_EQ(mission.items.back().command, 20);
+}
+
 }  // namespace
 }  // namespace vinerow::test::mission_route_test

@@ -32,10 +32,23 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(VINEROW_PCH_OPTIONS -fpch-preprocess)
 endif()
 
+# The elementary functions are ours (engine/elementary). A compiler that knows them by name computes those of constants
+# itself, by its own library, and joins or replaces calls: it must call them.
+set(VINEROW_OWN_FUNCTIONS)
+foreach(function sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10 log1p
+        pow cbrt hypot erf erfc tgamma sincos)
+  list(APPEND VINEROW_OWN_FUNCTIONS -fno-builtin-${function})
+endforeach()
+add_compile_options(${VINEROW_OWN_FUNCTIONS})
+# Eigen splits products of more than some 500 terms by the size of the processor's caches, unless it may not ask for it.
+add_compile_definitions(EIGEN_NO_CPUID)
+
 # -ffp-contract=off: the same expression gives the same bits wherever the compiler places it.
 # -fno-semantic-interposition: calls inside the shared library stay direct.
+# -fmacro-prefix-map: messages name files from the tree's root; and one clone's objects serve another one (ccache).
 add_compile_options(-Wall -Wextra -Werror -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
-                    -ffp-contract=off -fno-semantic-interposition)
+                    -ffp-contract=off -fno-semantic-interposition
+                    -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 
 if(VINEROW_SANITIZE)
   add_compile_options(-fsanitize=${VINEROW_SANITIZE} -fno-omit-frame-pointer)

@@ -2,10 +2,11 @@
 
 #include <embree3/rtcore.h>
 
-#include <cmath>
-#include <cstring>
-#include <limits>
+#include <algorithm>
+#include <array>
+#include <deque>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "engine/api/mesh.h"
@@ -13,38 +14,123 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/physics/check_world.h"
+#include "engine/physics/triangle_ray.h"
 
 namespace vinerow::physics {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Distance along the ray to the triangle's plane, and the plane's normal (not unit).
-double calc_plane_distance(const TriangleMesh& mesh, std::uint32_t triangle, const Vector3d& p_M,
-                           const Vector3d& dir_M, Vector3d& normal_M) {
+std::array<Vector3d, 3> corners(const TriangleMesh& mesh, std::uint32_t triangle) {
   const auto& [i, j, k] = mesh.triangles[triangle];
-  const Vector3d a = mesh.vertices[i].cast<double>();
-  const Vector3d b = mesh.vertices[j].cast<double>();
-  const Vector3d c = mesh.vertices[k].cast<double>();
-  normal_M = (b - a).cross(c - a);
-  return (a - p_M).dot(normal_M) / dir_M.dot(normal_M);
+  return {mesh.vertices[i].cast<double>(), mesh.vertices[j].cast<double>(),
+          mesh.vertices[k].cast<double>()};
+}
+
+/// By how much a ray in single precision may miss the place that it has in double, if no
+/// coordinate exceeds reach_m: the roundings of its start, its direction and the change into the
+/// frame of an instance are some 10 units in the last place (6e-8), here taken three times.
+double calc_margin_m(double reach_m) {
+  return 2e-6 * (reach_m + 1.0);
+}
+
+/// Where the ray enters the box, at 0 inside; nothing where it passes it or ends before.
+std::optional<double> enter_m(const Eigen::AlignedBox3d& box, const Vector3d& p,
+                              const Vector3d& dir, double max_distance_m) {
+  double first_m = 0.0, last_m = max_distance_m;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (dir[axis] == 0.0) {
+      if (p[axis] < box.min()[axis] || p[axis] > box.max()[axis]) return std::nullopt;
+      continue;
+    }
+    const double low_m = (box.min()[axis] - p[axis]) / dir[axis];
+    const double high_m = (box.max()[axis] - p[axis]) / dir[axis];
+    first_m = std::max(first_m, std::min(low_m, high_m));
+    last_m = std::min(last_m, std::max(low_m, high_m));
+  }
+  if (!(first_m <= last_m)) return std::nullopt;
+  return first_m;
 }
 
 }  // namespace
 
 struct MeshRays::Impl {
-  /// One mesh instance, in the order of Embree's geometry ids.
-  struct Entry {
+  /// One mesh where it stands, in the order of Embree's geometry ids.
+  struct Placed {
     const MeshInstance* instance;
     int mesh_index;
     Eigen::Matrix3d R_MW;
     Vector3d p_MW;
   };
 
+  /// What the callback of a geometry needs: its mesh, and how wide its boxes are.
+  struct Boxes {
+    const TriangleMesh* mesh;
+    Pose X;           ///< the boxes' frame holds X * (vertex)
+    double margin_m;  ///< by which a ray in single precision may pass beside its place
+  };
+
+  /// A ray on its way through Embree's tree, which hands it to the callback.
+  struct Cast : RTCIntersectContext {
+    const std::vector<Placed>* placed;
+    Vector3d p_W, dir_W;
+    double tree_start_m;  ///< where on the ray Embree's one begins
+    double margin_m;
+    // The ray in the frame of the mesh that was looked at last.
+    unsigned entry = RTC_INVALID_GEOMETRY_ID;
+    TriangleRay ray_M{Vector3d::Zero(), Vector3d::UnitZ()};
+    // The nearest hit so far; of two at the same distance the one whose mesh and triangle come
+    // first, so that it does not depend on the order in which the tree is walked.
+    double best_m;
+    unsigned best_entry = RTC_INVALID_GEOMETRY_ID;
+    unsigned best_triangle = 0;
+  };
+
+  static void find_box(const RTCBoundsFunctionArguments* asked) {
+    const auto& boxes = *static_cast<const Boxes*>(asked->geometryUserPtr);
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& corner : corners(*boxes.mesh, asked->primID)) box.extend(boxes.X * corner);
+    const auto low = [&](int axis) { return static_cast<float>(box.min()[axis] - boxes.margin_m); };
+    const auto high = [&](int axis) {
+      return static_cast<float>(box.max()[axis] + boxes.margin_m);
+    };
+    *asked->bounds_o = {low(0), low(1), low(2), 0.0f, high(0), high(1), high(2), 0.0f};
+  }
+
+  /// A ray has met the box of a triangle.
+  static void look_at_triangle(const RTCIntersectFunctionNArguments* asked) {
+    if (asked->N != 1 || asked->valid[0] == 0) return;
+    auto& cast = *static_cast<Cast*>(asked->context);
+    const unsigned instance = asked->context->instID[0];
+    const unsigned entry = instance != RTC_INVALID_GEOMETRY_ID ? instance : asked->geomID;
+    const Placed& placed = (*cast.placed)[entry];
+    if (entry != cast.entry) {
+      cast.ray_M = TriangleRay(placed.R_MW * cast.p_W + placed.p_MW, placed.R_MW * cast.dir_W);
+      cast.entry = entry;
+    }
+    const auto [a, b, c] = corners(*placed.instance->mesh, asked->primID);
+    const std::optional<double> found_m = cast.ray_M.distance_m(a, b, c);
+    if (!found_m || *found_m > cast.best_m) return;
+    if (*found_m == cast.best_m && cast.best_entry != RTC_INVALID_GEOMETRY_ID &&
+        std::pair(cast.best_entry, cast.best_triangle) < std::pair(entry, asked->primID)) {
+      return;
+    }
+    cast.best_m = *found_m;
+    cast.best_entry = entry;
+    cast.best_triangle = asked->primID;
+    // Boxes that begin farther away need no look; those at the same distance do.
+    auto& ray = *reinterpret_cast<RTCRayHit*>(asked->rayhit);
+    ray.ray.tfar = static_cast<float>(cast.best_m - cast.tree_start_m + cast.margin_m);
+    ray.hit.geomID = asked->geomID;
+  }
+
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::map<const TriangleMesh*, RTCScene> shared;
-  std::vector<Entry> entries;
+  std::vector<Placed> placed;
+  std::deque<Boxes> boxes;  // geometries hold their address
+  Eigen::AlignedBox3d bounds_W;
+  double margin_m = 0.0;
 
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
@@ -54,28 +140,20 @@ struct MeshRays::Impl {
 
   RTCScene new_scene() {
     RTCScene result = rtcNewScene(device);
-    // No ray may slip through between two neighbouring triangles.
+    // No ray may slip through between two neighbouring boxes.
     rtcSetSceneFlags(result, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(result, RTC_BUILD_QUALITY_MEDIUM);
     return result;
   }
 
-  /// Triangles with vertices at X * (where the mesh has them).
+  /// The mesh's triangles at X, as boxes and a callback.
   RTCGeometry new_triangles(const TriangleMesh& mesh, const Pose& X, SurfaceMask mask) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Copies: a shared buffer would have to be readable 4 bytes past its end.
-    auto* vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), mesh.vertices.size()));
-    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                              3 * sizeof(std::uint32_t), mesh.triangles.size());
-    const Eigen::Matrix3d R = X.q.toRotationMatrix();
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const Vector3d p = R * mesh.vertices[v].cast<double>() + X.p;
-      for (int axis = 0; axis < 3; ++axis) vertices[3 * v + axis] = static_cast<float>(p[axis]);
-    }
-    std::memcpy(triangles, mesh.triangles.data(),
-                mesh.triangles.size() * sizeof(mesh.triangles[0]));
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    boxes.push_back({&mesh, X, margin_m});
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(mesh.triangles.size()));
+    rtcSetGeometryUserData(geometry, &boxes.back());
+    rtcSetGeometryBoundsFunction(geometry, find_box, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, look_at_triangle);
     rtcSetGeometryMask(geometry, mask);
     rtcCommitGeometry(geometry);
     return geometry;
@@ -117,19 +195,30 @@ struct MeshRays::Impl {
                     : new_instance(instance);
     const unsigned id = rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
-    VINEROW_DEMAND(id == entries.size());
+    VINEROW_DEMAND(id == placed.size());
     const Eigen::Matrix3d R_MW = instance.X_WM.q.toRotationMatrix().transpose();
-    entries.push_back({&instance, mesh_index, R_MW, -(R_MW * instance.X_WM.p)});
+    placed.push_back({&instance, mesh_index, R_MW, -(R_MW * instance.X_WM.p)});
   }
 };
 
 MeshRays::MeshRays(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
   std::map<const TriangleMesh*, int> uses;
+  double reach_m = 0.0;  // largest coordinate of a vertex, in the world's frame or its mesh's
   for (const MeshInstance& instance : world.meshes) {
-    if (is_seen_by_rays(instance)) ++uses[instance.mesh.get()];
+    if (!is_seen_by_rays(instance)) continue;
+    ++uses[instance.mesh.get()];
+    for (const Eigen::Vector3f& vertex : instance.mesh->vertices) {
+      const Vector3d p_M = vertex.cast<double>();
+      const Vector3d p_W = instance.X_WM * p_M;
+      impl_->bounds_W.extend(p_W);
+      reach_m = std::max({reach_m, p_M.cwiseAbs().maxCoeff(), p_W.cwiseAbs().maxCoeff()});
+    }
   }
   if (uses.empty()) return;
-  // One thread: the tree, and with it which of two equal hits is taken, is the same every time.
+  impl_->margin_m = calc_margin_m(reach_m);
+  // What lies in the box's side is entered too, whatever the rounding.
+  impl_->bounds_W.min().array() -= impl_->margin_m;
+  impl_->bounds_W.max().array() += impl_->margin_m;
   impl_->device = rtcNewDevice("threads=1,set_affinity=0");
   if (!impl_->device) throw ConfigError("Embree could not be started: no device for ray casts");
   if (rtcGetDeviceProperty(impl_->device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0) {
@@ -149,51 +238,51 @@ MeshRays::MeshRays(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
 MeshRays::~MeshRays() = default;
 
 bool MeshRays::empty() const {
-  return impl_->entries.empty();
+  return impl_->placed.empty();
 }
 
 std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
                                      double max_distance_m, SurfaceMask mask) const {
-  if (impl_->entries.empty()) return std::nullopt;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  if (impl_->placed.empty() || !p_W.allFinite() || !dir_W.allFinite()) return std::nullopt;
+  // Embree's ray begins where the meshes do: single precision loses no digits to a far start.
+  const std::optional<double> start_m = enter_m(impl_->bounds_W, p_W, dir_W, max_distance_m);
+  if (!start_m) return std::nullopt;
+  const Vector3d p_start_W = p_W + *start_m * dir_W;
+
+  Impl::Cast cast;
+  rtcInitIntersectContext(&cast);
+  cast.placed = &impl_->placed;
+  cast.p_W = p_W;
+  cast.dir_W = dir_W;
+  cast.tree_start_m = *start_m;
+  cast.margin_m = impl_->margin_m;
+  cast.best_m = max_distance_m;
   RTCRayHit ray;
-  ray.ray.org_x = static_cast<float>(p_W.x());
-  ray.ray.org_y = static_cast<float>(p_W.y());
-  ray.ray.org_z = static_cast<float>(p_W.z());
+  ray.ray.org_x = static_cast<float>(p_start_W.x());
+  ray.ray.org_y = static_cast<float>(p_start_W.y());
+  ray.ray.org_z = static_cast<float>(p_start_W.z());
   ray.ray.dir_x = static_cast<float>(dir_W.x());
   ray.ray.dir_y = static_cast<float>(dir_W.y());
   ray.ray.dir_z = static_cast<float>(dir_W.z());
   ray.ray.tnear = 0.0f;
-  // A little longer than asked for: the end is decided below, in double.
-  ray.ray.tfar = static_cast<float>(max_distance_m * (1.0 + 1e-5) + 1e-3);
+  ray.ray.tfar = static_cast<float>(max_distance_m - *start_m + impl_->margin_m);
   ray.ray.mask = mask;
   ray.ray.time = 0.0f;
   ray.ray.id = 0;
   ray.ray.flags = 0;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->scene, &context, &ray);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  rtcIntersect1(impl_->scene, &cast, &ray);
+  if (cast.best_entry == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
-  const bool in_instance = ray.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-  const Impl::Entry& entry = impl_->entries[in_instance ? ray.hit.instID[0] : ray.hit.geomID];
-  Vector3d normal_M;
-  const Vector3d dir_M = entry.R_MW * dir_W;
-  const double distance_m = calc_plane_distance(*entry.instance->mesh, ray.hit.primID,
-                                                entry.R_MW * p_W + entry.p_MW, dir_M, normal_M);
+  const Impl::Placed& placed = impl_->placed[cast.best_entry];
+  const auto [a, b, c] = corners(*placed.instance->mesh, cast.best_triangle);
+  const Vector3d normal_W = (placed.R_MW.transpose() * (b - a).cross(c - a)).normalized();
   RayHit hit;
-  // Along a ray that grazes the plane the two may part; then Embree's point, which is on the
-  // triangle, is the better one.
-  const double single_m = ray.ray.tfar;
-  hit.distance_m =
-      std::abs(distance_m - single_m) <= 1e-3 * (1.0 + single_m) ? distance_m : single_m;
-  if (hit.distance_m < 0.0) hit.distance_m = 0.0;
-  if (hit.distance_m > max_distance_m) return std::nullopt;
-  const Vector3d normal_W = (entry.R_MW.transpose() * normal_M).normalized();
+  hit.distance_m = cast.best_m;
   hit.normal_W = normal_W.dot(dir_W) > 0.0 ? Vector3d(-normal_W) : normal_W;
-  hit.surface = entry.instance->surface;
-  hit.mesh = entry.mesh_index;
+  hit.surface = placed.instance->surface;
+  hit.mesh = placed.mesh_index;
   return hit;
 }
 

@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+"""Every elementary function that the program or a library of its calls is ours, not the C library's.
+
+usage: bindings.py VINEROW
+
+The dynamic linker tells where it binds each symbol (LD_DEBUG=bindings). The C library chooses its functions by what the
+processor offers, so a single call that reaches it makes the digest of a run that of one kind of processor.
+"""
+
+import os
+import re
+import subprocess
+import sys
+
+FUNCTIONS = """sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10 log1p pow cbrt
+hypot erf erfc tgamma sincos""".split()
+NAMES = {name + ending for name in FUNCTIONS for ending in ("", "f")}
+BINDING = re.compile(r"binding file (\S+) \[\d+\] to (\S+) \[\d+\]: normal symbol `(\w+)'")
+# Libraries that state passes on its way: they do call elementary functions, so the test sees something.
+WITNESSES = ("libompl", "libGeographic", "libproj", "libassimp", "libgdal")
+
+
+def main():
+    environment = dict(os.environ, LD_DEBUG="bindings", LD_BIND_NOW="1")
+    done = subprocess.run([sys.argv[1], "--version"], env=environment, capture_output=True, text=True)
+    seen, wrong = {}, []
+    for source, target, symbol in BINDING.findall(done.stderr):
+        if symbol not in NAMES or "/libm.so" in source:
+            continue
+        seen.setdefault(os.path.basename(source), set()).add(symbol)
+        if "libvinerow" not in target and os.path.realpath(target) != os.path.realpath(sys.argv[1]):
+            wrong.append(f"{source} takes {symbol} from {target}")
+    for library in sorted(seen):
+        print(f"{library}: {' '.join(sorted(seen[library]))}")
+    for fault in wrong:
+        print(fault)
+    for witness in WITNESSES:
+        if not any(library.startswith(witness) for library in seen):
+            wrong.append(witness)
+            print(f"{witness} calls no elementary function: does the dynamic linker still tell its bindings?")
+    sys.exit(1 if wrong else 0)
+
+
+if __name__ == "__main__":
+    main()

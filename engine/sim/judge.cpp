@@ -27,6 +27,16 @@ double find_metric(const io::Criterion& criterion,
 
 }  // namespace
 
+std::string sentence_of(const CriterionResult& criterion) {
+  const std::string limit =
+      fmt::format("({} {:g})", criterion.kind == "max" ? "at most" : "at least", criterion.limit);
+  if (std::isnan(criterion.value)) {
+    return fmt::format("{} was not measured {}", criterion.metric, limit);
+  }
+  if (std::isinf(criterion.value)) return fmt::format("{} = infinite {}", criterion.metric, limit);
+  return fmt::format("{} = {:.6g} {}", criterion.metric, criterion.value, limit);
+}
+
 std::vector<CriterionResult> judge(
     const std::vector<io::Criterion>& criteria,
     const std::map<std::string, std::map<std::string, double>>& metrics) {

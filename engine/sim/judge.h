@@ -16,4 +16,7 @@ std::vector<CriterionResult> judge(
     const std::vector<io::Criterion>& criteria,
     const std::map<std::string, std::map<std::string, double>>& metrics);
 
+/// "rover.a_m = 0.5 (at most 0.4)", "rover.a_m was not measured (at most 0.4)".
+std::string sentence_of(const CriterionResult& criterion);
+
 }  // namespace vinerow

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <vinerow/version.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "engine/api/abi_version.h"
@@ -22,6 +23,10 @@ ordered_json criteria_json(const std::vector<CriterionResult>& criteria) {
                     {"value", c.value},
                     {"limit", c.limit},
                     {"met", c.met}});
+    // JSON has no word for either.
+    if (!std::isfinite(c.value)) {
+      list.back()["reason"] = std::isnan(c.value) ? "not measured" : "infinite";
+    }
   }
   return list;
 }
@@ -140,10 +145,9 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;
   summary["notes"] = simulation.world().notes;
   summary["cost"] = cost_json(simulation);
-  summary["versions"] = {
-      {"vinerow", program_version()},
-      {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
-      {"compiler", __VERSION__}};
+  summary["versions"] = {{"vinerow", program_version()},
+                         {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
+                         {"compiler", __VERSION__}};
   return summary.dump(2) + "\n";
 }
 

@@ -28,6 +28,8 @@ TEST(Judge, LimitsAreInclusiveAndWhatWasNotMeasuredFails) {
   EXPECT_FALSE(verdicts[1].met);
   EXPECT_EQ(verdicts[1].kind, "min");
   EXPECT_FALSE(verdicts[2].met);
+  EXPECT_EQ(sentence_of(verdicts[1]), "rover.a_m = 1 (at least 1.5)");
+  EXPECT_EQ(sentence_of(verdicts[2]), "rover.b was not measured (at most 1e+09)");
 }
 
 TEST(Judge, UnknownMetricsAreRefusedWithTheNearest) {

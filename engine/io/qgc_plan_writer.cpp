@@ -1,10 +1,8 @@
-#include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/mav_command.h"
 #include "engine/io/qgc_plan.h"
 #include "engine/math/angles.h"
@@ -94,10 +92,7 @@ std::string format_qgc_plan(const MissionFile& mission) {
 }
 
 void write_qgc_plan(const MissionFile& mission, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << format_qgc_plan(mission);
-  stream.flush();
-  if (!stream) throw ConfigError(fmt::format("mission file '{}' cannot be written", file.string()));
+  write_whole_file(file, format_qgc_plan(mission), "mission file");
 }
 
 }  // namespace vinerow::io

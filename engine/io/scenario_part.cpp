@@ -145,7 +145,58 @@ void check_observer_names(const VehicleConfig& vehicle, const std::string& path)
   }
 }
 
+/// A vehicle's other parts write signals as well, which their specs name: "wheels", "battery".
+void check_part_signals(const VehicleConfig& vehicle, const std::string& path,
+                        const Registry& registry) {
+  struct Writer {
+    std::string who;  ///< "the vehicle 'diff_drive_rover'"
+    std::vector<std::string> signals;
+  };
+  std::map<std::string, Writer> writers;
+  const auto add = [&](PartKind kind, const PartConfig& part) {
+    Writer writer{fmt::format("the {} '{}'", to_string(kind), part.type),
+                  fixed_signals(registry.spec(kind, part.type))};
+    for (const std::string& signal : writer.signals) writers.emplace(signal, writer);
+  };
+  add(PartKind::kVehicle, vehicle.vehicle);
+  if (vehicle.estimator) add(PartKind::kEstimator, *vehicle.estimator);
+  if (vehicle.planner) add(PartKind::kPlanner, *vehicle.planner);
+  if (vehicle.guidance) add(PartKind::kGuidance, *vehicle.guidance);
+  if (vehicle.controller) add(PartKind::kController, *vehicle.controller);
+  const auto check = [&](const std::string& signal, const NamedPart& part, const char* group,
+                         const char* what) {
+    const auto found = writers.find(signal);
+    if (found == writers.end()) return;
+    fail_at(
+        part.part.where,
+        fmt::format("{}.{}.{}: {} cannot have the name of a signal that {} writes ({}); give "
+                    "it another name",
+                    path, group, part.name, what, found->second.who, join(found->second.signals)));
+  };
+  for (const NamedPart& sensor : vehicle.sensors) {
+    check(sensor.name, sensor, "sensors", "a sensor");
+    check(sensor.name + "_truth", sensor, "sensors", "a sensor");
+  }
+  for (const NamedPart& payload : vehicle.payloads) {
+    check(payload.name, payload, "payloads", "a payload");
+  }
+  for (const NamedPart& observer : vehicle.observers) {
+    for (const auto& [local, signal] : observer_signals(observer.name)) {
+      check(signal, observer, "observers", "an observer");
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> fixed_signals(const PartSpec& spec) {
+  std::vector<std::string> signals;
+  for (const std::string& written : spec.writes) {
+    if (written.find('<') != std::string::npos) continue;
+    signals.push_back(written.substr(0, written.find(':')));
+  }
+  return signals;
+}
 
 ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kind,
                    const ReadContext& context, const std::vector<std::string>& extra_keys) {
@@ -259,6 +310,7 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
     resolved.put(key.spec.name, std::move(written));
   }
   check_observer_names(vehicle, path);
+  check_part_signals(vehicle, path, context.registry);
   return vehicle;
 }
 

@@ -46,6 +46,7 @@ std::string sentence_of(const CriterionResult& criterion) {
     return fmt::format("{} not measured {}: {}", criterion.metric, limit,
                        why_not_measured(criterion.metric));
   }
+  if (std::isinf(criterion.value)) return fmt::format("{} = infinite {}", criterion.metric, limit);
   return fmt::format("{} = {:.6g} {}", criterion.metric, criterion.value, limit);
 }
 

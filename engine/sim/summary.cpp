@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <vinerow/version.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "engine/api/abi_version.h"
@@ -22,6 +23,10 @@ ordered_json criteria_json(const std::vector<CriterionResult>& criteria) {
                     {"value", c.value},
                     {"limit", c.limit},
                     {"met", c.met}});
+    // JSON has no word for either.
+    if (!std::isfinite(c.value)) {
+      list.back()["reason"] = std::isnan(c.value) ? "not measured" : "infinite";
+    }
   }
   return list;
 }

@@ -69,6 +69,8 @@ class VehicleRuntime {
   /// Why no plan could be made; empty where one could. Only in missions: elsewhere that is an
   /// error.
   const std::string& plan_failure() const { return plan_failure_; }
+  /// It is to plan and has neither a plan nor a reason why there is none.
+  bool awaits_plan() const { return planner_ && at_work() && !planned_ && plan_failure_.empty(); }
   /// Plans from where it stands with a planner of its own. @param map  null: its own map
   Result<PlannedPath> plan_ahead(std::shared_ptr<const RowMap> map);
 
@@ -102,6 +104,8 @@ class VehicleRuntime {
   const std::vector<std::pair<std::string, std::unique_ptr<Payload>>>& payloads() const {
     return payloads_;
   }
+  /// Where its sensors sit, of those that sit somewhere; empty where its parts were never built.
+  const std::vector<SensorMounting>& mountings() const { return mountings_; }
   /// What the planner told of its work; empty without planner or report.
   const std::map<std::string, double>& plan_numbers() const { return plan_numbers_; }
   /// Names of the signals that are diagnostics: recorded, but not part of the digest.

@@ -109,8 +109,7 @@ void make_cloud(const CloudArguments& arguments) {
   io::Scenario scenario;
   if (arguments.scenario.file.empty()) {
     registry = make_registry(arguments.scenario.plugins);
-    scenario = scenario_of_log(log, registry);
-    scenario.seed = arguments.scenario.overrides.seed.value_or(scenario.seed);
+    scenario = scenario_of_log(log, registry, arguments.scenario.overrides);
   } else {
     scenario = load(arguments.scenario, registry);
   }
@@ -133,8 +132,7 @@ void make_cloud(const CloudArguments& arguments) {
   const Result<worlds::WrittenCloud> written =
       uniform ? worlds::write_uniform_cloud(scene, *world, area,
                                             uniform_of(arguments, scenario.seed), target)
-              : worlds::write_photogrammetry(scene, *world, pictures, area,
-                                             params.options, target);
+              : worlds::write_photogrammetry(scene, *world, pictures, area, params.options, target);
   if (!written) throw ConfigError("cloud: " + written.reason());
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/sim/summary.h"
 #include "tools/vinerow/commands.h"
 
@@ -17,6 +19,8 @@ constexpr int kBrokenOff = 3;
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Beyond a limit on the size of files a write shall fail and be told, not end the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"Vinerow: simulation of robots that work in vineyards and orchards"};
   app.set_version_flag("--version", "vinerow " + vinerow::program_version());
   app.require_subcommand(1);
@@ -43,6 +47,9 @@ int main(int argc, char** argv) {
   } catch (const vinerow::ConfigError& error) {
     fmt::print(stderr, "vinerow: {}\n", error.what());
     return kBadInput;
+  } catch (const vinerow::WriteError& error) {
+    fmt::print(stderr, "vinerow: {}\n", error.what());
+    return kBrokenOff;
   } catch (const vinerow::SimulationError& error) {
     fmt::print(stderr, "vinerow: {}\n", error.what());
     return kBrokenOff;

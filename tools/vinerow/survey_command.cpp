@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <system_error>
 
@@ -9,6 +8,7 @@
 #include "controllers/planning/survey_mission.h"
 #include "controllers/planning/survey_plan.h"
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/qgc_plan.h"
 #include "engine/io/qgc_wpl.h"
 #include "engine/math/angles.h"
@@ -23,20 +23,20 @@ void write_waypoints(const SurveyPlan& plan, const SurveyTask& task,
                      const std::filesystem::path& file) {
   const char* const kKinds[] = {"lane", "turn", "transit", "vertical", "return"};
   const io::LocalFrame frame(task.origin);
-  std::ofstream out(file, std::ios::binary);
-  out << "waypoint,kind,lane,x_m,y_m,z_m,above_ground_m,latitude_deg,longitude_deg\n";
+  std::string out;
+  out += "waypoint,kind,lane,x_m,y_m,z_m,above_ground_m,latitude_deg,longitude_deg\n";
   int number = 0;
   for (const PathPoint& point : plan.path.points) {
     const Eigen::Vector3d& p = point.p_W;
     const io::Geodetic place = frame.to_geodetic(p);
     const auto ground_m = task.ground(p.head<2>());
-    out << fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{:.9f},{:.9f}\n", number++,
+    out += fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{:.9f},{:.9f}\n", number++,
                        kKinds[static_cast<int>(point.kind)],
                        point.alley >= 0 ? std::to_string(point.alley) : "", p.x(), p.y(), p.z(),
                        ground_m ? fmt::format("{:.3f}", p.z() - *ground_m) : "",
                        deg_from_rad(place.latitude_rad), deg_from_rad(place.longitude_rad));
   }
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
+  write_whole_file(file, out);
 }
 
 void print_survey(const SurveyTask& task, const SurveyPlan& plan) {

@@ -37,7 +37,7 @@ inline Registry fake_registry() {
   registry.add_world(fake_spec("hilly", {number_parameter("slope_deg", "deg", 5.0, -45.0, 45.0,
                                                           "positive where x rises")}),
                      nullptr);
-  registry.add_vehicle(
+  PartSpec cart =
       fake_spec("cart",
                 {positive_parameter("mass_kg", "kg", 100.0, "with battery"),
                  required(positive_parameter("wheel_radius_m", "m", 0.2, "unloaded")),
@@ -49,8 +49,9 @@ inline Registry fake_registry() {
                  group_parameter("motor",
                                  {positive_parameter("torque_Nm", "N m", 50.0, "peak"),
                                   path_parameter("map_file", "efficiency map")},
-                                 "of each wheel")}),
-      nullptr);
+                                 "of each wheel")});
+  cart.writes = {"wheels: NamedValues", "battery", "<name>_event"};
+  registry.add_vehicle(cart, nullptr);
   registry.add_map(
       fake_spec("survey", {number_parameter("offset_m", "m", 0.0, -10.0, 10.0, "to the east")}),
       nullptr);

@@ -252,6 +252,19 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
             "truth beside the sensor 'gps'");
 }
 
+TEST(ScenarioFault, NamesOfSignalsOfOtherPartsAreTaken) {
+  const std::string writes = "the vehicle 'cart' writes (wheels, battery); give it another name";
+  EXPECT_EQ(fault_of(with_line(10, "      gps: {type: gps}\n      wheels: {type: imu}")),
+            "scenario:11: vehicles.rover.sensors.wheels: a sensor cannot have the name of a signal "
+            "that " +
+                writes);
+  EXPECT_EQ(fault_of(with_line(11, "    observers: {battery: {type: filter}}\n    controller:")),
+            "scenario:11: vehicles.rover.observers.battery: an observer cannot have the name of a "
+            "signal that " +
+                writes);
+  EXPECT_EQ(fault_of(with_line(10, "      wheel: {type: gps}")), "");
+}
+
 TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {
   const auto observers = [](const std::string& names) {
     return fault_of(with_line(11, "    observers: {" + names + "}\n    controller:"));

@@ -31,6 +31,7 @@ TEST(Judge, LimitsAreInclusiveAndWhatWasNotMeasuredFails) {
   EXPECT_FALSE(verdicts[2].met);
   EXPECT_FALSE(verdicts[3].met) << "not measured is not enough";
   EXPECT_TRUE(verdicts[4].met);
+  EXPECT_EQ(sentence_of(verdicts[1]), "rover.a_m = 1 (at least 1.5)");
 }
 
 TEST(Judge, UnknownMetricsAreRefusedWithTheNearest) {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/height_raster.h"
 #include "engine/io/ros_map.h"
 #include "worlds/mapping/cloud/folder/map_gis.h"
@@ -19,12 +20,6 @@ namespace vinerow::worlds {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
-}
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -112,10 +107,10 @@ void save_map(const CloudMap& map, const fs::path& folder) {
                             folder / "terrain.tif");
   }
   if (!map.map.occupancy.empty()) io::save_ros_map(map.map.occupancy, folder / "occupancy.yaml");
-  if (map.has_origin) write_text(folder / "rows.geojson", map_to_geojson(map));
-  write_text(folder / "rows.csv", rows_to_csv(map));
-  write_text(folder / "report.json", report_to_json(map.report));
-  write_text(folder / "map.json", map_to_json(map));
+  if (map.has_origin) write_whole_file(folder / "rows.geojson", map_to_geojson(map));
+  write_whole_file(folder / "rows.csv", rows_to_csv(map));
+  write_whole_file(folder / "report.json", report_to_json(map.report));
+  write_whole_file(folder / "map.json", map_to_json(map));
 }
 
 CloudMap load_map(const fs::path& folder) {

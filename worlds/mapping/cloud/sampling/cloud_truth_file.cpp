@@ -6,6 +6,7 @@
 
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/math/angles.h"
 #include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
@@ -119,9 +120,7 @@ void write_cloud_truth(const CloudTruth& truth, const std::filesystem::path& fil
                   {"volume_m3", truth.volume_m3},
                   {"sampling", sampling},
                   {"rows", rows}};
-  std::ofstream out(file, std::ios::binary);
-  out << json.dump(1) << "\n";
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
+  write_whole_file(file, json.dump(1) + "\n");
 }
 
 CloudTruth read_cloud_truth(const std::filesystem::path& file) {

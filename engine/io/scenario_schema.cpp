@@ -33,7 +33,11 @@ Json reference(const std::string& name) {
 }
 
 Json range(Json schema, const ParameterSpec& given) {
-  const ParameterSpec spec = with_limits_of_unit(given);
+  ParameterSpec spec = with_limits_of_unit(given);
+  if (given.min_exclusive) {  // "> 0" says more than the least number that is still taken
+    spec.min = given.min;
+    spec.min_exclusive = true;
+  }
   const auto bound = [](double value) -> Json {
     // Whole numbers without point and exponent, as a person would write them.
     if (value == std::floor(value) && std::abs(value) < 9e15) {

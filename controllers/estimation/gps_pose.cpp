@@ -18,7 +18,7 @@ const ParameterTable<GpsPoseParams>& gps_pose_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("gps", &P::gps, "signal of the satellite receiver")
-          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+          .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
                    "where the antenna sits in B (x, y, z); taken off the fix")
           .boolean("extrapolate", &P::extrapolate,
                    "carry the fix on by its velocity until the next one comes")

@@ -35,7 +35,7 @@ const ParameterTable<OdometryFilterParams>& odometry_filter_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("gps", &P::gps, "signal of the satellite receiver")
-          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+          .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
                    "where the antenna sits in B (x, y, z); taken off the fix")
           .choice("odometry_source", &P::source,
                   {{"command", P::Source::kCommand},

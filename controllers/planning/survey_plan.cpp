@@ -35,6 +35,7 @@ class SurveyPlanner {
     }
     if (const auto fault = find_survey_fault(request_, plan_.frame.yaw_rad)) return Failure{*fault};
     if (const auto fault = find_corner_outside(request_.polygon_W, ground_)) return Failure{*fault};
+    if (const auto fault = find_size_fault()) return Failure{*fault};
     cut();
     route();
     if (const auto fault = climb()) return Failure{*fault};
@@ -55,7 +56,7 @@ class SurveyPlanner {
  private:
   void set(const char* name, double value) { plan_.numbers[name] = value; }
 
-  void cut() {
+  LaneNeeds lane_needs() const {
     const SurveyCamera& camera = request_.camera;
     const double height_m = request_.height_m;
     LaneNeeds needs;
@@ -64,6 +65,34 @@ class SurveyPlanner {
     needs.spacing_m = (1.0 - request_.side_overlap) * needs.footprint_width_m;
     needs.end_margin = request_.end_margin;
     needs.edge_margin = request_.edge_margin;
+    return needs;
+  }
+
+  /// Before any lane is cut: how many lanes and pictures there would be.
+  std::optional<std::string> find_size_fault() const {
+    constexpr double kMostLanes = 1'000.0, kMostPictures = 200'000.0;
+    const LaneNeeds needs = lane_needs();
+    Vector2d low = plan_.frame.to_lane(request_.polygon_W.front()), high = low;
+    for (const Vector2d& p : request_.polygon_W) {
+      low = low.cwiseMin(plan_.frame.to_lane(p));
+      high = high.cwiseMax(plan_.frame.to_lane(p));
+    }
+    const double lanes = (high.y() - low.y()) / needs.spacing_m + 1.0;
+    const double pictures = lanes * (high.x() - low.x()) /
+                            ((1.0 - request_.forward_overlap) * needs.footprint_length_m);
+    if (lanes <= kMostLanes && pictures <= kMostPictures) return std::nullopt;
+    return fmt::format(
+        "{:.0f} m x {:.0f} m at {:.4g} m would take {:.3g} lanes {:.3g} m apart and {:.3g} "
+        "pictures, "
+        "at most {:.0f} lanes and {:.0f} pictures are planned: fly higher or survey less",
+        high.x() - low.x(), high.y() - low.y(), request_.height_m, lanes, needs.spacing_m, pictures,
+        kMostLanes, kMostPictures);
+  }
+
+  void cut() {
+    const SurveyCamera& camera = request_.camera;
+    const double height_m = request_.height_m;
+    const LaneNeeds needs = lane_needs();
     plan_.lanes = cut_lanes(request_.polygon_W, plan_.frame, needs);
 
     // Often enough where ramps run low, but not more often than the camera can.

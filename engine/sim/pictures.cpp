@@ -68,11 +68,21 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
     if (t >= trace.first && t <= trace.last) times.insert(t);
   };
   const bool own_schedule = options.times_s || options.every_s;
+  for (const double t_s : options.times_s.value_or(std::vector<double>{})) {
+    if (t_s >= trace.first.s() && t_s <= trace.last.s()) continue;
+    throw ConfigError(fmt::format("there is no frame at {} s: the log holds {} s to {} s", t_s,
+                                  trace.first.s(), trace.last.s()));
+  }
   for (const double t_s :
        own_schedule ? options.times_s.value_or(std::vector<double>{}) : pictures.times_s)
     add(t_s);
   const double every_s = own_schedule ? options.every_s.value_or(0.0) : pictures.every_s;
   if (every_s > 0.0) {
+    if (trace.last.s() / every_s > io::kMostPictureInstants) {
+      throw ConfigError(fmt::format(
+          "a frame every {} s is {:.0f} instants of {} s, must be at most {:.0f}", every_s,
+          trace.last.s() / every_s, trace.last.s(), io::kMostPictureInstants));
+    }
     const auto count = static_cast<std::int64_t>(trace.last.s() / every_s + 1e-9);
     for (std::int64_t k = 0; k <= count; ++k) add(static_cast<double>(k) * every_s);
   }

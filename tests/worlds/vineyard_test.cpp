@@ -264,6 +264,20 @@ TEST(Vineyard, RefusesBadInputInOneSentence) {
   EXPECT_NE(error("soil", std::string("dry_gras")).find("did you mean 'dry_grass'?"),
             std::string::npos);
   EXPECT_NE(error("headland_m", 3.0).find("must be >= 8 m"), std::string::npos);
+  EXPECT_EQ(error("vine_spacing_m", 0.001),
+            "vine_spacing_m = 0.001 m, must be >= 0.1 m and <= 100 m");
+  EXPECT_EQ(error("row_length_m", 1e9),
+            "row_length_m = 1000000000 m, must be >= 1 m and <= 5000 m");
+}
+
+TEST(Vineyard, TooMuchGroundIsRefusedBeforeTheSlopeIsFitted) {
+  ParameterSet parameters = test::world_parameters("vineyard");
+  parameters.set("row_count", std::int64_t{900}).set("row_length_m", 5000.0).set("pitch_m", 2.5);
+  parameters.set("terrain_cell_m", 0.5);
+  const std::string error =
+      test::config_error_of([&] { test::make_world("vineyard", parameters); });
+  EXPECT_EQ(error.find("terrain_cell_m = 0.5 m gives "), 0u) << error;
+  EXPECT_NE(error.find("must be at most 25 million: take cells of "), std::string::npos) << error;
 }
 
 }  // namespace

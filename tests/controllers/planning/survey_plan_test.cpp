@@ -301,6 +301,16 @@ TEST(SurveyPlan, RefusesPolygonsThatCrossThemselvesOrLeaveTheTerrain) {
   EXPECT_NE(fault_of(request, holed).find("the polygon has no terrain at (9"), std::string::npos);
 }
 
+TEST(SurveyPlan, CountsLanesAndPicturesBeforeItPlansThem) {
+  SurveyRequest request = make_request();
+  request.polygon_W = {{0, 0}, {30e3, 0}, {30e3, 40e3}, {0, 40e3}};
+  const std::string fault = fault_of(request);
+  EXPECT_EQ(fault.find("30000 m x 40000 m at "), 0u) << fault;
+  // 40 km / 45 m + 1
+  EXPECT_NE(fault.find(" would take 890 lanes 45 m apart and "), std::string::npos) << fault;
+  EXPECT_NE(fault.find("at most 1000 lanes and 200000 pictures are planned"), std::string::npos);
+}
+
 TEST(SurveyPlan, ClimbsInLapsWhereTheFirstLaneIsNear) {
   const auto plan = plan_survey(make_request(), start_at(-150, -60, 0.3, 0.5), flat());
   ASSERT_TRUE(plan.ok()) << plan.reason();

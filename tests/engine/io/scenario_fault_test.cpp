@@ -237,6 +237,32 @@ TEST(ScenarioFault, CriteriaAndCamerasNameVehicles) {
       "scenario:4: pictures.cameras.c: centre_m and vehicle are both given, must be one of them");
 }
 
+TEST(ScenarioFault, ANameIsOneOfAFolderInRuns) {
+  for (const char* name : {"../../evil", "/tmp/x", "a/b", "..", "two words", "9lives"}) {
+    EXPECT_EQ(fault_of(with_line(2, "name: '" + std::string(name) + "'")),
+              "scenario:2: name = '" + std::string(name) +
+                  "', must be made of letters, digits, '_' and '-' and start with a letter or '_' "
+                  "(results go to runs/<name>)");
+  }
+}
+
+TEST(ScenarioFault, PicturesWithoutEndAreRefused) {
+  EXPECT_EQ(fault_of(with_line(2, "duration_s: 20\npictures: {every_s: 0.001}")),
+            "scenario:3: pictures.every_s = 0.001 s makes 20000 frames of each camera in 20 s, must "
+            "make at most 10000");
+  EXPECT_EQ(fault_of(with_line(2, "duration_s: 20\npictures: {every_s: 0.002}")), "");
+}
+
+TEST(ScenarioFault, NumbersThatNoUnitCanMeanAreRefused) {
+  const auto fault = [](const std::string& value) {
+    return fault_of(with_line(13, "      lookahead_m: " + value));
+  };
+  const std::string place = "scenario:13: vehicles.rover.controller.lookahead_m = ";
+  EXPECT_EQ(fault("9.2e18"), place + "9.2e+18 m, must be >= 1e-09 m and <= 10000000 m");
+  EXPECT_EQ(fault("1e-308"), place + "1e-308 m, must be >= 1e-09 m and <= 10000000 m");
+  EXPECT_EQ(fault("-1"), place + "-1 m, must be > 0 m");
+}
+
 TEST(ScenarioFault, NamesAreSimpleWords) {
   EXPECT_EQ(
       fault_of(with_line(5, "  ro.ver:")),
@@ -298,10 +324,18 @@ TEST(ScenarioFault, DuplicateKeysNameBothLines) {
 TEST(ScenarioFault, SyntaxErrorsNameTheLine) {
   EXPECT_EQ(fault_of(with_line(7, "\twheel_radius_m: 0.2")),
             "scenario:7: is indented with a tab; YAML is indented with spaces");
-  EXPECT_THAT(fault_of(with_line(8, "    spawn: {alley: 0")),
-              ::testing::MatchesRegex("scenario:[0-9]+: is not valid YAML: .*"));
-  EXPECT_THAT(fault_of(with_line(7, "    wheel_radius_m: 0.2: 3")),
-              ::testing::MatchesRegex("scenario:7: is not valid YAML: .*"));
+  EXPECT_THAT(
+      fault_of(with_line(8, "    spawn: {alley: 0")),
+      ::testing::MatchesRegex(
+          "scenario:[0-9]+: is not valid YAML: the '\\{' of line 8 is not closed by '\\}'"));
+  EXPECT_THAT(
+      fault_of(with_line(8, "    spawn: [alley, 0")),
+      ::testing::MatchesRegex(
+          "scenario:[0-9]+: is not valid YAML: the '\\[' of line 8 is not closed by '\\]'"));
+  EXPECT_EQ(
+      fault_of(with_line(7, "    wheel_radius_m: 0.2: 3")),
+      "scenario:7: is not valid YAML: a ':' stands where none can be: is a text with ': ' not "
+      "in quotes?");
   EXPECT_EQ(fault_of(std::string("vinerow: 1\nname: a\x01z\n")),
             "scenario:2: holds the control character 0x01; a scenario is plain text");
   EXPECT_EQ(fault_of("vinerow: 1\n---\nvinerow: 1\n"),

@@ -112,11 +112,10 @@ const ParameterTable<RecordConfig>& record_table() {
 
 const ParameterTable<VehicleConfig>& vehicle_table() {
   using P = VehicleConfig;
-  static const ParameterTable<P> table =
-      ParameterTable<P>().choice("on_crash", &P::on_crash,
-                                 {{"end", OnCrash::kEnd}, {"fail", OnCrash::kFail}},
-                                 "what a crash of the vehicle does beside failing the run: it ends "
-                                 "there, or goes on for the others");
+  static const ParameterTable<P> table = ParameterTable<P>().choice(
+      "on_crash", &P::on_crash, {{"end", OnCrash::kEnd}, {"fail", OnCrash::kFail}},
+      "what a crash of the vehicle does beside failing the run: it ends "
+      "there, or goes on for the others");
   return table;
 }
 
@@ -271,11 +270,13 @@ const ParameterTable<PlacedSpawn>& placed_spawn_table() {
   using P = PlacedSpawn;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("x_m", "m", [](P& p) -> double& { return p.p_W.x(); }, between(-1e7, 1e7),
-                  "east of the world's origin")
+          .number(
+              "x_m", "m", [](P& p) -> double& { return p.p_W.x(); }, between(-1e7, 1e7),
+              "east of the world's origin")
           .required()
-          .number("y_m", "m", [](P& p) -> double& { return p.p_W.y(); }, between(-1e7, 1e7),
-                  "north of the world's origin")
+          .number(
+              "y_m", "m", [](P& p) -> double& { return p.p_W.y(); }, between(-1e7, 1e7),
+              "north of the world's origin")
           .required()
           .degrees("yaw_deg", &P::yaw_rad, between(-360.0, 360.0),
                    "heading, from east, positive to the left");
@@ -353,8 +354,7 @@ ParameterTable<CameraFields<kKind>> make_camera_table() {
   const auto of = [](auto member) { return inside(&P::camera, member); };
   ParameterTable<P> table;
   if constexpr (kKind == CameraKind::kFixed) {
-    table
-        .numbers("position_m", "m", of(&C::p_W), kAnyNumber, "x, y and height above the ground")
+    table.numbers("position_m", "m", of(&C::p_W), kAnyNumber, "x, y and height above the ground")
         .required()
         .numbers("look_at_m", "m", of(&C::target_W), kAnyNumber, "x, y and height above the ground")
         .required();
@@ -478,9 +478,9 @@ bool is_valid_name(const std::string& name) {
 
 const std::vector<std::string>& reserved_signal_names() {
   static const std::vector<std::string> names = {
-      "truth",     "estimate",        "plan",     "reference", "links",
-      "actuators", "follower",        "command",  "plan_tree", "local_command",
-      "ellipsoid", "estimator_state", "contacts", "map_edges", "authority"};
+      "truth",    "estimate",  "plan",      "reference",     "links",     "actuators",
+      "follower", "command",   "plan_tree", "local_command", "ellipsoid", "estimator_state",
+      "contacts", "map_edges", "landing",   "authority"};
   return names;
 }
 

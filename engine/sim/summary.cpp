@@ -66,7 +66,10 @@ ordered_json phases_json(const RunResult& result) {
 ordered_json crashes_json(const RunResult& result) {
   ordered_json list = ordered_json::array();
   for (const Crash& crash : result.crashes) {
-    list.push_back({{"vehicle", crash.vehicle}, {"time_s", crash.time.s()}, {"text", crash.text}});
+    list.push_back({{"vehicle", crash.vehicle},
+                    {"time_s", crash.time.s()},
+                    {"kind", crash.gave_up ? "gave up" : "crashed"},
+                    {"text", crash.text}});
   }
   return list;
 }
@@ -92,7 +95,8 @@ const char* status_name(const RunResult& result) {
       for (const PhaseReport& phase : result.phases) {
         if (phase.state == PhaseState::kFailed) return "a phase failed";
       }
-      return result.crashes.empty() ? "a criterion failed" : "a vehicle crashed";
+      if (result.crashes.empty()) return "a criterion failed";
+      return result.crashes.front().gave_up ? "a vehicle gave up" : "a vehicle crashed";
     case RunStatus::kBadInput:
       return "bad input";
     case RunStatus::kBrokenOff:
@@ -140,10 +144,9 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;
   summary["notes"] = simulation.world().notes;
   summary["cost"] = cost_json(simulation);
-  summary["versions"] = {
-      {"vinerow", program_version()},
-      {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
-      {"compiler", __VERSION__}};
+  summary["versions"] = {{"vinerow", program_version()},
+                         {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
+                         {"compiler", __VERSION__}};
   return summary.dump(2) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/api/map.h"
+#include "engine/api/may_fail.h"
 #include "engine/api/observer.h"
 #include "engine/api/outside.h"
 #include "engine/core/error.h"
@@ -21,6 +22,8 @@ constexpr Duration kContactGap{500'000'000};
 /// Envelope of a sane state; beyond it the run has come apart.
 constexpr double kMaxDistance_m = 1e6;
 constexpr double kMaxSpeed_mps = 1e3;
+/// Parameter of metrics that judge pictures: the sensor that takes them.
+constexpr const char* kCamera = "camera";
 /// Diagnostics need no more than a picture does; the recorder thins further.
 constexpr double kDefaultControlRate_Hz = 20.0;
 
@@ -182,6 +185,7 @@ void VehicleRuntime::take_down() {
   tasks_.clear();
   metrics_.clear();
   payloads_.clear();
+  may_fail_.clear();
   controller_.reset();
   guidance_.reset();
   planner_.reset();
@@ -371,6 +375,12 @@ void VehicleRuntime::try_to_plan(Time now) {
 }
 
 void VehicleRuntime::add_controller() {
+  if (!config_.controller && config_.guidance) {
+    throw ConfigError(fmt::format(
+        "{}: {}.guidance ({}) works for a controller, but the vehicle has none: give it one, or "
+        "take the guidance away",
+        config_.guidance->where.text(), config_.name, config_.guidance->type));
+  }
   if (!config_.controller) {
     Ports ports(run_.bus, config_.name, config_.name);
     actuators_ = ports.read_optional<NamedValues>("actuators");
@@ -393,16 +403,40 @@ void VehicleRuntime::add_controller() {
     guidance_ = run_.registry.make_guidance(config_.guidance->type, config_.guidance->parameters,
                                             controller_context_of(part, rate_Hz));
     add_stepped(Stage::kGuide, part, config_.guidance->type, rate_Hz, *guidance_);
+    note_if_it_may_fail(guidance_.get());
+    // Where it lands: follows from what it told already.
+    add_diagnostic(config_.name + "/landing");
   }
   const std::string part = config_.name + ".controller";
   controller_ =
       run_.registry.make_controller(config_.controller->type, config_.controller->parameters,
                                     controller_context_of(part, control_rate_Hz()));
+  note_if_it_may_fail(controller_.get());
   add_stepped(Stage::kControl, part, config_.controller->type, control_rate_Hz(), *controller_);
   refuse_a_missing_plan();
   Ports ports(run_.bus, config_.name, config_.name);
   actuators_ = ports.read<NamedValues>("actuators");
   add_actuators(period_of_rate(control_rate_Hz()));
+}
+
+void VehicleRuntime::note_if_it_may_fail(const SteppedPart* part) {
+  if (const auto* may_fail = dynamic_cast<const MayFail*>(part)) may_fail_.push_back(may_fail);
+}
+
+ParameterSet VehicleRuntime::parameters_of(const io::NamedPart& metric) const {
+  ParameterSet parameters = metric.part.parameters;
+  const std::vector<ParameterSpec>& specs =
+      run_.registry.spec(PartKind::kMetric, metric.part.type).parameters;
+  const bool judges_pictures = std::any_of(
+      specs.begin(), specs.end(), [](const ParameterSpec& spec) { return spec.name == kCamera; });
+  if (!judges_pictures || parameters.has(kCamera)) return parameters;
+  std::vector<std::string> cameras;
+  for (const io::NamedPart& sensor : config_.sensors) {
+    const auto gives = run_.registry.spec(PartKind::kSensor, sensor.part.type).gives;
+    if (gives == ProductKind::kPictures) cameras.push_back(sensor.name);
+  }
+  if (cameras.size() == 1) parameters.set(kCamera, cameras.front());
+  return parameters;
 }
 
 void VehicleRuntime::add_actuators(Duration period) {
@@ -450,9 +484,8 @@ void VehicleRuntime::check_command(const SignalBase& value) const {
                                   wanted.values.size(), wanted.names.size()));
   }
   for (const std::string& name : wanted.names) {
-    static_cast<void>(
-        vehicle_->description().actuator_index(name, fmt::format("a command for '{}'",
-                                                                 value.name())));
+    static_cast<void>(vehicle_->description().actuator_index(
+        name, fmt::format("a command for '{}'", value.name())));
   }
 }
 
@@ -497,9 +530,8 @@ void VehicleRuntime::add_metrics() {
     for (const io::NamedPart& observer : config_.observers) {
       metric_context.observers.push_back(observer.name);
     }
-    metrics_.push_back(
-        {metric.name,
-         run_.registry.make_metric(metric.part.type, metric.part.parameters, metric_context)});
+    metrics_.push_back({metric.name, run_.registry.make_metric(
+                                         metric.part.type, parameters_of(metric), metric_context)});
     // A metric that judges plans has nothing to read where the vehicle has no planner.
     add_stepped(Stage::kJudge, part, metric.part.type, rate_Hz, *metrics_.back().metric);
   }
@@ -554,9 +586,17 @@ void VehicleRuntime::after_physics(Time now, Duration step) {
 }
 
 void VehicleRuntime::watch_crash(Time now) {
-  if (crash_ || vehicle_->crash().empty()) return;
-  crash_ = Crash{config_.name, now, std::string(vehicle_->crash())};
-  run_.emit(Event::Level::kError, config_.name, fmt::format("crashed: {}", crash_->text));
+  if (crash_) return;
+  if (!vehicle_->crash().empty()) {
+    crash_ = Crash{config_.name, now, std::string(vehicle_->crash())};
+    run_.emit(Event::Level::kError, config_.name, fmt::format("crashed: {}", crash_->text));
+    return;
+  }
+  for (const MayFail* part : may_fail_) {
+    if (crash_ || !at_work() || part->failure().empty()) continue;
+    crash_ = Crash{config_.name, now, std::string(part->failure()), true};
+    run_.emit(Event::Level::kError, config_.name, fmt::format("gave up: {}", crash_->text));
+  }
 }
 
 void VehicleRuntime::watch_contacts(Time now) {
@@ -589,7 +629,8 @@ void VehicleRuntime::watch_contacts(Time now) {
 }
 
 std::string Crash::sentence() const {
-  return fmt::format("{} crashed at {:.3f} s: {}", vehicle, time.s(), text);
+  return fmt::format("{} {} at {:.3f} s: {}", vehicle, gave_up ? "gave up" : "crashed", time.s(),
+                     text);
 }
 
 std::map<std::string, double> VehicleRuntime::metric_results() const {

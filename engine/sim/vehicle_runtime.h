@@ -22,6 +22,8 @@
 
 namespace vinerow {
 
+class MayFail;
+
 /// What the vehicle's assembly needs from the run.
 struct RunContext {
   const io::Scenario& scenario;  ///< with phases: a plan that cannot be made fails its phase
@@ -76,7 +78,7 @@ class VehicleRuntime {
     return !crash_ && (controller_ == nullptr || (at_work() && controller_->finished()));
   }
   bool has_controller() const { return controller_ != nullptr; }
-  /// How it was wrecked, if it was.
+  /// How it was wrecked, or why its controller gave up, if so.
   const std::optional<Crash>& crash() const { return crash_; }
   io::OnCrash on_crash() const { return config_.on_crash; }
 
@@ -136,6 +138,9 @@ class VehicleRuntime {
   /// @throws ConfigError naming who reads a plan that no planner writes
   void refuse_a_missing_plan() const;
   void add_metrics();
+  void note_if_it_may_fail(const SteppedPart* part);
+  /// A metric's; one that judges pictures is told the vehicle's camera where it has just one.
+  ParameterSet parameters_of(const io::NamedPart& metric) const;
   void publish_diagnostics(Time now);
   void try_to_plan(Time now);
   void actuate(Time now);
@@ -158,6 +163,7 @@ class VehicleRuntime {
   std::unique_ptr<Planner> planner_;
   std::unique_ptr<Guidance> guidance_;
   std::unique_ptr<Controller> controller_;
+  std::vector<const MayFail*> may_fail_;  ///< of guidance and controller those that can
   std::vector<std::pair<std::string, std::unique_ptr<Payload>>> payloads_;
   std::vector<NamedMetric> metrics_;
   std::vector<SensorMounting> mountings_;

@@ -59,6 +59,7 @@ void FixedWing::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   spec.force_sampling = physics::ForceSampling::kHeld;
   body_id_ = world.add_body(spec);
   probe_.emplace(world.world_model(), world.scene(), random_);
+  describe_air(calc_air_density_kgm3(world.world_model(), X_WB.p.z()));
   foliage_.start(world.world_model());
   if (params_.launch.mode == LaunchMode::kAir) {
     start_in_air(X_WB, ground_W);

@@ -74,6 +74,7 @@ void Quadrotor::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   motion_.reset(world.state(body_id_));
   specific_force_B_ = X_WB.q.conjugate() * Vector3d(0.0, 0.0, world.settings().gravity_mps2);
   probe_.emplace(world.world_model(), world.scene(), random_);
+  describe_air(calc_air_density_kgm3(world.world_model(), X_WB.p.z()) / kRatedDensity_kgm3);
   foliage_.start(world.world_model());
 }
 

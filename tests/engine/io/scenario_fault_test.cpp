@@ -123,7 +123,10 @@ TEST(ScenarioFault, RateThatDoesNotDivideNamesBothNumbers) {
   EXPECT_EQ(fault_of(with_line(13, "      rate_Hz: 30")),
             "scenario:13: vehicles.rover.controller.rate_Hz = 30 Hz, its period of 0.033333333 s "
             "is not a "
-            "whole number of physics steps of 0.001 s; 29.4118 Hz and 30.303 Hz fit");
+            "whole number of physics steps of 0.001 s; 29.411765 Hz and 30.30303 Hz fit");
+  // What is printed is accepted.
+  EXPECT_EQ(fault_of(with_line(13, "      rate_Hz: 29.411765")), "");
+  EXPECT_EQ(fault_of(with_line(13, "      rate_Hz: 30.30303")), "");
   EXPECT_EQ(fault_of(with_line(13, "      rate_Hz: 3000")),
             "scenario:13: vehicles.rover.controller.rate_Hz = 3000 Hz, its period of 0.000333333 s "
             "is not "

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/api/messages/flight.h"
-#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/record/recorder.h"
 #include "engine/sim/canopy_file.h"
@@ -200,24 +199,6 @@ std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
   return files;
 }
 
-/// Nobody asked for the air of another height than the ground's; empty where that is near.
-std::string doubt_of_density(const WorldModel& world) {
-  constexpr double kSameAir_m = 150.0;  // 1.4 % of the density
-  const Wind& wind = world.wind;
-  if (!world.terrain || wind.atmosphere != Atmosphere::kConstant || wind.air_density_kgm3)
-    return "";
-  const HeightField& ground = *world.terrain;
-  const Eigen::Vector2d middle =
-      ground.corner_W + 0.5 * Eigen::Vector2d(ground.width_m(), ground.depth_m());
-  const double height_m = ground.height_m(middle.x(), middle.y());
-  if (std::abs(height_m) <= kSameAir_m) return "";
-  return fmt::format(
-      "the air has the density of the origin's altitude, {:.0f} m, but the ground lies at z = "
-      "{:.0f} "
-      "m: set wind.atmosphere to us76, or air_density_kgm3, or origin_altitude_m",
-      world.origin.altitude_m, height_m);
-}
-
 const char* end_by(const Crash& crash) {
   return crash.gave_up ? "ended: a vehicle gave up" : "ended after a crash";
 }
@@ -257,9 +238,6 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   const Clock::time_point start = Clock::now();
   try {
     simulation.emit(Event::Level::kInfo, "run", fmt::format("started '{}'", scenario.name));
-    if (const std::string doubt = doubt_of_density(simulation.world()); !doubt.empty()) {
-      simulation.emit(Event::Level::kWarning, "world", doubt);
-    }
     step_to_end(session, options, start);
     simulation.emit(Event::Level::kInfo, "run",
                     simulation.finished()           ? "mission finished"

@@ -27,6 +27,24 @@ std::filesystem::path make_own_folder() {
          fmt::format("vinerow_products_{}_{}", ::getpid(), ++count);
 }
 
+/// Nobody asked for the air of another height than the ground's; empty where that is near.
+std::string doubt_of_density(const WorldModel& world) {
+  constexpr double kSameAir_m = 150.0;  // 1.4 % of the density
+  const Wind& wind = world.wind;
+  if (!world.terrain || wind.atmosphere != Atmosphere::kConstant || wind.air_density_kgm3)
+    return "";
+  const HeightField& ground = *world.terrain;
+  const Eigen::Vector2d middle =
+      ground.corner_W + 0.5 * Eigen::Vector2d(ground.width_m(), ground.depth_m());
+  const double height_m = ground.height_m(middle.x(), middle.y());
+  if (std::abs(height_m) <= kSameAir_m) return "";
+  return fmt::format(
+      "the air has the density of the origin's altitude, {:.0f} m, but the ground lies at z = "
+      "{:.0f} "
+      "m: set wind.atmosphere to us76, or air_density_kgm3, or origin_altitude_m",
+      world.origin.altitude_m, height_m);
+}
+
 }  // namespace
 
 Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
@@ -179,6 +197,10 @@ bool Simulation::is_done() const {
 
 void Simulation::work_instant() {
   if (now_.ns == 0 && map_.connected()) map_.write(now_, world().rows->occupancy);
+  if (now_.ns == 0) {
+    const std::string doubt = doubt_of_density(world());
+    if (!doubt.empty()) emit(Event::Level::kWarning, "world", doubt);
+  }
   for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
   outside_.deliver(now_);
   if (mission_) {

@@ -10,7 +10,6 @@
 #include "controllers/parts/path_pieces.h"
 #include "controllers/parts/path_watch.h"
 #include "controllers/planning/corner_rounding.h"
-#include "engine/api/map.h"
 #include "engine/api/may_fail.h"
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"

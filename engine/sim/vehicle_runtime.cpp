@@ -424,19 +424,20 @@ void VehicleRuntime::note_if_it_may_fail(const SteppedPart* part) {
 }
 
 ParameterSet VehicleRuntime::parameters_of(const io::NamedPart& metric) const {
-  ParameterSet parameters = metric.part.parameters;
+  // Nothing is read here: what is not given is filled in before the part reads it by its table.
+  ParameterSet given = metric.part.parameters;
   const std::vector<ParameterSpec>& specs =
       run_.registry.spec(PartKind::kMetric, metric.part.type).parameters;
   const bool judges_pictures = std::any_of(
       specs.begin(), specs.end(), [](const ParameterSpec& spec) { return spec.name == kCamera; });
-  if (!judges_pictures || parameters.has(kCamera)) return parameters;
+  if (!judges_pictures || given.has(kCamera)) return given;
   std::vector<std::string> cameras;
   for (const io::NamedPart& sensor : config_.sensors) {
     const auto gives = run_.registry.spec(PartKind::kSensor, sensor.part.type).gives;
     if (gives == ProductKind::kPictures) cameras.push_back(sensor.name);
   }
-  if (cameras.size() == 1) parameters.set(kCamera, cameras.front());
-  return parameters;
+  if (cameras.size() == 1) given.set(kCamera, cameras.front());
+  return given;
 }
 
 void VehicleRuntime::add_actuators(Duration period) {

@@ -109,14 +109,36 @@ void check_signal_name(const YamlEntry& entry, const std::string& path, const ch
   }
 }
 
-/// Every sensor writes "<name>_truth" beside its own name.
-void check_truth_names(const std::vector<NamedPart>& sensors, const std::string& path) {
-  for (const NamedPart& sensor : sensors) {
-    for (const NamedPart& other : sensors) {
-      if (sensor.name != other.name + "_truth") continue;
-      fail_at(sensor.part.where,
-              fmt::format("{}: a sensor cannot have the name of the truth beside the sensor '{}'",
-                          join_path(path, sensor.name), other.name));
+/// Whether a signal, named in full or as its vehicle names it, tells what is true.
+bool is_truth_signal(const std::string& name) {
+  const std::string local = name.substr(name.rfind('/') + 1);
+  return local == "truth" || local.ends_with("_truth");
+}
+
+/// A vehicle knows the world by its sensors: sensors, payloads and metrics alone may ask the truth.
+bool works_on_readings(PartKind kind) {
+  return kind == PartKind::kEstimator || kind == PartKind::kPlanner ||
+         kind == PartKind::kGuidance || kind == PartKind::kController;
+}
+
+/// Parts take the names of the signals they read as free texts.
+void check_wires(const YamlEntry& entry, const std::string& path, PartKind kind,
+                 const std::vector<ParameterSpec>& fields, const ParameterSet& values) {
+  if (!works_on_readings(kind)) return;
+  for (const ParameterSpec& field : fields) {
+    std::vector<std::string> names;
+    if (field.kind == ParameterKind::kText && field.choices.empty() && values.has(field.name)) {
+      names = {values.text(field.name)};
+    } else if (field.kind == ParameterKind::kTextList && values.has(field.name)) {
+      names = values.texts(field.name);
+    }
+    for (const std::string& name : names) {
+      if (!is_truth_signal(name)) continue;
+      const YamlEntry* given = entry.value.find_entry(field.name);
+      fail_at(given ? given->mark : entry.mark,
+              fmt::format("{} = '{}' is the truth, which no part of a vehicle reads by name; must "
+                          "be the name of a sensor's signal",
+                          join_path(path, field.name), name));
     }
   }
 }
@@ -190,6 +212,7 @@ ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kin
   for (YamlEntry& written : read.resolved.entries) {
     part.resolved.put(written.key, std::move(written.value));
   }
+  check_wires(entry, path, kind, fields, read.values);
   part.config.parameters = std::move(read.values);
   return part;
 }
@@ -205,12 +228,17 @@ std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::stri
     if (kind == PartKind::kSensor) check_signal_name(entry, path, "a sensor");
     if (kind == PartKind::kEstimator) check_signal_name(entry, path, "an observer");
     if (kind == PartKind::kPayload) check_signal_name(entry, path, "a payload");
+    if (kind != PartKind::kMetric && entry.key.ends_with("_truth")) {
+      fail_at(entry.mark,
+              fmt::format("{}: a name cannot end in '_truth', which marks what a sensor "
+                          "would have read without error",
+                          join_path(path, entry.key)));
+    }
     if (entry.value.is_null()) continue;
     ReadPart part = read_part(entry, join_path(path, entry.key), kind, context);
     parts.push_back({entry.key, std::move(part.config)});
     resolved.put(entry.key, std::move(part.resolved));
   }
-  if (kind == PartKind::kSensor) check_truth_names(parts, path);
   return parts;
 }
 

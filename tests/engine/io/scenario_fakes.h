@@ -60,6 +60,13 @@ inline Registry fake_registry() {
   registry.add_sensor(fake_spec("imu", {}, 0.0), nullptr);
   registry.add_estimator(
       fake_spec("filter", {positive_parameter("gain", "", 0.5, "of updates")}, 20.0), nullptr);
+  registry.add_estimator(
+      fake_spec("fusion",
+                {text_parameter("gps", "gps", "signal of the receiver"),
+                 text_list_parameter("ranges", {}, "signals"),
+                 choice_parameter("heading", "gyro", {"gyro", "truth"}, "where from")},
+                20.0),
+      nullptr);
   registry.add_planner(
       fake_spec("coverage", {integer_parameter("first_alley", 0, 0, 1000, "start")}), nullptr);
   registry.add_guidance(fake_spec("window", {}, 10.0), nullptr);

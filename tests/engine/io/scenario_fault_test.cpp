@@ -248,8 +248,32 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
       "(truth, estimate, plan, reference, links, actuators, follower, command, plan_tree, "
       "local_command, ellipsoid, estimator_state, contacts, map_edges, authority)");
   EXPECT_EQ(fault_of(with_line(10, "      gps: {type: gps}\n      gps_truth: {type: gps}")),
-            "scenario:11: vehicles.rover.sensors.gps_truth: a sensor cannot have the name of the "
-            "truth beside the sensor 'gps'");
+            "scenario:11: vehicles.rover.sensors.gps_truth: a name cannot end in '_truth', which "
+            "marks what a sensor would have read without error");
+}
+
+TEST(ScenarioFault, NoPartIsWiredToTheTruth) {
+  const auto fusion = [](const std::string& inputs) {
+    return fault_of(
+        with_line(11, "    estimator: {type: fusion, " + inputs + "}\n    controller:"));
+  };
+  const std::string end =
+      " is the truth, which no part of a vehicle reads by name; must be the name of a sensor's "
+      "signal";
+  EXPECT_EQ(fusion("gps: gps"), "");
+  EXPECT_EQ(fusion("gps: truth"), "scenario:11: vehicles.rover.estimator.gps = 'truth'" + end);
+  EXPECT_EQ(fusion("gps: gps_truth"),
+            "scenario:11: vehicles.rover.estimator.gps = 'gps_truth'" + end);
+  EXPECT_EQ(fusion("gps: drone/gps_truth"),
+            "scenario:11: vehicles.rover.estimator.gps = 'drone/gps_truth'" + end);
+  EXPECT_EQ(fusion("ranges: [us_left, us_right_truth]"),
+            "scenario:11: vehicles.rover.estimator.ranges = 'us_right_truth'" + end);
+  // What is asked for by name as one of a parameter's choices is said openly.
+  EXPECT_EQ(fusion("heading: truth"), "");
+  EXPECT_EQ(fault_of(with_line(11,
+                               "    observers: {ekf: {type: fusion, gps: gps_truth}}\n"
+                               "    controller:")),
+            "scenario:11: vehicles.rover.observers.ekf.gps = 'gps_truth'" + end);
 }
 
 TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {

@@ -71,6 +71,29 @@ ordered_json crashes_json(const RunResult& result) {
   return list;
 }
 
+/// What every vehicle acts on: its estimator, and what it takes from the truth ("state": all).
+ordered_json estimation_json(const io::Scenario& scenario) {
+  ordered_json list = ordered_json::object();
+  for (const io::VehicleConfig& vehicle : scenario.vehicles) {
+    ordered_json of_truth = ordered_json::array();
+    if (!vehicle.estimator || vehicle.estimator->type == "truth") {
+      of_truth.push_back("state");
+    } else {
+      const ParameterSet& parameters = vehicle.estimator->parameters;
+      for (const ParameterSpec& spec : parameters.specs()) {
+        const bool is_choice = spec.kind == ParameterKind::kText && !spec.choices.empty();
+        if (is_choice && parameters.has(spec.name) && parameters.text(spec.name) == "truth") {
+          of_truth.push_back(spec.name);
+        }
+      }
+    }
+    list[vehicle.name] = {
+        {"estimator", vehicle.estimator ? ordered_json(vehicle.estimator->type) : ordered_json()},
+        {"truth", std::move(of_truth)}};
+  }
+  return list;
+}
+
 ordered_json cost_json(Simulation& simulation) {
   ordered_json list = ordered_json::array();
   for (const Scheduler::TaskReport& task : simulation.scheduler().reports()) {
@@ -125,6 +148,7 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   summary["criteria"] = criteria_json(result.criteria);
   if (!result.phases.empty()) summary["phases"] = phases_json(result);
   if (!result.crashes.empty()) summary["crashes"] = crashes_json(result);
+  summary["estimation"] = estimation_json(scenario);
   summary["metrics"] = ordered_json::object();
   for (const auto& [vehicle, metrics] : result.metrics) {
     for (const auto& [name, value] : metrics) summary["metrics"][vehicle][name] = value;
@@ -140,10 +164,9 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;
   summary["notes"] = simulation.world().notes;
   summary["cost"] = cost_json(simulation);
-  summary["versions"] = {
-      {"vinerow", program_version()},
-      {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
-      {"compiler", __VERSION__}};
+  summary["versions"] = {{"vinerow", program_version()},
+                         {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
+                         {"compiler", __VERSION__}};
   return summary.dump(2) + "\n";
 }
 

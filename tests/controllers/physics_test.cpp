@@ -35,8 +35,8 @@ void expect_good(const std::vector<std::string>& sets, double leg_rms_m) {
   EXPECT_GT(metrics.at("min_clearance_m"), 0.15);
 }
 
-const std::string kGps = "rover.estimator.type=gps_pose";
-const std::string kFilter = "rover.estimator.type=odometry_filter";
+const std::string kGps = "rover.estimator={type: gps_pose, heading: truth}";
+const std::string kFilter = "rover.estimator={type: odometry_filter, heading: truth}";
 
 TEST(PathFollowerOnThePhysicalRover, KeepsTheLegsWithTruePose) {
   expect_good({}, 0.02);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <ostream>
 
 #include "tests/controllers/estimation/localisation_lab.h"
 #include "tests/controllers/estimation/map_localisation_lab.h"
@@ -82,6 +83,10 @@ struct Named {
   LabFilterMaker make;
 };
 
+void PrintTo(const Named& filter, std::ostream* out) {
+  *out << filter.name;
+}
+
 class Mismatch : public ::testing::TestWithParam<Named> {};
 
 TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
@@ -104,10 +109,11 @@ TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
         EXPECT_LE(score.nees, 1.1 * told.nees);
         EXPECT_GE(score.nees, 0.2 * told.nees);
       } else {
-        // Twice the noise at most doubles the error, and so at most four times the NEES.
-        EXPECT_LE(score.lateral_m, 2.2 * told.lateral_m);
-        EXPECT_LE(score.longitudinal_m, 2.2 * told.longitudinal_m);
-        EXPECT_LE(score.nees, 4.5 * told.nees);
+        // A linear filter scales with its noise: twice the error, four times the NEES where all
+        // noise is twice as large. Gates that refuse and weigh good echoes take up to a tenth more.
+        EXPECT_LE(score.lateral_m, 2.4 * told.lateral_m);
+        EXPECT_LE(score.longitudinal_m, 2.4 * told.longitudinal_m);
+        EXPECT_LE(score.nees, 5.2 * told.nees);
         EXPECT_GE(score.nees, 0.9 * told.nees);
       }
     }

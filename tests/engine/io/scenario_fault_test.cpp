@@ -298,7 +298,7 @@ TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {
       "(known: filter)");
   EXPECT_EQ(observers("a: {type: filtr}"),
             "scenario:11: vehicles.rover.observers.a.type = 'filtr': unknown estimator; did you "
-            "mean 'filter'? (known: filter)");
+            "mean 'filter'? (known: filter, fusion)");
 }
 
 TEST(ScenarioFault, DuplicateKeysNameBothLines) {

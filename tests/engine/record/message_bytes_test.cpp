@@ -38,7 +38,7 @@ const std::map<std::string, Digests> kDigests = {
     {"PositionEllipsoid",
      {"5114b46a4652eca5434320468fa8b445", "3cc4f413afb6d850e0789073a0c833ec"}},
     {"GnssHeading",
-     {"230835d88f3d4f7aa3c967c6c97957d1", "b338dca0b6906339e69e486f17ee15c8"}},
+     {"2ce143f7cbd9e45596c64400b050af28", "b338dca0b6906339e69e486f17ee15c8"}},
     {"VelocityCommand",
      {"804c009d8e5e5a813d1142fb34d07f22", "e9ab789e48273e7c5add587f3f4e19d9"}},
     {"LocalCommand",

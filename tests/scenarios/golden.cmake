@@ -1,4 +1,4 @@
-# What every shipped scenario gives (golden.json): an entry each, and the same again where the libraries do not see AVX2 and FMA.
+# What every shipped scenario gives (golden.json): an entry each, and the same again where the C library does not see AVX2 and FMA.
 # Only of the release build: sanitizers are too slow for whole missions.
 if(NOT VINEROW_SANITIZE)
   file(GLOB scenarios ${PROJECT_SOURCE_DIR}/assets/scenarios/*.yaml)

@@ -5,7 +5,7 @@ usage: golden.py check  VINEROW SCENARIO [--plain]        one scenario against t
        golden.py start  VINEROW SCENARIO... [--under EMULATOR]  the digest of the first seconds alone
        golden.py record VINEROW [SCENARIO...]             writes the file anew (all of them, or those named)
 
---plain   hides from the libraries what processors since 2011 have (AVX, AVX2, FMA, AVX-512)
+--plain   hides AVX, AVX2, FMA and AVX-512 from the C library (Embree asks the processor itself: for that, --under)
 --under   runs the program by an emulator: --under "qemu-x86_64-static -cpu Nehalem"
 
 The values are the same on every processor. Each entry of the file holds the overrides (`set`) of its run: a run that is too
@@ -27,7 +27,7 @@ SCENARIOS = TREE / "assets" / "scenarios"
 
 # The start of a run, for emulators, which are some thirty times slower.
 START = ["duration_s=3"]
-# What glibc and others choose their code by (GLIBC_TUNABLES) and what Embree may use.
+# What glibc chooses its functions by.
 PLAIN = "glibc.cpu.hwcaps=" + ",".join(
     f"-{feature}" for feature in ("AVX", "AVX2", "FMA", "FMA4", "AVX512F", "AVX_Usable", "AVX2_Usable", "FMA_Usable", "AVX512F_Usable"))
 

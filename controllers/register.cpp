@@ -1,8 +1,8 @@
 #include "controllers/register.h"
 
 #include "controllers/dwa/dwa.h"
-#include "controllers/estimation/error_state_estimator.h"
 #include "controllers/estimation/distance_filter.h"
+#include "controllers/estimation/error_state_estimator.h"
 #include "controllers/estimation/gps_pose.h"
 #include "controllers/estimation/map_localisation.h"
 #include "controllers/estimation/odometry_filter.h"
@@ -12,6 +12,7 @@
 #include "controllers/mpc_nominal/mpc_nominal.h"
 #include "controllers/path_follower/path_follower.h"
 #include "controllers/planning/coverage.h"
+#include "controllers/planning/go_to.h"
 #include "controllers/planning/mission_route.h"
 #include "controllers/planning/row_flight.h"
 #include "controllers/planning/rrt_quartile.h"
@@ -35,6 +36,7 @@ void register_controllers(Registry& registry) {
   registry.add_estimator(gps_pose_spec(), make_gps_pose);
   registry.add_estimator(odometry_filter_spec(), make_odometry_filter);
   registry.add_planner(coverage_spec(), make_coverage);
+  registry.add_planner(go_to_spec(), make_go_to);
   registry.add_planner(mission_route_spec(), make_mission_route);
   registry.add_planner(row_flight_spec(), make_row_flight);
   registry.add_planner(rrt_quartile_spec(), make_rrt_quartile);

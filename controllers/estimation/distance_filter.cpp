@@ -43,7 +43,7 @@ const ParameterTable<DistanceEstimatorParams>& distance_filter_table() {
       ParameterTable<P>()
           .text("ins", &P::ins, "signal of the inertial unit: velocity, attitude, position")
           .text("gps", &P::gps, "signal of the satellite receiver")
-          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+          .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
                    "where the antenna sits in B (x, y, z); taken off the fix")
           .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasounds")
           .boolean("use_map", &P::use_map, "false: satellite fixes and inertial unit only")

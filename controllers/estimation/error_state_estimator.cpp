@@ -74,11 +74,18 @@ class ErrorStateEstimator final : public Estimator {
     const std::optional<Eigen::Vector3d> field_B = sources_.field_B();
     const bool is_long =
         level_count_ > 0 && (imu_.stamp() - level_since_).s() >= options_.levelling_s;
-    const bool has_heading = field_B.has_value() || !sources_.has_compass();
+    const bool waits_for_field = sources_.has_compass() && !field_B.has_value();
+    const bool waits_for_antennas =
+        sources_.has_antennas() && !sources_.heading_rad(Eigen::Quaterniond::Identity());
+    const bool has_heading = sources_.has_antennas() ? !waits_for_antennas : !waits_for_field;
     if (!is_long || fix == nullptr || !fix->valid || !has_heading) return false;
     const Eigen::Vector3d f_B = level_sum_ / level_count_;
-    const double yaw_rad =
-        field_B ? heading_from_field(f_B, *field_B, sources_.north_rad()) : options_.start_yaw_rad;
+    double yaw_rad = options_.start_yaw_rad;
+    if (const auto by_antennas = sources_.heading_rad(level_attitude(f_B, 0.0))) {
+      yaw_rad = *by_antennas;
+    } else if (field_B) {
+      yaw_rad = heading_from_field(f_B, *field_B, sources_.north_rad());
+    }
     NavState state;
     state.q_WB = level_attitude(f_B, yaw_rad);
     state.p_WI = fix->p_W - state.q_WB * sources_.p_IA_B();
@@ -160,7 +167,7 @@ PartSpec error_state_kalman_spec() {
   spec.name = "error_state_kalman";
   spec.description =
       "Inertial navigation held by satellite fixes: error-state Kalman filter with 15 states (Sola "
-      "2017); barometer, magnetometer and wheels where there are any.";
+      "2017); barometer, magnetometer, wheels and two antennas where there are any.";
   spec.parameters = ErrorStateOptions::parameters();
   spec.default_rate_Hz = 100.0;
   spec.reads = {"<imu>",
@@ -168,6 +175,7 @@ PartSpec error_state_kalman_spec() {
                 "<barometer> (optional)",
                 "<magnetometer> (optional)",
                 "<wheels> (optional)",
+                "<heading> (optional)",
                 "truth (start: drawn)"};
   spec.writes = {"estimate", "estimator_state"};
   return spec;

@@ -18,13 +18,15 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
           .text("wheels", &P::wheels,
                 "signal of the wheel speeds of a ground vehicle; empty = none. With it the "
                 "vehicle is also taken not to slide sideways or to leave the ground")
+          .text("heading", &P::heading,
+                "signal of two satellite antennas (gnss_heading); empty = none")
           .choice("start", &P::starts_level, {{"drawn", false}, {"levelling", true}},
                   "drawn: about the truth at the first tick; levelling: tilt by the "
-                  "accelerometer at rest, place by the first fix, heading by the magnetometer "
-                  "or start_yaw_deg")
+                  "accelerometer at rest, place by the first fix, heading by two antennas, by "
+                  "the magnetometer or start_yaw_deg")
           .number("levelling_s", "s", &P::levelling_s, kPositive, "how long levelling takes a mean")
           .degrees("start_yaw_deg", &P::start_yaw_rad, between(-360.0, 360.0),
-                   "heading at the start (levelling without magnetometer)")
+                   "heading at the start (levelling without antennas and magnetometer)")
           .number("start_std_m", "m", &P::start_std_m, kPositive,
                   "1 sigma of each coordinate at the start")
           .number("start_height_std_m", "m", &P::start_height_std_m, between(0.0, 1e3),
@@ -69,6 +71,8 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
                    "1 sigma of the direction of the magnetic field")
           .number("magnetometer_correlation_s", "s", &P::magnetometer_correlation_s,
                   between(0.0, 1e4), "how long an error of that stays")
+          .number("heading_correlation_s", "s", &P::heading_correlation_s, between(0.0, 1e4),
+                  "how long an error of the baseline of two antennas stays")
           .degrees("declination_deg", &P::declination_rad, between(-180.0, 180.0),
                    "magnetic north from true north, positive to the east")
           .number("wheel_std_mps", "m/s", &P::wheel_std_mps, kPositive,

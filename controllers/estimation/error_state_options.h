@@ -11,8 +11,8 @@ namespace vinerow {
 
 struct ErrorStateOptions {
   ErrorStateKalmanParams filter;
-  std::string imu = "imu", gnss = "gps";        ///< signals
-  std::string barometer, magnetometer, wheels;  ///< signals; empty: none
+  std::string imu = "imu", gnss = "gps";                 ///< signals
+  std::string barometer, magnetometer, wheels, heading;  ///< signals; empty: none
 
   bool starts_level = false;  ///< by levelling instead of a draw about the truth
   double levelling_s = 1.0;
@@ -34,6 +34,7 @@ struct ErrorStateOptions {
   double barometer_correlation_s = 10.0;
   double magnetometer_std_rad = rad_from_deg(3.0);
   double magnetometer_correlation_s = 1.0;
+  double heading_correlation_s = 0.0;
   double declination_rad = 0.0;
   double wheel_std_mps = 0.1;
   double lateral_std_mps = 0.1;

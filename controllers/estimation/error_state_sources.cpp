@@ -34,6 +34,7 @@ ErrorStateSources::ErrorStateSources(const ErrorStateOptions& options,
       p_I_barometer_B_(mounting_of(context, options.barometer).p - p_BI_B),
       p_I_constraint_B_(options.constraint_point_B - p_BI_B),
       q_BM_(mounting_of(context, options.magnetometer).q),
+      baseline_axis_B_(mounting_of(context, options.heading).q * Eigen::Vector3d::UnitX()),
       north_rad_(0.5 * kPi - options.declination_rad) {
   if (!options.wheels.empty()) {
     wheel_speed_ = WheelSpeed(*context.vehicle_description, context.part + " (error_state_kalman)");
@@ -45,6 +46,7 @@ void ErrorStateSources::connect(Ports& ports) {
   if (!options_.barometer.empty()) pressure_ = ports.read<PressureSample>(options_.barometer);
   if (!options_.magnetometer.empty()) field_ = ports.read<MagneticSample>(options_.magnetometer);
   if (!options_.wheels.empty()) wheels_ = ports.read<NamedValues>(options_.wheels);
+  if (!options_.heading.empty()) baseline_ = ports.read<GnssHeading>(options_.heading);
 }
 
 void ErrorStateSources::start(Time now) {
@@ -69,6 +71,7 @@ void ErrorStateSources::correct(bool has_reading) {
   take_pressure();
   take_field();
   take_wheels();
+  take_baseline();
   if (has_reading) take_standing();
 }
 
@@ -185,6 +188,27 @@ void ErrorStateSources::take_wheels() {
           sources_[kWheels].inflation(stamp, options_.wheel_correlation_s) * std_mps.cwiseAbs2());
 }
 
+/// The way between two antennas turns with the body: z = R l a, with a along the baseline.
+void ErrorStateSources::take_baseline() {
+  if (!is_due(baseline_, seen_baseline_, sources_[kHeading])) return;
+  const GnssHeading& reading = baseline_.value();
+  if (!reading.valid) return;
+  const Time stamp = baseline_.stamp();
+  const Eigen::Vector3d std_m = reading.std_m.cwiseMax(kLeastStd_m);
+  correct(kHeading, stamp,
+          direction_measurement(filter_.past(stamp), reading.length_m * baseline_axis_B_,
+                                reading.baseline_W),
+          sources_[kHeading].inflation(stamp, options_.heading_correlation_s) * std_m.cwiseAbs2());
+}
+
+std::optional<double> ErrorStateSources::heading_rad(const Eigen::Quaterniond& q_level_B) const {
+  if (!baseline_.connected() || !baseline_.has_value() || !baseline_.value().valid) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d axis = q_level_B * baseline_axis_B_;
+  return wrap_angle(baseline_.value().heading_rad - std::atan2(axis.y(), axis.x()));
+}
+
 void ErrorStateSources::take_standing() {
   const Time now = filter_.time();
   const bool due = options_.standing != ErrorStateOptions::Standing::kOff &&
@@ -206,8 +230,8 @@ void ErrorStateSources::take_standing() {
 }
 
 void ErrorStateSources::name_report(std::vector<std::string>& names) {
-  for (const char* name :
-       {"gnss_position", "gnss_velocity", "barometer", "magnetometer", "wheels", "zero_velocity"}) {
+  for (const char* name : {"gnss_position", "gnss_velocity", "barometer", "magnetometer", "wheels",
+                           "heading", "zero_velocity"}) {
     for (const char* what : {"nis_", "used_", "rejected_"}) {
       names.push_back(std::string(what) + name);
     }

@@ -13,6 +13,7 @@
 #include "controllers/estimation/standing.h"
 #include "controllers/estimation/wheel_speed.h"
 #include "engine/api/messages/commands.h"
+#include "engine/api/messages/heading.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/api/stepped_parts.h"
 
@@ -40,6 +41,9 @@ class ErrorStateSources {
   /// Magnetic field along B's axes; nothing yet: nullopt.
   std::optional<Eigen::Vector3d> field_B() const;
   double north_rad() const { return north_rad_; }
+  bool has_antennas() const { return !options_.heading.empty(); }
+  /// Heading of the body's x axis by two antennas, its tilt given; nothing yet: nullopt.
+  std::optional<double> heading_rad(const Eigen::Quaterniond& q_level_B) const;
 
   /// nis_, used_, rejected_ of each source, and restarts.
   static void name_report(std::vector<std::string>& names);
@@ -47,7 +51,16 @@ class ErrorStateSources {
   std::size_t fill_report(std::vector<double>& values) const;
 
  private:
-  enum Source { kPosition, kVelocity, kBarometer, kMagnetometer, kWheels, kStanding, kSources };
+  enum Source {
+    kPosition,
+    kVelocity,
+    kBarometer,
+    kMagnetometer,
+    kWheels,
+    kHeading,
+    kStanding,
+    kSources
+  };
 
   template <class T>
   bool is_due(const SignalReader<T>& reader, std::uint64_t& seen, MeasurementSource& source);
@@ -60,6 +73,7 @@ class ErrorStateSources {
   void take_pressure();
   void take_field();
   void take_wheels();
+  void take_baseline();
   void take_standing();
 
   const ErrorStateOptions& options_;
@@ -69,6 +83,7 @@ class ErrorStateSources {
   WheelSpeed wheel_speed_;
   Eigen::Vector3d p_IA_B_, p_I_barometer_B_, p_I_constraint_B_;
   Eigen::Quaterniond q_BM_;
+  Eigen::Vector3d baseline_axis_B_;  ///< unit, first to second antenna
   double north_rad_;
   std::array<MeasurementSource, kSources> sources_;
   std::int64_t restarts_ = 0;
@@ -76,11 +91,13 @@ class ErrorStateSources {
   Time last_standing_;
   bool has_pressure_zero_ = false;
   double pressure_zero_m_ = 0.0, pressure_zero_variance_m2_ = 0.0;
-  std::uint64_t seen_fix_ = 0, seen_pressure_ = 0, seen_field_ = 0, seen_wheels_ = 0;
+  std::uint64_t seen_fix_ = 0, seen_pressure_ = 0, seen_field_ = 0, seen_wheels_ = 0,
+                seen_baseline_ = 0;
   SignalReader<GnssFix> gnss_;
   SignalReader<PressureSample> pressure_;
   SignalReader<MagneticSample> field_;
   SignalReader<NamedValues> wheels_;
+  SignalReader<GnssHeading> baseline_;
 };
 
 /// Where a sensor sits; identity where none of that name has a mounting.

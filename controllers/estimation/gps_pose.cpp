@@ -18,7 +18,7 @@ const ParameterTable<GpsPoseParams>& gps_pose_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("gps", &P::gps, "signal of the satellite receiver")
-          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+          .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
                    "where the antenna sits in B (x, y, z); taken off the fix")
           .boolean("extrapolate", &P::extrapolate,
                    "carry the fix on by its velocity until the next one comes")
@@ -31,7 +31,7 @@ class GpsPose final : public Estimator {
   GpsPose(const GpsPoseParams& params, const EstimatorContext& context)
       : gps_name_(params.gps),
         extrapolate_(params.extrapolate),
-        heading_(params.heading, context.period),
+        heading_(params.heading, context.period, context.random("heading")),
         p_BA_(params.p_BA) {}
 
   void connect(Ports& ports) override {
@@ -80,10 +80,10 @@ PartSpec gps_pose_spec() {
   spec.description =
       "Takes the last satellite fix as the position, unfiltered (Martelli, Mocera, Soma 2024, "
       "location "
-      "error), and the heading from the truth or a gyro.";
+      "error), and the heading from a gyro, drawn to the course.";
   spec.parameters = gps_pose_table().specs();
   spec.default_rate_Hz = 40.0;
-  spec.reads = {"<gps>", "truth", "<imu>"};
+  spec.reads = {"<gps>", "<imu>", "truth (start; heading: truth)"};
   spec.writes = {"estimate"};
   return spec;
 }

@@ -16,22 +16,22 @@ const ParameterTable<HeadingParams>& heading_table() {
                   {{"truth", P::Mode::kTruth},
                    {"gyro", P::Mode::kGyro},
                    {"gyro_course", P::Mode::kGyroCourse}},
-                  "truth: without error; gyro: summed yaw rate of the IMU; gyro_course: that, "
-                  "drawn to the course of the satellite velocity")
+                  "gyro: summed yaw rate of the IMU; gyro_course: that, drawn to the course of the "
+                  "satellite velocity; truth: without error, for studies")
           .text("imu", &P::imu, "signal of the IMU (gyro, gyro_course)")
           .number("course_time_s", "s", &P::course_time_s, kPositive,
                   "how fast gyro_course follows the course")
           .number("course_speed_mps", "m/s", &P::course_speed_mps, kPositive,
-                  "slower than this the course is not used");
+                  "slower than this the course is not used")
+          .degrees("start_yaw_std_deg", &P::start_yaw_std_rad, between(0.0, 180.0),
+                   "1 sigma of the heading at which the vehicle was set down (gyro, gyro_course)");
   return table;
 }
 
-std::vector<std::string> HeadingSource::reads() {
-  return {"truth", "<imu>"};
-}
-
-HeadingSource::HeadingSource(const HeadingParams& params, Duration period)
-    : params_(params), period_s_(period.s()) {}
+HeadingSource::HeadingSource(const HeadingParams& params, Duration period, RandomStream random)
+    : params_(params),
+      period_s_(period.s()),
+      start_error_rad_(params.start_yaw_std_rad * random.normal()) {}
 
 void HeadingSource::connect(Ports& ports) {
   truth_ = ports.read<Odometry>("truth");
@@ -50,7 +50,7 @@ void HeadingSource::step(const GnssFix* fix) {
   if (!imu_.has_value() || !truth_.has_value()) return;
   w_WB_B_ = imu_.value().w_WS_S;
   if (!ready_) {
-    yaw_rad_ = yaw_from_quaternion(truth_.value().X_WB.q);
+    yaw_rad_ = yaw_from_quaternion(truth_.value().X_WB.q) + start_error_rad_;
     ready_ = true;
   } else {
     yaw_rad_ += 0.5 * (w_WB_B_.z() + previous_rate_radps_) * period_s_;

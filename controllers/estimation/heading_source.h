@@ -7,28 +7,32 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/stepped_parts.h"
+#include "engine/core/random.h"
+#include "engine/math/angles.h"
 
 namespace vinerow {
 
 /// `heading` of the estimators:
-///   truth        the true attitude (paper B: heading without error)
-///   gyro         yaw rate of the IMU summed up from the true heading at the start; level ground
-///   assumed gyro_course  the same, drawn to the course of the satellite velocity while driving
+///   gyro_course  yaw rate of the IMU summed up from the heading at which the vehicle was set down,
+///                drawn to the course of the satellite velocity while driving; level ground assumed
+///   gyro         the sum alone
+///   truth        the true attitude (paper B: heading without error), for studies; never by default
+/// Who sets a vehicle down knows its heading with `start_yaw_std_deg`: drawn about the truth once.
 struct HeadingParams {
-  enum class Mode { kTruth, kGyro, kGyroCourse } mode = Mode::kTruth;
+  enum class Mode { kTruth, kGyro, kGyroCourse } mode = Mode::kGyroCourse;
   std::string imu = "imu";        ///< signal
   double course_time_s = 5.0;     ///< how fast kGyroCourse follows the course
   double course_speed_mps = 0.3;  ///< slower than this the course is not used
+  double start_yaw_std_rad = rad_from_deg(1.0);
 };
 
-/// `heading`, `imu`, `course_time_s`, `course_speed_mps`
+/// `heading`, `imu`, `course_time_s`, `course_speed_mps`, `start_yaw_std_deg`
 const ParameterTable<HeadingParams>& heading_table();
 
 class HeadingSource {
  public:
-  static std::vector<std::string> reads();
-
-  HeadingSource(const HeadingParams& params, Duration period);
+  /// @param random  draws the error of the heading at the start
+  HeadingSource(const HeadingParams& params, Duration period, RandomStream random);
 
   void connect(Ports& ports);
   /// Advances to `now`. @param fix  a new satellite fix, or nullptr
@@ -43,6 +47,7 @@ class HeadingSource {
   using Mode = HeadingParams::Mode;
   HeadingParams params_;
   double period_s_;
+  double start_error_rad_;
   bool ready_ = false;
   double yaw_rad_ = 0.0;
   double previous_rate_radps_ = 0.0;

@@ -42,7 +42,7 @@ const ParameterTable<MapEstimatorParams>& map_localisation_table() {
       ParameterTable<P>()
           .text("ins", &P::ins, "signal of the aided inertial unit: velocity and attitude")
           .text("gps", &P::gps, "signal of the satellite receiver; '' = none")
-          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+          .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
                    "where the antenna sits in B (x, y, z); taken off the fix")
           .texts("ranges", &P::ranges, "names of the range sensors; empty: all ultrasounds")
           .integer("cone_rays", &P::cone_rays, between(1, 31),

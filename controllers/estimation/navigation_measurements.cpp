@@ -63,6 +63,15 @@ ScalarMeasurement magnetic_measurement(const PastState& state, const Eigen::Vect
   return m;
 }
 
+VectorMeasurement direction_measurement(const PastState& state, const Eigen::Vector3d& v_B,
+                                        const Eigen::Vector3d& z_W) {
+  const Eigen::Vector3d v_W = state.q_WB * v_B;
+  VectorMeasurement m;
+  m.innovation = z_W - v_W;
+  m.H.middleCols<3>(ErrorIndex::kAttitude) = -skew(v_W);
+  return m;
+}
+
 VectorMeasurement standing_rate_measurement(const Eigen::Vector3d& reading_B,
                                             const Eigen::Vector3d& gyro_bias_B) {
   VectorMeasurement m;

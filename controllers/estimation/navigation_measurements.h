@@ -35,6 +35,10 @@ ScalarMeasurement height_measurement(const PastState& state, const Eigen::Vector
 /// east to the left  @pre the field is not vertical
 ScalarMeasurement magnetic_measurement(const PastState& state, const Eigen::Vector3d& field_B,
                                        double north_rad);
+/// A vector z_W of which the body knows that it is v_B along its axes: the way between two
+/// antennas.
+VectorMeasurement direction_measurement(const PastState& state, const Eigen::Vector3d& v_B,
+                                        const Eigen::Vector3d& z_W);
 /// Rate of a body that stands still: the reading is all bias.
 VectorMeasurement standing_rate_measurement(const Eigen::Vector3d& reading_B,
                                             const Eigen::Vector3d& gyro_bias_B);

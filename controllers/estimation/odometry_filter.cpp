@@ -35,7 +35,7 @@ const ParameterTable<OdometryFilterParams>& odometry_filter_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("gps", &P::gps, "signal of the satellite receiver")
-          .numbers("antenna_m", "m", &P::p_BA, kAnyNumber,
+          .numbers("antenna_m", "m", &P::p_BA, between(-100.0, 100.0),
                    "where the antenna sits in B (x, y, z); taken off the fix")
           .choice("odometry_source", &P::source,
                   {{"command", P::Source::kCommand},
@@ -79,7 +79,7 @@ class OdometryFilter final : public Estimator {
         gps_std_m_(params.gps_std_m),
         period_s_(context.period.s()),
         filter_(make_kalman_params(params)),
-        heading_(params.heading, context.period),
+        heading_(params.heading, context.period, context.random("heading")),
         p_BA_(params.p_BA) {
     if (source_ == Source::kWheels) {
       const std::string who = context.part + " (odometry_filter)";
@@ -228,7 +228,7 @@ PartSpec odometry_filter_spec() {
       "Kalman gain (position and odometry scale) or a fixed one.";
   spec.parameters = odometry_filter_table().specs();
   spec.default_rate_Hz = 40.0;
-  spec.reads = {"<gps>", "truth", "<imu>", "command or <wheels>"};
+  spec.reads = {"<gps>", "<imu>", "command or <wheels>", "truth (start; heading: truth)"};
   spec.writes = {"estimate"};
   return spec;
 }

@@ -28,9 +28,8 @@ class FixedWingLqr final : public Controller {
  public:
   FixedWingLqr(const FixedWingLqrParams& params, const ControllerContext& context)
       : ports_(context, "fixed_wing_lqr", params.limits) {
-    const AircraftLaws laws =
-        make_aircraft_laws(ports_.aircraft(), ports_.trims().level(), context.period.s(),
-                           params.weights, who(context));
+    const AircraftLaws laws = make_aircraft_laws(ports_.aircraft(), ports_.trims().cruise().level(),
+                                                 context.period.s(), params.weights, who(context));
     K_lon_ = laws.lon.K;
     K_lat_ = laws.lat.K;
   }

@@ -53,16 +53,15 @@ const ParameterTable<FourWheelParams>& four_wheel_table() {
                   "eps of the velocity QP (paper A: 0.001 to 0.01)")
           .number("rolling_weight", "", qp(&WheelSpeedParams::rolling_weight), kPositive,
                   "rho of the velocity QP: weight of the rolling speeds")
-          .number("wheel_acceleration_mps2", "m/s2", &P::wheel_acceleration_mps2,
-                  between(0.0, 1e3),
+          .number("wheel_acceleration_mps2", "m/s2", &P::wheel_acceleration_mps2, between(0.0, 1e3),
                   "limit of each rim's acceleration inside the QP; 0 = none. Where it leaves "
-                  "no solution the vehicle stops");
+                  "no solution the vehicle stops")
+          .include(&P::watch, path_watch_table());
   return table;
 }
 
-FourWheelParams read_four_wheel_params(const ParameterSet& parameters,
-                                       const SteeredDrive& vehicle, double cycle_s,
-                                       const std::string& who) {
+FourWheelParams read_four_wheel_params(const ParameterSet& parameters, const SteeredDrive& vehicle,
+                                       double cycle_s, const std::string& who) {
   FourWheelParams params = four_wheel_table().read(parameters, who);
   params.steering.max_axle_rad = vehicle.max_axle_steer_rad;
   if (params.steering.form == SteeringForm::kPrinted) params.feed_forward = false;

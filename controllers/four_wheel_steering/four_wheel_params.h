@@ -8,6 +8,7 @@
 #include "controllers/four_wheel_steering/steered_vehicle.h"
 #include "controllers/four_wheel_steering/steering_law.h"
 #include "controllers/four_wheel_steering/wheel_speeds.h"
+#include "controllers/parts/path_watch.h"
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/parameters.h"
 
@@ -23,14 +24,14 @@ struct FourWheelParams {
   double wheel_acceleration_mps2 = 0.0;  ///< of each rim; 0: no limit
   double slip_learn_s = 0.4;
   double goal_tolerance_m = 0.05;
+  PathWatchParams watch;
   double cycle_s = 0.02;
 };
 
 const ParameterTable<FourWheelParams>& four_wheel_table();
 
 /// With what follows from the vehicle and the cycle. @param who  begins errors
-FourWheelParams read_four_wheel_params(const ParameterSet& parameters,
-                                       const SteeredDrive& vehicle, double cycle_s,
-                                       const std::string& who);
+FourWheelParams read_four_wheel_params(const ParameterSet& parameters, const SteeredDrive& vehicle,
+                                       double cycle_s, const std::string& who);
 
 }  // namespace vinerow

@@ -13,7 +13,10 @@
 #include "controllers/four_wheel_steering/steered_vehicle.h"
 #include "controllers/four_wheel_steering/steering_law.h"
 #include "controllers/four_wheel_steering/wheel_speeds.h"
+#include "controllers/parts/path_watch.h"
+#include "controllers/parts/plan_speed.h"
 #include "controllers/parts/stop_profile.h"
+#include "engine/api/may_fail.h"
 #include "engine/api/messages/event.h"
 #include "engine/api/parameter_table.h"
 #include "engine/core/check.h"
@@ -35,17 +38,18 @@ struct Drive {
   double speed_mps = 0.0;
 };
 
-class FourWheelSteering final : public Controller {
+class FourWheelSteering final : public Controller, public MayFail {
  public:
   FourWheelSteering(const ParameterSet& parameters, const ControllerContext& context)
       : part_(context.part),
         vehicle_(read_steered_vehicle(*context.vehicle_description, describe(context))),
-        params_(read_four_wheel_params(parameters, vehicle_, context.period.s(),
-                                       describe(context))),
+        params_(
+            read_four_wheel_params(parameters, vehicle_, context.period.s(), describe(context))),
         tracker_(params_.reference),
         axles_(vehicle_),
         slip_(params_.slip_learn_s),
         stop_(params_.drive.acceleration_mps2),
+        watch_(params_.watch),
         wheels_(params_.wheels),
         actuator_values_(make_steered_actuators()) {
     steering_values_.names = {"front_des_rad", "rear_des_rad",     "front_act_rad",
@@ -69,7 +73,7 @@ class FourWheelSteering final : public Controller {
   }
 
   void step(Time now) override {
-    if (plan_.is_newer_than(seen_plan_)) take_plan();
+    if (plan_.is_newer_than(seen_plan_)) take_plan(now);
     axles_.advance(params_.cycle_s);
     if (encoders_.has_value()) axles_.measure(encoders_.value());
 
@@ -91,19 +95,25 @@ class FourWheelSteering final : public Controller {
   bool finished() const override {
     return state_.finished && !wheels_.has_failed() && wheels_.rim_mps().isZero(0.0);
   }
+  std::string_view failure() const override { return watch_.failure(); }
 
  private:
-  void take_plan() {
+  void take_plan(Time now) {
+    const std::string slower =
+        tell_plan_too_fast(plan_.value(), params_.drive.speed_mps, "speed_mps");
+    if (!slower.empty()) event_.write(now, {Event::Level::kWarning, part_, slower});
     tracker_.set_path(plan_.value());
     state_ = {};
     stop_.reset();
+    watch_.reset();
     state_.finished = tracker_.path().empty();
     state_.remaining_m = tracker_.path().length_m();
     if (!tracker_.path().empty()) profile_ = DriveProfile(tracker_.path(), params_.drive);
   }
 
   bool can_follow() const {
-    return estimate_.has_value() && !tracker_.path().empty() && !state_.finished;
+    return estimate_.has_value() && !tracker_.path().empty() && !state_.finished &&
+           !watch_.is_lost();
   }
 
   /// Standing still keeps the axles where they are: turning them on the spot wears the tyres.
@@ -112,7 +122,9 @@ class FourWheelSteering final : public Controller {
     if (estimate_.has_value()) learn();
     most_mps_ = std::numeric_limits<double>::infinity();
     if (can_follow()) drive = follow();
-    if (local_.has_value() && !state_.finished) drive = obey(local_.value(), drive);
+    if (local_.has_value() && !state_.finished && !watch_.is_lost()) {
+      drive = obey(local_.value(), drive);
+    }
     drive.speed_mps = std::min(drive.speed_mps, most_mps_);
     if (stop_.is_holding() && drive.speed_mps == 0.0) drive.axles = axles_.wanted();
     return drive;
@@ -155,6 +167,12 @@ class FourWheelSteering final : public Controller {
     state_.remaining_m = path.length_m() - reference.at.distance_m;
     state_.waypoint = reference.at.segment;
     state_.finished = state_.remaining_m < params_.goal_tolerance_m;
+    // A local planner that drives by itself may do so as long as it likes.
+    const bool is_driven = local_.has_value() && local_.value().mode == LocalCommand::Mode::kDrive;
+    watch_.update({X_WB.p.head<2>(), path.pose_at(state_.distance_m, state_.waypoint).p,
+                   state_.distance_m, path.length_m(),
+                   is_driven ? 0.0 : std::max(speed_mps_, 0.0) * params_.cycle_s});
+    if (watch_.is_lost()) return {axles_.wanted(), 0.0};
     stop_.set_place(read_stop_at_m(authority_));
     most_mps_ = stop_.update(state_.distance_m);
     if (state_.finished) return {axles_.wanted(), 0.0};
@@ -227,6 +245,7 @@ class FourWheelSteering final : public Controller {
   AxleState axles_;
   SlipLearning slip_;
   StopProfile stop_;
+  PathWatch watch_;
   WheelSpeeds wheels_;
   FollowerState state_;
   double speed_mps_ = 0.0;                                     ///< commanded, of B's origin

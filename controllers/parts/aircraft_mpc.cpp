@@ -28,7 +28,7 @@ class AircraftMpc final : public Controller {
               const AircraftTubeParams& params)
       : part_(context.part),
         ports_(context, type, params.limits),
-        tube_(ports_.aircraft(), ports_.trims().level(), context.period.s(), params,
+        tube_(ports_.aircraft(), ports_.trims().cruise().level(), context.period.s(), params,
               fmt::format("{} ({})", context.part, type)) {
     for (const char* axis : {"lon", "lat"}) {
       for (const char* value : kTubeValues) {

@@ -16,6 +16,9 @@ namespace {
 constexpr double kFlownShare = 0.8;
 /// Banks of references change no faster than this: 115 deg/s.
 constexpr double kFastestRoll_radps = 2.0;
+/// Airspeeds that trims are worked out for, as shares of the cruise speed; beyond them the nearest
+/// counts, as a deviation.
+constexpr double kSlowestShare = 0.7, kFastestShare = 1.5;
 /// Rounding, as a share of a limit.
 constexpr double kRounding = 1e-9;
 
@@ -30,13 +33,14 @@ AircraftPorts::AircraftPorts(const ControllerContext& context, const std::string
                              const AircraftLimits& limits)
     : aircraft_(read_aircraft(*context.vehicle_description, context.gravity_mps2,
                               part_name(context, type))),
-      trims_(aircraft_, aircraft_.cruise_speed_mps, aircraft_.max_bank_rad,
+      trims_(aircraft_, kSlowestShare * aircraft_.cruise_speed_mps,
+             kFastestShare * aircraft_.cruise_speed_mps, aircraft_.max_bank_rad,
              part_name(context, type)),
       limits_(limits),
-      trim_(trims_.at(0.0, 0.0)),
+      trim_(trims_.cruise().at(0.0, 0.0)),
       period_s_(context.period.s()),
       bank_before_rad_(std::numeric_limits<double>::quiet_NaN()) {
-  const LinearAxis lateral = linearise(aircraft_, trims_.level()).lateral;
+  const LinearAxis lateral = linearise(aircraft_, trims_.cruise().level()).lateral;
   aileron_per_roll_rate_s_ = -lateral.A(1, 1) / lateral.B(1, 0);
   for (const ActuatorSpec& actuator : aircraft_.actuators) {
     actuator_values_.names.push_back(actuator.name);
@@ -84,19 +88,21 @@ void AircraftPorts::add_roll_rate(double bank_rad) {
   // What steps is no roll: a reference that begins, or begins anew.
   if (!(std::abs(rate_radps) <= kFastestRoll_radps)) return;
   trim_.p_radps += rate_radps;
-  trim_.controls.aileron_rad += aileron_per_roll_rate_s_ * rate_radps;
+  // Damping goes with the airspeed, the aileron's moment with its square.
+  const double slower = trims_.cruise().airspeed_mps() / trims_.within(reference().airspeed_mps);
+  trim_.controls.aileron_rad += aileron_per_roll_rate_s_ * slower * rate_radps;
 }
 
 void AircraftPorts::take_over() {
   const Odometry& odometry = estimate();
   const AirReference& wanted = reference();
-  trim_ = trims_.at(wanted.climb_angle_rad, wanted.bank_rad);
+  trim_ = trims_.at(wanted.airspeed_mps, wanted.climb_angle_rad, wanted.bank_rad);
   add_roll_rate(wanted.bank_rad);
   const RollPitchYaw rpy = rpy_from_quaternion(odometry.X_WB.q);
   const Eigen::Vector3d v_air_B = odometry.v_WB_B - odometry.X_WB.q.conjugate() * wanted.wind_W;
   const Eigen::Vector3d& w_B = odometry.w_WB_B;
   const double faster_mps =
-      wanted.airspeed_mps > 0.0 ? wanted.airspeed_mps - trims_.airspeed_mps() : 0.0;
+      wanted.airspeed_mps > 0.0 ? wanted.airspeed_mps - trims_.within(wanted.airspeed_mps) : 0.0;
   deviation_.lon << v_air_B.x() - trim_.u_mps - faster_mps, -v_air_B.z() - trim_.w_mps,
       -w_B.y() - trim_.q_radps, -rpy.pitch_rad - trim_.pitch_rad,
       odometry.X_WB.p.z() - wanted.height_m;
@@ -104,9 +110,8 @@ void AircraftPorts::take_over() {
   deviation_.lat << -v_air_B.y() - trim_.v_mps, w_B.x() - trim_.p_radps, -w_B.z() - trim_.r_radps,
       wrap_angle(rpy.roll_rad - trim_.roll_rad),
       std::isfinite(turned_rad) ? wrap_angle(turned_rad) : turned_rad;
-  is_launching_ =
-      wanted.phase == AirReference::Phase::kLaunch &&
-      v_air_B.norm() < kFlownShare * wanted.airspeed_mps;
+  is_launching_ = wanted.phase == AirReference::Phase::kLaunch &&
+                  v_air_B.norm() < kFlownShare * wanted.airspeed_mps;
   if (!deviation_.lon.allFinite() || !deviation_.lat.allFinite()) deviation_ = {};
 }
 

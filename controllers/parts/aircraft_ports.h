@@ -36,7 +36,7 @@ class AircraftPorts {
   void connect(Ports& ports);
 
   const Aircraft& aircraft() const { return aircraft_; }
-  const TrimTable& trims() const { return trims_; }
+  const TrimTables& trims() const { return trims_; }
   bool has_estimate() const { return estimate_.has_value(); }
   bool has_reference() const { return reference_.has_value(); }
   const Odometry& estimate() const { return estimate_.value(); }
@@ -77,7 +77,7 @@ class AircraftPorts {
   void write_follower(Time now);
 
   Aircraft aircraft_;
-  TrimTable trims_;
+  TrimTables trims_;
   AircraftLimits limits_;
   AircraftDeviation deviation_;
   TrimPoint trim_;

@@ -12,6 +12,7 @@ DrivePorts::DrivePorts(const ControllerContext& context, const std::string& type
   if (context.period.ns <= 0) {
     throw ConfigError(fmt::format("{}: rate_Hz must be > 0", who));
   }
+  part_ = context.part;
   drive_ = DifferentialDrive(*context.vehicle_description, who);
   actuator_values_ = drive_.make_actuators();
 }
@@ -23,6 +24,7 @@ void DrivePorts::connect(Ports& ports) {
   actuators_ = ports.write<NamedValues>("actuators");
   command_ = ports.write<VelocityCommand>("command");
   follower_ = ports.write<FollowerState>("follower");
+  event_ = ports.write<Event>("controller_event");
 }
 
 Pose2 DrivePorts::pose() const {

@@ -4,6 +4,7 @@
 #include "controllers/parts/differential_drive.h"
 #include "controllers/parts/pose2.h"
 #include "controllers/parts/stop_profile.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {
@@ -16,6 +17,11 @@ class DrivePorts {
   DrivePorts(const ControllerContext& context, const std::string& type);
 
   void connect(Ports& ports);
+
+  /// For people. Allocates.
+  void tell(Time now, Event::Level level, const std::string& text) {
+    event_.write(now, {level, part_, text});
+  }
 
   /// True once per new plan.
   bool has_new_plan() { return plan_.is_newer_than(seen_plan_); }
@@ -38,6 +44,7 @@ class DrivePorts {
 
  private:
   DifferentialDrive drive_;
+  std::string part_;
   NamedValues actuator_values_;
   std::uint64_t seen_plan_ = 0;
   SignalReader<Odometry> estimate_;
@@ -46,6 +53,7 @@ class DrivePorts {
   SignalWriter<NamedValues> actuators_;
   SignalWriter<VelocityCommand> command_;
   SignalWriter<FollowerState> follower_;
+  SignalWriter<Event> event_;
 };
 
 }  // namespace vinerow

@@ -55,6 +55,7 @@ Footprint::Footprint(const DistanceField& field, std::vector<Eigen::Vector2d> ou
     for (int k = 0; k < parts; ++k) edge_B_.push_back(a + (b - a) * k / parts);
   }
   edge_reach_m_ = 0.5 * spacing_m;
+  for (const Eigen::Vector2d& p : outline_B_) farthest_m_ = std::max(farthest_m_, p.norm());
   // What lies wholly inside the outline touches none of its edges. Points inside see it: discs
   // around them, as large as the outline has room for, cover the inside but for a thin rim. Rings
   // of discs that touch the edges, each ring's three times as large as those of the one before, and
@@ -94,16 +95,35 @@ double Footprint::clearance_m(const Pose2& pose) const {
 }
 
 bool Footprint::is_free(const Pose2& pose) const {
+  return is_clear(pose, std::max(margin_m_, edge_reach_m_), margin_m_);
+}
+
+bool Footprint::is_clear(const Pose2& pose, double room_m, double far_room_m) const {
   const Eigen::Vector2d ahead = direction(pose.yaw_rad), left = left_of(ahead);
   bool is_far = true;
   for (const Circle& circle : cover_) {
     const double distance_m =
         field_->at(pose.p + circle.centre_B.x() * ahead + circle.centre_B.y() * left);
     if (distance_m <= 0.0) return false;
-    is_far = is_far && distance_m >= circle.radius_m + margin_m_;
+    is_far = is_far && distance_m >= circle.radius_m + far_room_m;
   }
   if (is_far) return true;
-  return clearance_m(pose) >= std::max(margin_m_, edge_reach_m_);
+  return clearance_m(pose) >= room_m;
+}
+
+/// A point of the outline moves by at most (1 + |curvature| r) per metre driven, so what is clear
+/// in the middle by that times half the way is clear all along it.
+bool Footprint::is_swept_clear(const Pose2& start, double from_m, double to_m,
+                               double curvature_per_m, double least_m) const {
+  constexpr double kShortest_m = 1e-3;
+  const double middle_m = 0.5 * (from_m + to_m), half_m = 0.5 * std::abs(to_m - from_m);
+  const Pose2 pose = advance(start, middle_m, middle_m * curvature_per_m);
+  const double reach_m = half_m * (1.0 + std::abs(curvature_per_m) * farthest_m_);
+  if (is_clear(pose, least_m + reach_m, least_m + reach_m)) return true;
+  if (!is_clear(pose, least_m, least_m)) return false;
+  if (half_m < kShortest_m) return true;
+  return is_swept_clear(start, from_m, middle_m, curvature_per_m, least_m) &&
+         is_swept_clear(start, middle_m, to_m, curvature_per_m, least_m);
 }
 
 bool Footprint::is_free_along(const Pose2& start, double length_m, double curvature_per_m,
@@ -112,6 +132,14 @@ bool Footprint::is_free_along(const Pose2& start, double length_m, double curvat
   for (int i = 0; i <= parts; ++i) {
     const double s = length_m * i / parts;
     if (!is_free(advance(start, s, s * curvature_per_m))) return false;
+  }
+  constexpr double kNick_m = 0.01;
+  const double least_m = std::max(margin_m_ - kNick_m, edge_reach_m_);
+  for (int i = 0; i < parts; ++i) {
+    if (!is_swept_clear(start, length_m * i / parts, length_m * (i + 1) / parts, curvature_per_m,
+                        least_m)) {
+      return false;
+    }
   }
   return true;
 }

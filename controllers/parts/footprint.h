@@ -28,8 +28,8 @@ class Footprint {
   double clearance_m(const Pose2& pose) const;
   /// clearance_m(pose) >= margin, without working it out where a cheap test suffices.
   bool is_free(const Pose2& pose) const;
-  /// All poses along an arc, at most `step_m` apart, ends included. @param length_m  negative:
-  /// backwards
+  /// All poses along an arc at most `step_m` apart, ends included, and no touch between them: there
+  /// the outline keeps what is left of the margin less 1 cm. @param length_m  negative: backwards
   bool is_free_along(const Pose2& start, double length_m, double curvature_per_m,
                      double step_m) const;
   /// Least clearance along an arc.
@@ -41,6 +41,11 @@ class Footprint {
   const std::vector<Eigen::Vector2d>& outline_B() const { return outline_B_; }
 
  private:
+  /// clearance_m(pose) >= room_m, likewise; the circles that hold the outline need far_room_m.
+  bool is_clear(const Pose2& pose, double room_m, double far_room_m) const;
+  /// Whether nothing comes nearer than `least_m` on an arc; by halves, down to 1 mm.
+  bool is_swept_clear(const Pose2& start, double from_m, double to_m, double curvature_per_m,
+                      double least_m) const;
   struct Circle {
     Eigen::Vector2d centre_B;
     double radius_m;
@@ -53,6 +58,7 @@ class Footprint {
   std::vector<Circle> cover_;            // together they hold the outline
   std::vector<Eigen::Vector2d> edge_B_;  // samples of the outline
   double edge_reach_m_ = 0.0;            // half the distance between samples
+  double farthest_m_ = 0.0;              // of the outline from B's origin
   std::vector<Circle> inside_B_;         // discs that touch the outline from inside
 };
 

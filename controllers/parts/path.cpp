@@ -70,6 +70,13 @@ double Path::turn_between_rad(double a_m, double b_m, int hint) const {
   return turn;
 }
 
+double Path::jump_at(int segment) const {
+  if (segment == 0) return 0.0;
+  const Segment& before = segments_[segment - 1];
+  const double arrival_rad = before.start.yaw_rad + before.length_m * before.curvature_per_m;
+  return wrap_angle(segments_[segment].start.yaw_rad - arrival_rad);
+}
+
 Path::Nearest Path::nearest(const Eigen::Vector2d& p, double from_m, double to_m, int hint) const {
   VINEROW_ASSERT(!empty());
   Nearest best;

@@ -45,6 +45,8 @@ class Path {
     return segments_[segment].start_m + segments_[segment].length_m;
   }
   double curvature_of(int segment) const { return segments_[segment].curvature_per_m; }
+  /// By how much the direction jumps where a segment begins, positive to the left, in (-pi, pi].
+  double jump_at(int segment) const;
 
   /// Nearest point between two distances along the path. The window keeps a follower from jumping
   /// to another pass of the path. Beyond either end of the path the error is measured from its

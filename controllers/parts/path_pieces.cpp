@@ -1,15 +1,19 @@
 #include "controllers/parts/path_pieces.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/check.h"
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
 namespace {
 constexpr double kShortestPiece_m = 1e-6;
-}
+constexpr double kMostPoints = 2e6;  // 100 bytes each
+}  // namespace
 
 PathPiece make_straight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, PathKind kind,
                         int alley, double speed_mps) {
@@ -29,6 +33,14 @@ void append_dubins(const Pose2& start, const DubinsPath& dubins, PathKind kind, 
 
 PlannedPath make_planned_path(const std::vector<PathPiece>& pieces, double pitch_m) {
   VINEROW_DEMAND(pitch_m > 0.0);
+  double length_m = 0.0;
+  for (const PathPiece& piece : pieces) length_m += piece.length_m;
+  if (length_m / pitch_m > kMostPoints) {
+    throw ConfigError(fmt::format(
+        "a plan of {:.4g} km with a point every {:.3g} m has {:.3g} million points, must be at "
+        "most {:g} million: take a coarser waypoint_pitch_m",
+        length_m / 1e3, pitch_m, length_m / pitch_m / 1e6, kMostPoints / 1e6));
+  }
   PlannedPath path;
   const auto add_point = [&path](const PathPiece& piece, const Pose2& pose) {
     PathPoint point;

@@ -36,6 +36,7 @@ void append_dubins(const Pose2& start, const DubinsPath& dubins, PathKind kind, 
 /// ends are waypoints (paper B: waypoint pitch WPP). Heights are zero. Pieces shorter than a
 /// micrometre are left out.
 /// @param pitch_m  > 0
+/// @throws ConfigError where they are more than 2 million
 PlannedPath make_planned_path(const std::vector<PathPiece>& pieces, double pitch_m);
 
 }  // namespace vinerow

@@ -153,4 +153,43 @@ TrimPoint TrimTable::at(double climb_angle_rad, double bank_rad) const {
   return trim_between(along_climb(j), along_climb(j + 1), t);
 }
 
+TrimTables::TrimTables(const Aircraft& aircraft, double least_mps, double most_mps,
+                       double max_bank_rad, const std::string& who) {
+  const double cruise_mps = aircraft.cruise_speed_mps;
+  const auto add = [&](int step) {
+    tables_.emplace_back(aircraft, cruise_mps + step * kSpeedStep_mps, max_bank_rad, who);
+  };
+  const auto flies = [&](int step) {
+    const double speed_mps = cruise_mps + step * kSpeedStep_mps;
+    return speed_mps >= least_mps && speed_mps <= most_mps &&
+           TableMaker(aircraft, speed_mps).climbs_at(0.0).has_value() &&
+           find_trim(aircraft, {speed_mps, 0.0, 0.0}).ok();
+  };
+  int slowest = 0, fastest = 0;
+  while (flies(slowest - 1)) --slowest;
+  while (flies(fastest + 1)) ++fastest;
+  for (int step = slowest; step <= fastest; ++step) add(step);
+  cruise_ = static_cast<std::size_t>(-slowest);
+}
+
+double TrimTables::within(double airspeed_mps) const {
+  if (!(airspeed_mps > 0.0)) return cruise().airspeed_mps();
+  return std::clamp(airspeed_mps, least_mps(), most_mps());
+}
+
+TrimPoint TrimTables::at(double airspeed_mps, double climb_angle_rad, double bank_rad) const {
+  // Counted from the cruise speed, so that there it meets its table without rounding.
+  const double x = (within(airspeed_mps) - cruise().airspeed_mps()) / kSpeedStep_mps;
+  const double floor_x = std::floor(x);
+  const auto last = static_cast<std::ptrdiff_t>(tables_.size()) - 1;
+  const std::ptrdiff_t i =
+      std::clamp(static_cast<std::ptrdiff_t>(cruise_) + static_cast<std::ptrdiff_t>(floor_x),
+                 std::ptrdiff_t{0}, last);
+  const TrimPoint low = tables_[static_cast<std::size_t>(i)].at(climb_angle_rad, bank_rad);
+  const double share = x - floor_x;
+  if (share == 0.0 || i == last) return low;
+  return trim_between(low, tables_[static_cast<std::size_t>(i) + 1].at(climb_angle_rad, bank_rad),
+                      share);
+}
+
 }  // namespace vinerow

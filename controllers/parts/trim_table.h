@@ -1,5 +1,5 @@
 #pragma once
-/// Trims over climb angle and bank at one airspeed, worked out once and interpolated in a step.
+/// Trims over airspeed, climb angle and bank, worked out once and interpolated in a step.
 
 #include <string>
 #include <vector>
@@ -41,6 +41,32 @@ class TrimTable {
   int climbs_ = 0, half_banks_ = 0;  // intervals of climb; of bank to one side
   std::vector<TrimPoint> points_;    // climbs_ + 1 x 2 half_banks_ + 1, climbs fastest
   Trim level_;
+};
+
+/// Tables at several airspeeds about the cruise speed, kSpeedStep_mps apart.
+class TrimTables {
+ public:
+  static constexpr double kSpeedStep_mps = 1.0;
+
+  /// Airspeeds that level flight is possible at, from the cruise speed as far as the least and the
+  /// most. @throws ConfigError as TrimTable does at the cruise speed
+  TrimTables(const Aircraft& aircraft, double least_mps, double most_mps, double max_bank_rad,
+             const std::string& who);
+
+  /// Linear in the airspeed, which is limited to that of the tables; exactly the table's trim at
+  /// the cruise speed. No heap.
+  TrimPoint at(double airspeed_mps, double climb_angle_rad, double bank_rad) const;
+  /// The airspeed as far as there are trims; the cruise speed where it is not told (0, NaN).
+  double within(double airspeed_mps) const;
+
+  double least_mps() const { return tables_.front().airspeed_mps(); }
+  double most_mps() const { return tables_.back().airspeed_mps(); }
+  /// At the cruise speed.
+  const TrimTable& cruise() const { return tables_[cruise_]; }
+
+ private:
+  std::vector<TrimTable> tables_;  // airspeed rises by kSpeedStep_mps
+  std::size_t cruise_ = 0;
 };
 
 }  // namespace vinerow

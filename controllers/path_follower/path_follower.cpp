@@ -7,8 +7,11 @@
 #include <optional>
 
 #include "controllers/parts/drive_ports.h"
+#include "controllers/parts/path_watch.h"
+#include "controllers/parts/plan_speed.h"
 #include "controllers/path_follower/path_follower_law.h"
 #include "controllers/path_follower/slip_estimate.h"
+#include "engine/api/may_fail.h"
 #include "engine/api/parameter_table.h"
 
 namespace vinerow {
@@ -18,6 +21,7 @@ namespace {
 struct FollowerParams {
   PathFollowerParams law;
   SlipEstimateParams slip;
+  PathWatchParams watch;
   std::optional<double> turn_effectiveness;
   double speed_gain = 1.0;
   double wheel_yaw_max_radps = 6.0;
@@ -53,8 +57,7 @@ const ParameterTable<FollowerParams>& follower_table() {
           .number("acceleration_mps2", "m/s2", speed(&SpeedLimits::acceleration_mps2), kPositive,
                   "speeding up and braking")
           .number("lateral_acceleration_mps2", "m/s2",
-                  speed(&SpeedLimits::lateral_acceleration_mps2), kPositive,
-                  "slows down in turns")
+                  speed(&SpeedLimits::lateral_acceleration_mps2), kPositive, "slows down in turns")
           .number("turn_rate_radps", "rad/s", speed(&SpeedLimits::yaw_rate_radps), kPositive,
                   "yaw rate of the planned turns: slows down so that v kappa stays below")
           .number("yaw_rate_max_radps", "rad/s", law(&Law::yaw_rate_max_radps), kPositive,
@@ -76,6 +79,7 @@ const ParameterTable<FollowerParams>& follower_table() {
                   "time over which slip and slide are learnt; 0 = kept as at the start")
           .number("goal_tolerance_m", "m", law(&Law::goal_tolerance_m), kPositive,
                   "the mission ends this far before the path's end")
+          .include(&P::watch, path_watch_table())
           .rule(find_fault_in_lookahead);
   return table;
 }
@@ -84,6 +88,7 @@ FollowerParams read_params(const ParameterSet& parameters, const ControllerConte
   FollowerParams params = follower_table().read(parameters, context.part + " (path_follower)");
   params.law.cycle_s = context.period.s();
   params.slip.response_s = params.law.response_s;
+  params.law.speed.corner_m = params.law.lookahead_min_m;
   const VehicleDescription& vehicle = *context.vehicle_description;
   if (params.turn_effectiveness) {
     params.slip.effectiveness = *params.turn_effectiveness;
@@ -95,12 +100,14 @@ FollowerParams read_params(const ParameterSet& parameters, const ControllerConte
 
 constexpr double kOverspeedFilter_s = 0.1;
 
-class PathFollower final : public Controller {
+class PathFollower final : public Controller, public MayFail {
  public:
   PathFollower(const FollowerParams& params, const ControllerContext& context)
       : ports_(context, "path_follower"),
         law_(params.law),
         slip_(params.slip),
+        watch_(params.watch),
+        speed_mps_(params.law.speed.speed_mps),
         period_s_(context.period.s()),
         speed_gain_(params.speed_gain),
         wheel_yaw_max_radps_(params.wheel_yaw_max_radps),
@@ -109,15 +116,21 @@ class PathFollower final : public Controller {
   void connect(Ports& ports) override { ports_.connect(ports); }
 
   void step(Time now) override {
-    if (ports_.has_new_plan()) law_.set_path(ports_.plan());
+    if (ports_.has_new_plan()) {
+      law_.set_path(ports_.plan());
+      watch_.reset();
+      const std::string slower = tell_plan_too_fast(ports_.plan(), speed_mps_, "speed_mps");
+      if (!slower.empty()) ports_.tell(now, Event::Level::kWarning, slower);
+    }
     VelocityCommand command;
-    if (ports_.has_estimate()) {
+    if (ports_.has_estimate() && !watch_.is_lost()) {
       const Odometry& estimate = ports_.estimate();
       slip_.update(wheels_.yaw_rate_radps, estimate.w_WB_B.z(), estimate.v_WB_B.head<2>(),
                    period_s_);
       overspeed_mps_ += overspeed_share_ * (estimate.v_WB_B.x() - commanded_mps_ - overspeed_mps_);
       law_.set_stop(ports_.stop_at_m());
       command = law_.step(ports_.pose(), slip_.slide(), overspeed_mps_);
+      if (law_.has_path() && !law_.finished()) watch(command.v_mps);
     }
     // The wheels turn harder than the vehicle is to turn, by what slips away.
     commanded_mps_ = command.v_mps;
@@ -131,11 +144,20 @@ class PathFollower final : public Controller {
   }
 
   bool finished() const override { return law_.finished(); }
+  std::string_view failure() const override { return watch_.failure(); }
 
  private:
+  void watch(double speed_mps) {
+    const FollowerState state = law_.state();
+    watch_.update({ports_.pose().p, law_.path().pose_at(state.distance_m, state.waypoint).p,
+                   state.distance_m, law_.path().length_m(), speed_mps * period_s_});
+  }
+
   DrivePorts ports_;
   PathFollowerLaw law_;
   SlipEstimate slip_;
+  PathWatch watch_;
+  double speed_mps_;  ///< on straights
   double period_s_;
   double speed_gain_;
   double wheel_yaw_max_radps_;
@@ -158,7 +180,7 @@ PartSpec path_follower_spec() {
   spec.parameters = follower_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"estimate", "plan", "authority"};
-  spec.writes = {"actuators", "command", "follower"};
+  spec.writes = {"actuators", "command", "follower", "controller_event"};
   return spec;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/parts/path_corners.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
@@ -11,7 +12,9 @@ constexpr double kSearchBehind_m = 0.5;  // a noisy position may lie behind the 
 constexpr double kSearchAhead_m = 1.0;
 constexpr double kFirstSearch_m = 3.0;  // where to look for a vehicle that just got its path
 constexpr double kSteepestApproach =
-    0.8;  // sine of the angle at which a distant path is approached
+    0.8;                                 // sine of the angle at which a distant path is approached
+constexpr double kSpotGain_per_s = 2.0;  // turning on the spot: yaw rate per heading error
+constexpr double kTurned_rad = 0.087;    // 5 deg: the law takes over
 }  // namespace
 
 void PathFollowerLaw::set_path(const PlannedPath& plan) {
@@ -24,6 +27,12 @@ void PathFollowerLaw::set_path(const PlannedPath& plan) {
   integral_m_ = 0.0;
   distance_m_ = -1.0;
   stop_.reset();
+  corners_m_.clear();
+  corners_passed_ = 0;
+  is_turning_ = false;
+  for (int i = 1; i < path_.segment_count(); ++i) {
+    if (std::abs(path_.jump_at(i)) > kSharpCorner_rad) corners_m_.push_back(path_.start_of(i));
+  }
   if (!path_.empty()) profile_ = SpeedProfile(path_, params_.speed);
 }
 
@@ -35,7 +44,7 @@ double PathFollowerLaw::calc_lookahead_m(double speed_mps) const {
 double PathFollowerLaw::calc_speed(const Path::Nearest& at, double heading_error_rad) {
   double wanted = profile_.speed_at(path_, at.segment, at.distance_m);
   const double ahead_m = at.distance_m + params_.settle_m;
-  if (ahead_m < path_.length_m()) {
+  if (ahead_m < std::min(path_.length_m(), stretch_end_m())) {
     const int segment = path_.segment_at(ahead_m, at.segment);
     wanted = std::min(wanted, profile_.speed_at(path_, segment, ahead_m));
   }
@@ -87,16 +96,40 @@ double PathFollowerLaw::calc_yaw_rate(const Path::Nearest& at, double heading_er
                     -params_.yaw_rate_max_radps, params_.yaw_rate_max_radps);
 }
 
+Path::Nearest PathFollowerLaw::find_place(const Pose2& pose) const {
+  const bool is_first = distance_m_ < 0.0;
+  const double from_m = is_first ? 0.0 : distance_m_ - kSearchBehind_m;
+  const double to_m = is_first ? kFirstSearch_m : distance_m_ + kSearchAhead_m;
+  // The corner itself belongs to the stretch behind it.
+  const double before_corner_m = std::nextafter(stretch_end_m(), 0.0);
+  return path_.nearest(pose.p, std::max(from_m, stretch_begin_m()), std::min(to_m, before_corner_m),
+                       state_.waypoint);
+}
+
+VelocityCommand PathFollowerLaw::turn_on_the_spot(const Path::Nearest& at,
+                                                  double heading_error_rad) {
+  is_turning_ = std::abs(heading_error_rad) > kTurned_rad;
+  const bool may_go = stop_.update(at.distance_m) > 0.0;
+  speed_mps_ = std::max(speed_mps_ - 2.0 * params_.speed.acceleration_mps2 * params_.cycle_s, 0.0);
+  if (!may_go) return {speed_mps_, 0.0};
+  const double most_radps = std::min(params_.speed.yaw_rate_radps, params_.yaw_rate_max_radps);
+  return {speed_mps_, std::clamp(-kSpotGain_per_s * heading_error_rad, -most_radps, most_radps)};
+}
+
 VelocityCommand PathFollowerLaw::step(const Pose2& pose, const Sideslip& slide,
                                       double overspeed_mps) {
   if (!has_path_ || finished_) {
     speed_mps_ = 0.0;
     return {};
   }
-  const bool is_first = distance_m_ < 0.0;
-  const double from_m = is_first ? 0.0 : distance_m_ - kSearchBehind_m;
-  const double to_m = is_first ? kFirstSearch_m : distance_m_ + kSearchAhead_m;
-  const Path::Nearest at = path_.nearest(pose.p, from_m, to_m, state_.waypoint);
+  Path::Nearest at = find_place(pose);
+  if (stretch_end_m() - at.distance_m < params_.goal_tolerance_m) {
+    distance_m_ = stretch_end_m();
+    ++corners_passed_;
+    is_turning_ = true;
+    integral_m_ = 0.0;
+    at = find_place(pose);
+  }
   const double heading_error = wrap_angle(pose.yaw_rad - at.yaw_rad);
   distance_m_ = at.distance_m;
 
@@ -111,6 +144,7 @@ VelocityCommand PathFollowerLaw::step(const Pose2& pose, const Sideslip& slide,
     speed_mps_ = 0.0;
     return {};
   }
+  if (is_turning_) return turn_on_the_spot(at, heading_error);
   speed_mps_ = calc_speed(at, heading_error);
   if (stop_.is_holding() && speed_mps_ == 0.0) return {};
   // A curvature is driven with the speed there is, not the one wanted.

@@ -16,6 +16,12 @@
 /// the path's by arm * kappa_ref (smoothed, because the nose cannot swing at once) less beta_0.
 /// Feeding the course itself back instead would be unstable: turning harder first pushes the centre
 /// the other way.
+///
+/// At a sharp corner (path_corners.h) the vehicle comes to its end of the stretch as to a goal,
+/// turns on the spot and goes on: the place on the path never runs ahead of the corner before.
+
+#include <limits>
+#include <vector>
 
 #include "controllers/parts/path.h"
 #include "controllers/parts/stop_profile.h"
@@ -68,6 +74,18 @@ class PathFollowerLaw {
   FollowerState state() const { return state_; }
 
  private:
+  /// Where the stretch between two sharp corners that the vehicle is on begins and ends.
+  double stretch_begin_m() const {
+    return corners_passed_ == 0 ? -std::numeric_limits<double>::infinity()
+                                : corners_m_[corners_passed_ - 1];
+  }
+  double stretch_end_m() const {
+    return corners_passed_ == corners_m_.size() ? std::numeric_limits<double>::infinity()
+                                                : corners_m_[corners_passed_];
+  }
+  Path::Nearest find_place(const Pose2& pose) const;
+  /// Stands and turns towards the next stretch.
+  VelocityCommand turn_on_the_spot(const Path::Nearest& at, double heading_error_rad);
   double calc_lookahead_m(double speed_mps) const;
   double calc_speed(const Path::Nearest& at, double heading_error_rad);
   double calc_yaw_rate(const Path::Nearest& at, double heading_error_rad, const Sideslip& slide,
@@ -75,6 +93,9 @@ class PathFollowerLaw {
 
   PathFollowerParams params_;
   Path path_;
+  std::vector<double> corners_m_;  ///< distances of the sharp corners
+  std::size_t corners_passed_ = 0;
+  bool is_turning_ = false;  ///< on the spot
   SpeedProfile profile_;
   StopProfile stop_;
   FollowerState state_;

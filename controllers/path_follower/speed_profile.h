@@ -12,12 +12,14 @@ struct SpeedLimits {
   double acceleration_mps2 = 0.8;          ///< along the path, both ways
   double lateral_acceleration_mps2 = 1.0;  ///< v^2 |kappa|
   double yaw_rate_radps = 0.6;             ///< v |kappa|
-  double goal_speed_mps = 0.1;             ///< left at the path's end
+  double goal_speed_mps = 0.1;             ///< left at the path's end and at sharp corners
+  double corner_m = 0.6;                   ///< way over which lesser corners are rounded
 };
 
 /// Largest speed at each place, so that braking with the given acceleration meets every slower
 /// stretch ahead: v(s)^2 = v(s_end)^2 + 2 a (s_end - s), swept backwards over the segments once per
-/// plan.
+/// plan. A sharp corner (path_corners.h) is a goal of its own; a lesser one is passed as slowly as
+/// a bend that turns by as much over `corner_m`.
 class SpeedProfile {
  public:
   SpeedProfile() = default;

@@ -58,12 +58,15 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
   const auto& told = winged ? mission.cruise_speed_mps : mission.hover_speed_mps;
   double speed_mps = told.value_or(0.0);
   result.first_speed_mps = speed_mps;
-  bool camera = false;
+  bool camera = false, sprays = false, is_speed_said = false;
+  constexpr int kSprayer = 216;
   int flown = 0;
   for (const io::MissionItem& item : mission.items) {
     const io::MavCommand& command = *io::find_mav_command(item.command);
     MissionPlace place;
     place.speed_mps = speed_mps;
+    place.is_speed_said = is_speed_said;
+    place.sprays = sprays;
     place.camera = camera;
     using enum io::MavAction;
     switch (command.action) {
@@ -72,13 +75,26 @@ MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& ori
                                       mission.file.string(),
                                       io::describe_mav_command(item.command)));
       case kNoMotion:
+        if (item.command == kSprayer) {
+          sprays = item.params[0] > 0.0;
+          result.uses_sprayer = true;
+          (result.places.empty() ? result.first_sprays : result.places.back().sprays) = sprays;
+        }
         ++result.ignored_items;
         continue;
       case kSpeed: {
         // Type 0 airspeed, 1 ground speed, others climb and descent; -1 keeps the speed.
         const bool is_speed = item.params[0] == 0.0 || item.params[0] == 1.0;
-        if (is_speed && item.params[1] > 0.0) speed_mps = item.params[1];
-        if (!result.places.empty()) result.places.back().speed_mps = speed_mps;
+        if (is_speed && item.params[1] > 0.0) {
+          speed_mps = item.params[1];
+          is_speed_said = true;
+        }
+        if (!result.places.empty()) {
+          result.places.back().speed_mps = speed_mps;
+          result.places.back().is_speed_said = is_speed_said;
+        } else if (is_speed_said) {
+          result.first_said_mps = speed_mps;
+        }
         continue;
       }
       case kTrigger:

@@ -18,15 +18,20 @@ struct MissionPlace {
   Eigen::Vector2d p_W = {0, 0};
   double altitude_m = 0.0;  ///< over what `reference` says
   enum class Reference { kWorld, kHome, kGround, kKeep } reference = Reference::kHome;
-  double speed_mps = 0.0;  ///< from here on; 0: not told
-  bool camera = false;     ///< whether the camera is triggered by distance from here on
-  int item = 0;            ///< number of the item, for sentences
+  double speed_mps = 0.0;      ///< from here on; 0: not told
+  bool is_speed_said = false;  ///< by an item; else it is what the file says of all such vehicles
+  bool sprays = false;         ///< whether the sprayer works from here on
+  bool camera = false;         ///< whether the camera is triggered by distance from here on
+  int item = 0;                ///< number of the item, for sentences
 };
 
 struct MissionPlaces {
   std::vector<MissionPlace> places;
   double first_speed_mps = 0.0;  ///< to the first place
+  double first_said_mps = 0.0;   ///< the same where an item says it; else 0
+  bool first_sprays = false;     ///< whether the sprayer works on the way there
   bool uses_camera = false;      ///< whether any item triggers it by distance
+  bool uses_sprayer = false;     ///< whether any item switches it
   int ignored_items = 0;         ///< do not move the vehicle
   int loiters = 0;               ///< flown as waypoints
 };

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "controllers/planning/fence_ways.h"
+#include "controllers/planning/ground_mission.h"
 #include "controllers/planning/mission_items.h"
 #include "controllers/planning/mission_kinds.h"
 #include "controllers/planning/survey_heights.h"
@@ -29,6 +31,8 @@ struct MissionRouteParams {
   double climb_slope = 0.12;  ///< of wings to the first waypoint, rise over run
   double ramp_error_m = 2.0;
   bool keeps_fences = true;
+  double pitch_m = 0.33;
+  std::optional<double> turning_radius_m;
 };
 
 const ParameterTable<MissionRouteParams>& mission_route_table() {
@@ -43,7 +47,13 @@ const ParameterTable<MissionRouteParams>& mission_route_table() {
           .number("ramp_error_m", "m", &P::ramp_error_m, kPositive,
                   "by which ramps between places above the terrain may miss it")
           .choice("fences", &P::keeps_fences, {{"keep", true}, {"ignore", false}},
-                  "keep: a way that breaks one of the mission's fences is refused");
+                  "keep: wings refuse a way that breaks one of the mission's fences, others go "
+                  "around it")
+          .number("waypoint_pitch_m", "m", &P::pitch_m, kPositive,
+                  "on the ground straights and arcs are split into round(length / pitch) parts")
+          .number("turning_radius_m", "m", &P::turning_radius_m, between(0.0, 1e3),
+                  "with which corners on the ground are rounded; 0 = not at all; default: 1.1 "
+                  "times the least of a vehicle that steers by its axles, else 0");
   return table;
 }
 
@@ -58,7 +68,8 @@ class MissionRoute final : public Planner {
         vehicle_(*context.vehicle_description),
         climb_slope_(params.climb_slope),
         ramp_error_m_(params.ramp_error_m),
-        keeps_fences_(params.keeps_fences) {
+        keeps_fences_(params.keeps_fences),
+        fences_(mission_, origin_, kFenceMargin_m) {
     winged_ = !vehicle_.rotorcraft;
     constexpr double kUsualRadius_m = 25.0;
     radius_m_ = vehicle_.min_turning_radius_m.value_or(kUsualRadius_m);
@@ -139,6 +150,7 @@ class MissionRoute final : public Planner {
         Vector3d p = path_.points.back().p_W;
         if (place.task == Task::kReturn) p << start_.p.head<2>(), height_m;
         if (path_.points.size() > 1) path_.points.back().kind = PathKind::kReturn;
+        if (const auto fault = go_around_fences(p, place)) return fault;
         add(p, PathKind::kReturn, place);
         land(place);
         continue;
@@ -160,12 +172,41 @@ class MissionRoute final : public Planner {
                                   before->reference == MissionPlace::Reference::kGround &&
                                   place.reference == MissionPlace::Reference::kGround;
       if (follows_ground) follow_ground(*before, place);
+      if (const auto fault = go_around_fences(p, place)) return fault;
       add(p, PathKind::kLeg, place);
       if (place.task == Task::kLand) land(place);
       before = &place;
     }
     return path_.points.size() < 2 ? std::optional<std::string>("there is nothing to fly")
                                    : std::nullopt;
+  }
+
+  /// Rotorcraft bend where a fence is in the way; heights change evenly along it.
+  std::optional<std::string> go_around_fences(const Vector3d& p, const MissionPlace& place) {
+    if (winged_ || !keeps_fences_ || fences_.empty()) return std::nullopt;
+    const PathPoint from = path_.points.back();
+    const auto way = fences_.find_way(from.p_W.head<2>(), p.head<2>());
+    if (!way) return std::nullopt;  // check() says which fence
+    double length_m = 0.0;
+    Vector2d at = from.p_W.head<2>();
+    for (const Vector2d& bend : *way) {
+      length_m += (bend - at).norm();
+      at = bend;
+    }
+    length_m += (p.head<2>() - at).norm();
+    MissionPlace bend_place = place;
+    bend_place.speed_mps = from.speed_mps;
+    bend_place.camera = camera_.back();
+    double way_m = 0.0;
+    at = from.p_W.head<2>();
+    for (const Vector2d& bend : *way) {
+      way_m += (bend - at).norm();
+      at = bend;
+      const double height_m = from.p_W.z() + way_m / length_m * (p.z() - from.p_W.z());
+      add({bend.x(), bend.y(), height_m}, from.kind, bend_place);
+    }
+    report_.numbers["fence_detours"] += way->empty() ? 0.0 : 1.0;
+    return std::nullopt;
   }
 
   /// Laps beside the start where the way to the first place is too short to climb.
@@ -264,6 +305,8 @@ class MissionRoute final : public Planner {
   const VehicleDescription& vehicle_;
   double climb_slope_, ramp_error_m_;
   bool keeps_fences_;
+  static constexpr double kFenceMargin_m = 3.0;  // of bends in the air
+  FenceWays fences_;
   bool winged_ = true;
   double radius_m_ = 25.0;
   MissionPlaces mission_places_;
@@ -283,8 +326,8 @@ PartSpec mission_route_spec() {
   PartSpec spec;
   spec.name = "mission_file";
   spec.description =
-      "A mission from QGroundControl (.plan) or Mission Planner (QGC WPL 110), flown leg by leg; "
-      "docs/survey.md lists the commands.";
+      "A mission from QGroundControl (.plan) or Mission Planner (QGC WPL 110), flown or driven leg "
+      "by leg; docs/survey.md lists the commands.";
   spec.parameters = mission_route_table().specs();
   spec.reads = {"estimate"};
   spec.writes = {"plan"};
@@ -294,11 +337,17 @@ PartSpec mission_route_spec() {
 std::unique_ptr<Planner> make_mission_route(const ParameterSet& parameters,
                                             const PlannerContext& context) {
   const std::string who = context.part + " (mission_file)";
-  if (!context.vehicle_description->flies()) {
-    throw ConfigError(fmt::format("{} plans flights, but vehicle type '{}' does not fly", who,
-                                  context.vehicle_description->type));
+  const MissionRouteParams params = mission_route_table().read(parameters, who);
+  const VehicleDescription& vehicle = *context.vehicle_description;
+  if (vehicle.flies()) return std::make_unique<MissionRoute>(params, context, who);
+  if (!vehicle.wheeled) {
+    throw ConfigError(
+        fmt::format("{}: vehicle type '{}' neither flies nor has wheels", who, vehicle.type));
   }
-  return std::make_unique<MissionRoute>(mission_route_table().read(parameters, who), context, who);
+  const auto mission = keep<io::MissionFile>(context.shelf, file_mark(params.file),
+                                             [&] { return io::read_mission(params.file); });
+  return make_ground_mission(
+      *mission, {params.keeps_fences, params.pitch_m, params.turning_radius_m}, context, who);
 }
 
 }  // namespace vinerow

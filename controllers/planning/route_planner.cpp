@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "controllers/planning/analytic_turn.h"
+#include "controllers/planning/leg_detour.h"
 #include "controllers/planning/lift.h"
 #include "controllers/planning/route_room.h"
 #include "controllers/planning/row_check.h"
@@ -57,17 +58,17 @@ class RoutePlanner final : public Planner {
     std::vector<RouteLeg> route = *legs;
     if (!footprint_.is_free(pose)) return Failure{"start in collision: " + room_.tell(pose)};
     for (const RouteLeg& leg : route) {
-      if (const auto fault = room_.find_blocked(leg)) return Failure{*fault};
+      if (const auto fault = room_.find_blocked_end(leg)) return Failure{*fault};
     }
 
     PathPieces pieces;
     if (const auto fault = append_approach(pose, route.front(), pieces)) return Failure{*fault};
-    append_leg(route.front(), params_.speed_mps, pieces);
+    if (const auto fault = append_driven(route.front(), pieces)) return Failure{*fault};
     for (std::size_t i = 1; i < route.size(); ++i) {
       if (const auto fault = append_turn(route[i - 1], route[i], static_cast<int>(i), pieces)) {
         return Failure{*fault};
       }
-      append_leg(route[i], params_.speed_mps, pieces);
+      if (const auto fault = append_driven(route[i], pieces)) return Failure{*fault};
     }
     measure(pieces);
     PlannedPath path = make_planned_path(pieces, params_.pitch_m);
@@ -110,6 +111,25 @@ class RoutePlanner final : public Planner {
                          to_string(pose), leg.alley, to_string(entry), found.reason());
     }
     append_labelled(*found, PathKind::kTransit, pieces);
+    return std::nullopt;
+  }
+
+  /// The leg, around what stands in it.
+  std::optional<std::string> append_driven(const RouteLeg& leg, PathPieces& pieces) {
+    if (!room_.find_blocked(leg)) {
+      append_leg(leg, params_.speed_mps, pieces);
+      return std::nullopt;
+    }
+    // Streams of their own beside those of the turns, whose numbers are the legs'.
+    constexpr int kFirstProblem = 1'000'000, kProblemsPerLeg = 1000;
+    std::vector<SearchReport> done;
+    const auto way =
+        drive_around(leg, footprint_, room_, *search_, kFirstProblem + kProblemsPerLeg * leg.alley,
+                     {params_.turning_radius_m, params_.check_step_m, params_.speed_mps}, done);
+    for (const SearchReport& search : done) add_work(search);
+    if (!way) return way.reason();
+    ++report_.numbers["legs_with_detours"];
+    pieces.insert(pieces.end(), way->begin(), way->end());
     return std::nullopt;
   }
 

@@ -56,11 +56,16 @@ std::string RouteRoom::tell(const Pose2& pose) const {
                      to_string(pose), footprint_.clearance_m(pose), footprint_.margin_m());
 }
 
-std::optional<std::string> RouteRoom::find_blocked(const RouteLeg& leg) const {
+std::optional<std::string> RouteRoom::find_blocked_end(const RouteLeg& leg) const {
   for (const auto& [end, name] : {std::pair(leg.entry(), "entrance"), {leg.exit(), "exit"}}) {
     if (footprint_.is_free(end)) continue;
     return fmt::format("{} of alley {} blocked: {}", name, leg.alley, tell(end));
   }
+  return std::nullopt;
+}
+
+std::optional<std::string> RouteRoom::find_blocked(const RouteLeg& leg) const {
+  if (auto end = find_blocked_end(leg)) return end;
   std::vector<PathPiece> pieces;
   append_leg(leg, 0.0, pieces);
   for (const PathPiece& piece : pieces) {

@@ -23,6 +23,8 @@ class RouteRoom {
   /// Why a pose is not free: "(1.25, 3.00) heading 90.0 deg lies in a row: 0.10 m from the centre
   /// line of row 2, whose canopy is 0.60 m wide".
   std::string tell(const Pose2& pose) const;
+  /// @returns nothing where the leg's ends are free, else which is not
+  std::optional<std::string> find_blocked_end(const RouteLeg& leg) const;
   /// @returns nothing where the whole leg is free, else where it is not
   std::optional<std::string> find_blocked(const RouteLeg& leg) const;
 

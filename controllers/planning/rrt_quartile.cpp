@@ -75,11 +75,12 @@ const ParameterTable<QuartilePlannerParams>& rrt_quartile_table() {
           .boolean("quartiles", tree(&Tree::quartiles),
                    "grow from the lowest quartile of distance that has open nodes; "
                    "false: from any open node")
-          .number("step_m", "m", tree(&Tree::step_m), kPositive, "length of every arc of the tree")
-          .number("cell_m", "m", tree(&Tree::cell_m), kPositive,
+          .number("step_m", "m", tree(&Tree::step_m), between(0.02, 100.0),
+                  "length of every arc of the tree")
+          .number("cell_m", "m", tree(&Tree::cell_m), between(0.01, 100.0),
                   "size of the cells that hold one node each")
           .degrees("cell_deg", tree(&Tree::cell_rad), between(0.5, 90.0), "the same for headings")
-          .number("join_m", "m", tree(&Tree::join_m), kPositive,
+          .number("join_m", "m", tree(&Tree::join_m), between(0.01, 1e4),
                   "longest Dubins path that joins the tree to the goal exactly")
           .integer("max_iterations", search(&Search::max_iterations), between(1, 1e7),
                    "nodes expanded per turn before the search gives up")

@@ -10,7 +10,7 @@ namespace vinerow {
 struct RrtQuartileParams {
   QuartileTreeParams tree;
   DistanceKind heuristic = DistanceKind::kGeodesic;
-  std::int64_t max_iterations = 100'000;  ///< expansions, over all refinements of one search
+  std::int64_t max_iterations = 1'000'000;  ///< expansions, over all refinements of one search
   int refinements = 1;  ///< further trees, each with half the step and half the cells
   bool smooth = true;
 };

@@ -21,16 +21,16 @@ const ParameterTable<RrtStarParams>& rrt_star_table() {
                    "stands")
           .integer("first_iterations", &P::first_iterations, between(1, 1e7),
                    "of RRT, where no turn in closed form fits; it stops at the first way")
-          .number("range_m", "m", &P::range_m, kPositive, "longest edge of the tree")
-          .number("reach_m", "m", &P::reach_m, kPositive,
+          .number("range_m", "m", &P::range_m, between(0.01, 1e4), "longest edge of the tree")
+          .number("reach_m", "m", &P::reach_m, between(0.1, 1e4),
                   "how far around both ends ways are looked for")
           .number("curvature_reserve", "", &P::curvature_reserve, between(0.0, 1.0),
                   "turns are wider than the least radius by up to this share where there is room, "
                   "so that the follower can steer in")
           .number("clearance_weight", "", inside(&P::cost, &Cost::clearance_weight),
                   between(0.0, 100.0), "a metre driven at no clearance costs 1 + this")
-          .number("wanted_clearance_m", "m", inside(&P::cost, &Cost::wanted_clearance_m), kPositive,
-                  "from here on clearance costs nothing more")
+          .number("wanted_clearance_m", "m", inside(&P::cost, &Cost::wanted_clearance_m),
+                  between(1e-3, 1e3), "from here on clearance costs nothing more")
           .number("bend_cost_m", "m", inside(&P::cost, &Cost::bend_m), between(0.0, 10.0),
                   "every change of curvature costs as much as this length");
   return table;

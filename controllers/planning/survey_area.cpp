@@ -11,7 +11,7 @@
 
 #include "controllers/parts/pose2.h"
 #include "engine/core/error.h"
-#include "engine/io/geojson.h"
+#include "engine/io/geo_features.h"
 
 namespace vinerow {
 namespace {
@@ -46,7 +46,7 @@ Polygon2 read_geojson_area(const std::string& file, const GeoOrigin& origin) {
   const io::LocalFrame frame(origin);
   Polygon2 polygon;
   int count = 0;
-  for (const io::GeoFeature& feature : io::read_geojson(file)) {
+  for (const io::GeoFeature& feature : io::read_features(file)) {
     if (feature.kind != io::GeometryKind::kPolygon) continue;
     if (++count > 1) continue;
     for (io::Geodetic point : feature.points) {
@@ -101,6 +101,17 @@ Polygon2 clean_polygon(const Polygon2& polygon) {
 std::optional<std::string> find_polygon_fault(const Polygon2& polygon) {
   const std::size_t n = polygon.size();
   if (n < 3) return fmt::format("it has {} different points, needs at least 3", n);
+  constexpr std::size_t kMostPoints = 5'000;  // each edge is held against each other
+  if (n > kMostPoints) {
+    return fmt::format("it has {} points, must have at most {}: simplify it", n, kMostPoints);
+  }
+  constexpr double kFarApart_m = 50e3;
+  for (std::size_t i = 1; i < n; ++i) {
+    const double apart_m = (polygon[i] - polygon[0]).norm();
+    if (apart_m <= kFarApart_m) continue;
+    return fmt::format("its points 1 and {} lie {:.0f} km apart, must be at most {:.0f} km", i + 1,
+                       apart_m / 1e3, kFarApart_m / 1e3);
+  }
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
       const Vector2d &a = polygon[i], &b = polygon[(i + 1) % n];

@@ -22,7 +22,9 @@ Result<SurveyClimb> try_climb(const SurveyRequest& request, double start_m, Surv
   if (!profile) return Failure{profile.reason()};
   SurveyClimb climb;
   climb.wanted_m = make_wanted_heights(*profile, request.height_m, request.max_slope);
-  climb.length_m = begin_heights_at(*profile, start_m, request.max_slope, climb.wanted_m);
+  if (!request.rotorcraft) {
+    climb.length_m = begin_heights_at(*profile, start_m, request.max_slope, climb.wanted_m);
+  }
   climb.clearance_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < profile->samples().size(); ++i) {
     const GroundProfile::Sample& sample = profile->samples()[i];

@@ -19,14 +19,16 @@ struct Place {
 
 SurveyForecast forecast_survey(const SurveyRequest& request, const std::vector<SurveyShot>& shots,
                                const GroundHeight& ground, std::optional<Vector2d>& bare_W) {
-  constexpr double kPlaces = 20000.0;
+  constexpr double kPlaces = 20000.0, kMostCells = 1e6;
   const Polygon2& polygon = request.polygon_W;
   Vector2d low = polygon.front(), high = low;
   for (const Vector2d& p : polygon) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const double cell_m = std::sqrt(std::abs(polygon_area_m2(polygon)) / kPlaces);
+  // A sliver fills little of its box: the box's cells are counted, too.
+  const double cell_m = std::sqrt(
+      std::max(std::abs(polygon_area_m2(polygon)) / kPlaces, (high - low).prod() / kMostCells));
   const int columns = static_cast<int>((high.x() - low.x()) / cell_m) + 1;
   const int rows = static_cast<int>((high.y() - low.y()) / cell_m) + 1;
   const auto place_at = [&](int i, int j) {

@@ -33,15 +33,26 @@ io::MissionFile make_survey_mission(const SurveyPlan& plan, const GeoOrigin& ori
   const Eigen::Vector3d home_W(points[0].p_W.x(), points[0].p_W.y(), home_ground_m);
   mission.planned_home = frame.to_geodetic(home_W);
   const double speed_mps = points[0].speed_mps;
-  if (speed_mps > 0.0) mission.cruise_speed_mps = speed_mps;
+  mission.rotorcraft = plan.rotorcraft;
+  if (speed_mps > 0.0) {
+    (plan.rotorcraft ? mission.hover_speed_mps : mission.cruise_speed_mps) = speed_mps;
+  }
+  const auto take_off = [&](double pitch_deg, const Eigen::Vector3d& p_W) {
+    constexpr double kThroughAir = 0.0, kOverGround = 1.0;
+    add_place(kTakeOff, pitch_deg, p_W);
+    if (speed_mps > 0.0) {
+      add(kSpeed, kNoPlace,
+          {plan.rotorcraft ? kOverGround : kThroughAir, speed_mps, -1, 0, 0, 0, 0});
+    }
+  };
+  if (plan.rotorcraft) take_off(0.0, points[0].p_W);
   bool is_on = false;
   // Home itself is where "return" leads.
   const std::size_t end = returns ? points.size() - 1 : points.size();
   for (std::size_t i = 1; i < end; ++i) {
     constexpr double kPitch_deg = 15.0;
-    if (i == 1) {
-      add_place(kTakeOff, kPitch_deg, points[i].p_W);
-      if (speed_mps > 0.0) add(kSpeed, kNoPlace, {0, speed_mps, -1, 0, 0, 0, 0});
+    if (i == 1 && !plan.rotorcraft) {
+      take_off(kPitch_deg, points[i].p_W);
     } else {
       add_place(kWaypoint, 0.0, points[i].p_W);
     }

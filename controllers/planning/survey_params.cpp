@@ -19,6 +19,9 @@ namespace vinerow {
 namespace {
 
 constexpr double kUsualBank_deg = 35.0;
+// What both usual autopilots descend with on missions unless told otherwise (MPC_Z_V_AUTO_DN,
+// WPNAV_SPEED_DN); they climb faster.
+constexpr double kRotorDescent_mps = 1.5;
 
 /// The area as the file states it.
 struct SurveyAreaParams {
@@ -58,7 +61,7 @@ const ParameterTable<SurveyAreaParams>& survey_area_table() {
 /// The flight as the file states it; what is absent follows from the rest and from the vehicle.
 struct SurveyFlightParams {
   SurveyRequest request;
-  std::optional<double> height_m, gsd_m;
+  std::optional<double> height_m, gsd_m, max_slope;
   double wind_speed_mps = 0.0;
   double wind_from_deg = 0.0;              ///< clockwise from north
   std::optional<double> lane_bearing_deg;  ///< clockwise from north
@@ -79,9 +82,10 @@ const ParameterTable<SurveyFlightParams>& survey_flight_table() {
                   "of consecutive pictures of a lane, as a share")
           .number("side_overlap", "", request(&R::side_overlap), between(0.0, 0.98),
                   "of the pictures of neighbouring lanes, at least, as a share")
-          .number("speed_mps", "m/s", request(&R::speed_mps), kPositive, "through the air")
+          .number("speed_mps", "m/s", request(&R::speed_mps), kPositive,
+                  "through the air; of rotorcraft over ground")
           .number("wind_speed_mps", "m/s", &P::wind_speed_mps, between(0.0, 100.0),
-                  "mean wind to be reckoned with: it speeds lanes up, and widens turns")
+                  "expected mean wind: it speeds lanes up, and widens turns")
           .number("wind_from_deg", "deg", &P::wind_from_deg, between(-360.0, 360.0),
                   "where it comes from, clockwise from north")
           .number("lane_bearing_deg", "deg", &P::lane_bearing_deg, between(-360.0, 360.0),
@@ -98,19 +102,23 @@ const ParameterTable<SurveyFlightParams>& survey_flight_table() {
           .number("ramp_error_m", "m", request(&R::ramp_error_m), kPositive,
                   "by which straight ramps between waypoints may miss the wanted height above "
                   "the terrain")
-          .number("max_slope", "", request(&R::max_slope), between(0.001, 1.0),
-                  "of the way, rise over run; above steeper terrain the flight stays higher")
+          .number("max_slope", "", &P::max_slope, between(0.001, 1.0),
+                  "of the way, rise over run; above steeper terrain the flight stays higher; "
+                  "absent: 0.12, of rotorcraft a descent of 1.5 m/s")
+          .boolean("rotorcraft", request(&R::rotorcraft),
+                   "plans for a multirotor: straight up to the first height, corners on the spot, "
+                   "speed_mps over ground; false: for wings")
           .number("run_out_m", "m", request(&R::run_out_m), between(0.0, 1e4),
                   "straight on beyond a lane's pictures before and after turns; "
-                  "absent: turn radius and two seconds of flight")
+                  "absent: turn radius and two seconds of flight; of rotorcraft what it takes to "
+                  "reach the speed at 2 m/s2")
           .number("end_margin", "", request(&R::end_margin), between(0.0, 2.0),
                   "by which the pictures of a lane go on beyond the area, as a share of their "
                   "length; 0.5: the ends are seen as often as the middle")
           .number("edge_margin", "", request(&R::edge_margin), between(-0.5, 0.5),
                   "by which the outermost lanes lie beyond the area, as a share of a picture's "
                   "width; -0.5: pictures end at the edges")
-          .boolean("return_home", request(&R::returns),
-                   "fly back to the start after the last lane")
+          .boolean("return_home", request(&R::returns), "fly back to the start after the last lane")
           .rule([](const P& p) -> std::string {
             return p.height_m && p.gsd_m ? "give height_m or gsd_m, not both" : "";
           });
@@ -125,8 +133,8 @@ Polygon2 find_polygon(const SurveyAreaParams& params, const PlannerContext& cont
     const GeoOrigin& origin = context.origin;
     const std::string key = fmt::format("{} {} {} {}", file_mark(params.file), origin.latitude_rad,
                                         origin.longitude_rad, origin.altitude_m);
-    polygon = *keep<Polygon2>(context.shelf, key,
-                              [&] { return read_survey_area(params.file, origin); });
+    polygon =
+        *keep<Polygon2>(context.shelf, key, [&] { return read_survey_area(params.file, origin); });
   } else if (!x.empty()) {
     for (std::size_t i = 0; i < x.size(); ++i) polygon.emplace_back(x[i], y[i]);
   } else if (context.map != nullptr && !context.map->boundary_W.empty()) {
@@ -196,7 +204,13 @@ SurveyRequest read_survey_request(const ParameterSet& parameters, const PlannerC
   }
   // Blows to the opposite of where it comes from; bearings run clockwise from north.
   const double to_rad = rad_from_deg(270.0 - flight.wind_from_deg);
-  request.wind_W = flight.wind_speed_mps * direction(to_rad);
+  // A multirotor holds its speed over ground: wind tilts it and changes neither times nor turns.
+  if (!request.rotorcraft) request.wind_W = flight.wind_speed_mps * direction(to_rad);
+  if (flight.max_slope) {
+    request.max_slope = *flight.max_slope;
+  } else if (request.rotorcraft) {
+    request.max_slope = std::min(1.0, kRotorDescent_mps / request.speed_mps);
+  }
   if (flight.lane_bearing_deg) {
     request.lane_yaw_rad = wrap_angle(rad_from_deg(90.0 - *flight.lane_bearing_deg));
   }

@@ -18,6 +18,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kM2PerHa = 1e4;
+constexpr double kRotorAcceleration_mps2 = 2.0;  // at corners
 
 class SurveyPlanner {
  public:
@@ -25,6 +26,7 @@ class SurveyPlanner {
       : request_(request), start_W_(start_W), ground_(ground) {}
 
   Result<SurveyPlan> plan() {
+    plan_.rotorcraft = request_.rotorcraft;
     const bool is_sound = !find_polygon_fault(request_.polygon_W);
     if (request_.lane_yaw_rad) {
       plan_.frame.yaw_rad = *request_.lane_yaw_rad;
@@ -33,6 +35,7 @@ class SurveyPlanner {
     }
     if (const auto fault = find_survey_fault(request_, plan_.frame.yaw_rad)) return Failure{*fault};
     if (const auto fault = find_corner_outside(request_.polygon_W, ground_)) return Failure{*fault};
+    if (const auto fault = find_size_fault()) return Failure{*fault};
     cut();
     route();
     if (const auto fault = climb()) return Failure{*fault};
@@ -53,7 +56,7 @@ class SurveyPlanner {
  private:
   void set(const char* name, double value) { plan_.numbers[name] = value; }
 
-  void cut() {
+  LaneNeeds lane_needs() const {
     const SurveyCamera& camera = request_.camera;
     const double height_m = request_.height_m;
     LaneNeeds needs;
@@ -62,6 +65,34 @@ class SurveyPlanner {
     needs.spacing_m = (1.0 - request_.side_overlap) * needs.footprint_width_m;
     needs.end_margin = request_.end_margin;
     needs.edge_margin = request_.edge_margin;
+    return needs;
+  }
+
+  /// Before any lane is cut: how many lanes and pictures there would be.
+  std::optional<std::string> find_size_fault() const {
+    constexpr double kMostLanes = 1'000.0, kMostPictures = 200'000.0;
+    const LaneNeeds needs = lane_needs();
+    Vector2d low = plan_.frame.to_lane(request_.polygon_W.front()), high = low;
+    for (const Vector2d& p : request_.polygon_W) {
+      low = low.cwiseMin(plan_.frame.to_lane(p));
+      high = high.cwiseMax(plan_.frame.to_lane(p));
+    }
+    const double lanes = (high.y() - low.y()) / needs.spacing_m + 1.0;
+    const double pictures = lanes * (high.x() - low.x()) /
+                            ((1.0 - request_.forward_overlap) * needs.footprint_length_m);
+    if (lanes <= kMostLanes && pictures <= kMostPictures) return std::nullopt;
+    return fmt::format(
+        "{:.0f} m x {:.0f} m at {:.4g} m would take {:.3g} lanes {:.3g} m apart and {:.3g} "
+        "pictures, "
+        "at most {:.0f} lanes and {:.0f} pictures are planned: fly higher or survey less",
+        high.x() - low.x(), high.y() - low.y(), request_.height_m, lanes, needs.spacing_m, pictures,
+        kMostLanes, kMostPictures);
+  }
+
+  void cut() {
+    const SurveyCamera& camera = request_.camera;
+    const double height_m = request_.height_m;
+    const LaneNeeds needs = lane_needs();
     plan_.lanes = cut_lanes(request_.polygon_W, plan_.frame, needs);
 
     // Often enough where ramps run low, but not more often than the camera can.
@@ -109,8 +140,12 @@ class SurveyPlanner {
     // Rolling in and out takes about three quarters of a second (paper A's reference, section 2:
     // phi / 2 phi' + tau), settling on the line about one.
     constexpr double kSettle_s = 2.0;
-    task_.run_out_m = request_.run_out_m.value_or(
-        task_.turn_radius_m + kSettle_s * (request_.speed_mps + request_.wind_W.norm()));
+    // A multirotor stops at corners: v^2 / 2a until it is as fast as on the lane.
+    const double usual_m =
+        request_.rotorcraft
+            ? 0.5 * request_.speed_mps * request_.speed_mps / kRotorAcceleration_mps2
+            : task_.turn_radius_m + kSettle_s * (request_.speed_mps + request_.wind_W.norm());
+    task_.run_out_m = request_.run_out_m.value_or(usual_m);
     OrderTask order_task;
     for (const SurveyLane& lane : plan_.lanes) {
       order_task.lanes.push_back(
@@ -183,6 +218,11 @@ class SurveyPlanner {
           calc_ground_speed_mps(request_.speed_mps, request_.wind_W, way.normalized());
       time_s += length_m / speed_mps.value_or(request_.speed_mps);
       if (samples[at].distance_m >= climb_m_) slope = std::max(slope, std::abs(rise_m / length_m));
+    }
+    // Slowing down to a stop and speeding up again takes v / a longer than passing.
+    if (request_.rotorcraft) {
+      time_s +=
+          static_cast<double>(route_.points.size()) * request_.speed_mps / kRotorAcceleration_mps2;
     }
     set("waypoints", static_cast<double>(split.size()));
     set("ramp_points", static_cast<double>(split.size() - route_.points.size()));

@@ -29,6 +29,7 @@ struct SurveyPlan {
   std::vector<int> order;  ///< indices of lanes, as flown
   std::vector<SurveyShot> shots;
   double photo_distance_m = 0.0;
+  bool rotorcraft = false;  ///< as it was asked for
   /// What it amounts to, names with units; also what PlanReport::numbers shows.
   std::map<std::string, double> numbers;
 };
@@ -40,6 +41,7 @@ struct SurveyPlan {
 /// Waypoints lie at the wanted height above the terrain; ramps between them miss it by at most
 /// `ramp_error_m`, upwards more where the terrain is steeper than `max_slope`. From the start the
 /// way climbs at max_slope, in laps beside the start where the way to the first lane is too short.
+/// A rotorcraft begins above the start, at the wanted height, and stops at corners.
 ///
 /// @param start_W  where the aircraft starts, and its heading
 /// @returns why not: see find_survey_fault(); a corner outside the terrain, with how far; a climb

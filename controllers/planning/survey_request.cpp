@@ -52,6 +52,7 @@ std::optional<double> calc_ground_speed_mps(double airspeed_mps, const Eigen::Ve
 }
 
 double calc_turn_radius_m(const SurveyRequest& request) {
+  if (request.rotorcraft) return 0.0;
   const double fastest_mps = request.speed_mps + request.wind_W.norm();
   return std::max(request.least_radius_m,
                   fastest_mps * fastest_mps / (request.gravity_mps2 * std::tan(request.bank_rad)));

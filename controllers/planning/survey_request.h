@@ -18,7 +18,9 @@ struct SurveyRequest {
   double height_m = 150.0;  ///< above the ground
   double forward_overlap = 0.85;
   double side_overlap = 0.66;
-  double speed_mps = 12.0;             ///< through the air
+  double speed_mps = 12.0;             ///< through the air; of rotorcraft over ground
+  bool rotorcraft = false;             ///< stops at corners, climbs straight up, holds its speed
+                                       ///< over ground in wind
   Eigen::Vector2d wind_W = {0, 0};     ///< where it blows to
   std::optional<double> lane_yaw_rad;  ///< absent: the direction of the fewest lanes
   enum class Order { kBest, kSnake } order = Order::kBest;
@@ -41,7 +43,7 @@ std::optional<double> calc_ground_speed_mps(double airspeed_mps, const Eigen::Ve
                                             const Eigen::Vector2d& along_W);
 
 /// Radius over ground that holds with the wind from behind: (V + W)^2 / (g tan(bank)); not less
-/// than the aircraft's.
+/// than the aircraft's. 0 of rotorcraft, which turn on the spot.
 double calc_turn_radius_m(const SurveyRequest& request);
 
 /// What keeps it from being flown whatever the terrain: the polygon, a speed below stall, wind, or

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "controllers/parts/path_pieces.h"
+#include "controllers/planning/corner_rounding.h"
 #include "controllers/planning/lift.h"
 #include "controllers/planning/row_check.h"
 #include "engine/api/file_shelf.h"
@@ -50,6 +51,7 @@ struct WaypointsParams {
   double pitch_m = 0.33;                   ///< 0: straights are not split
   double speed_mps = 0.0;                  ///< 0: the follower's own
   double clearance_m = 0.0;
+  std::optional<double> turning_radius_m;  ///< absent: what the vehicle needs
 };
 
 const ParameterTable<WaypointsParams>& waypoints_table() {
@@ -69,6 +71,10 @@ const ParameterTable<WaypointsParams>& waypoints_table() {
                   "wanted speed; 0 = the follower's own")
           .number("clearance_m", "m", &P::clearance_m, between(0.0, 10.0),
                   "distance that the planned line keeps from every canopy's footprint")
+          .number("turning_radius_m", "m", &P::turning_radius_m, between(0.0, 1e3),
+                  "corners on the ground are rounded with this radius; 0 = not at all; default: "
+                  "1.1 times the least of a vehicle that steers by its axles, else 0: the follower "
+                  "turns it on the spot")
           .rule([](const P& p) -> std::string {
             if (!p.file.empty() || p.x_m.size() == p.y_m.size()) return "";
             return fmt::format("x_m has {} numbers and y_m {}, must be as many", p.x_m.size(),
@@ -83,6 +89,7 @@ class Waypoints final : public Planner {
       : pitch_m_(params.pitch_m),
         speed_mps_(params.speed_mps),
         clearance_m_(params.clearance_m),
+        radius_m_(find_corner_radius_m(params.turning_radius_m, *context.vehicle_description, who)),
         map_(context.map),
         scene_(context.scene) {
     if (!params.file.empty()) {
@@ -113,14 +120,12 @@ class Waypoints final : public Planner {
     if (points_.size() < 2) throw ConfigError(too_few(who));
   }
 
+  const PlanReport* report() const override { return &report_; }
+
   Result<PlannedPath> plan(const Pose& start) override {
+    report_ = {};
     if (!heights_m_.empty()) return plan_flight();
-    std::vector<PathPiece> pieces;
-    for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-      pieces.push_back(make_straight(points_[i], points_[i + 1], PathKind::kLeg, -1, speed_mps_));
-    }
-    constexpr double kNotSplit_m = 1e9;
-    PlannedPath path = make_planned_path(pieces, pitch_m_ > 0.0 ? pitch_m_ : kNotSplit_m);
+    PlannedPath path = make_planned_path(lay_way(), pitch_m_ > 0.0 ? pitch_m_ : kNotSplit_m);
     if (map_ != nullptr) {
       if (const auto fault = find_path_into_row(path, *map_, clearance_m_)) return Failure{*fault};
     }
@@ -129,6 +134,23 @@ class Waypoints final : public Planner {
   }
 
  private:
+  static constexpr double kNotSplit_m = 1e9;
+
+  PathPieces lay_way() {
+    const std::vector<double> speed_mps(points_.size() - 1, speed_mps_);
+    if (radius_m_ > 0.0) {
+      RoundedWay way = round_corners(points_, speed_mps, radius_m_, PathKind::kLeg);
+      report_.numbers["rounded_corners"] = way.arcs;
+      report_.numbers["loops_at_corners"] = way.loops;
+      return std::move(way.pieces);
+    }
+    PathPieces pieces;
+    for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+      pieces.push_back(make_straight(points_[i], points_[i + 1], PathKind::kLeg, -1, speed_mps_));
+    }
+    return pieces;
+  }
+
   static std::string too_few(const std::string& who) {
     return fmt::format("{}: needs at least two different points, from x_m and y_m or from a file",
                        who);
@@ -150,7 +172,8 @@ class Waypoints final : public Planner {
     return path;
   }
 
-  double pitch_m_, speed_mps_, clearance_m_;
+  double pitch_m_, speed_mps_, clearance_m_, radius_m_;
+  PlanReport report_;
   const RowMap* map_;
   const SceneQuery* scene_;
   std::vector<Eigen::Vector2d> points_;

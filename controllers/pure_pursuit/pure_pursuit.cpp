@@ -5,7 +5,10 @@
 #include <optional>
 
 #include "controllers/parts/drive_ports.h"
+#include "controllers/parts/path_watch.h"
+#include "controllers/parts/plan_speed.h"
 #include "controllers/pure_pursuit/pure_pursuit_law.h"
+#include "engine/api/may_fail.h"
 #include "engine/api/parameter_table.h"
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
@@ -16,6 +19,7 @@ namespace {
 /// The law's parameters as files have them, and what stands beside the law.
 struct PursuitParams {
   PurePursuitParams law;
+  PathWatchParams watch;
   std::optional<double> crossed_distance_m;
   double min_turning_radius_m = 1.0;
   double stop_mps2 = 0.8;
@@ -34,8 +38,8 @@ const ParameterTable<PursuitParams>& pursuit_table() {
                   "the only choice without endless loops")
           .number("speed_mps", "m/s", law(&Law::speed_mps), kPositive,
                   "speed v_t on the straight (7 km/h)")
-          .degrees("steering_threshold_deg", law(&Law::steering_threshold_rad),
-                   between(0.0, 180.0), "smaller steering angles count as zero (table 3: 2.5)")
+          .degrees("steering_threshold_deg", law(&Law::steering_threshold_rad), between(0.0, 180.0),
+                   "smaller steering angles count as zero (table 3: 2.5)")
           .degrees("largest_angle_deg", law(&Law::largest_angle_rad), kPositive,
                    "theta_max of the speed law (eq. 7)")
           .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
@@ -46,7 +50,9 @@ const ParameterTable<PursuitParams>& pursuit_table() {
           .number("goal_tolerance_m", "m", law(&Law::goal_tolerance_m), kPositive,
                   "the mission ends this near the last waypoint (or one cycle's way)")
           .number("stop_mps2", "m/s2", &P::stop_mps2, kPositive,
-                  "braking where a movement authority ends; the paper's law has none")
+                  "braking before sharp corners and where a movement authority ends; the paper's "
+                  "law has neither")
+          .include(&P::watch, path_watch_table())
           .boolean("aim_at_goal", law(&Law::aim_at_goal),
                    "aim at the last waypoint once it is within lookahead_m; false = literally "
                    "the paper, which may never arrive");
@@ -59,36 +65,47 @@ PursuitParams read_params(const ParameterSet& parameters, const ControllerContex
   params.law.crossed_distance_m = params.crossed_distance_m.value_or(params.law.lookahead_m);
   params.law.yaw_rate_limit_radps =
       radius_m > 0.0 ? params.law.speed_mps / radius_m : std::numeric_limits<double>::infinity();
+  params.law.brake_mps2 = params.stop_mps2;
   params.law.cycle_s = context.period.s();
   return params;
 }
 
-class PurePursuit final : public Controller {
+class PurePursuit final : public Controller, public MayFail {
  public:
   PurePursuit(const PursuitParams& params, const ControllerContext& context)
-      : ports_(context, "pure_pursuit"), law_(params.law), stop_(params.stop_mps2) {}
+      : ports_(context, "pure_pursuit"),
+        law_(params.law),
+        stop_(params.stop_mps2),
+        watch_(params.watch),
+        speed_mps_(params.law.speed_mps),
+        period_s_(context.period.s()) {}
 
   void connect(Ports& ports) override { ports_.connect(ports); }
 
   void step(Time now) override {
-    if (ports_.has_new_plan()) take_plan();
+    if (ports_.has_new_plan()) take_plan(now);
     VelocityCommand command;
     FollowerState state;
-    if (law_.has_path() && ports_.has_estimate()) {
+    if (law_.has_path() && ports_.has_estimate() && !watch_.is_lost()) {
       const Pose2 pose = ports_.pose();
       command = law_.step(pose);
       state = describe(pose);
       command = limit(command, state);
+      if (!law_.finished()) watch(pose, command.v_mps);
     }
     ports_.write(now, command, state);
   }
 
   bool finished() const override { return law_.finished(); }
+  std::string_view failure() const override { return watch_.failure(); }
 
  private:
-  void take_plan() {
+  void take_plan(Time now) {
+    const std::string slower = tell_plan_too_fast(ports_.plan(), speed_mps_, "speed_mps");
+    if (!slower.empty()) ports_.tell(now, Event::Level::kWarning, slower);
     law_.set_path(ports_.plan());
     stop_.reset();
+    watch_.reset();
     if (law_.has_path()) polyline_ = PolylineDistance(law_.points());
   }
 
@@ -100,28 +117,47 @@ class PurePursuit final : public Controller {
     return command;
   }
 
+  PolylineDistance::Nearest nearest_to(const Pose2& pose) const {
+    constexpr int kBehind = 8, kAhead = 2;
+    return polyline_.nearest_within(
+        pose.p, std::max(law_.index() - kBehind, law_.stretch_first()),
+        std::min(law_.index() + kAhead, std::max(law_.stretch_last() - 1, 0)));
+  }
+
+  double distance_of(const PolylineDistance::Nearest& nearest) const {
+    if (law_.points().size() < 2) return 0.0;
+    const double length_m =
+        (polyline_.points()[nearest.segment + 1] - polyline_.points()[nearest.segment]).norm();
+    return law_.distance_m(nearest.segment) + nearest.fraction * length_m;
+  }
+
   /// Errors from the polyline near the current index; the law itself does not use them.
   FollowerState describe(const Pose2& pose) const {
-    constexpr int kBehind = 8, kAhead = 2;
-    const auto nearest =
-        polyline_.nearest_within(pose.p, law_.index() - kBehind, law_.index() + kAhead);
+    const auto nearest = nearest_to(pose);
     const Eigen::Vector2d along =
         polyline_.points()[nearest.segment + 1] - polyline_.points()[nearest.segment];
     FollowerState state;
     state.lateral_error_m = nearest.signed_distance_m;
     state.heading_error_rad = wrap_angle(pose.yaw_rad - std::atan2(along.y(), along.x()));
-    state.distance_m = law_.points().size() < 2
-                           ? 0.0
-                           : law_.distance_m(nearest.segment) + nearest.fraction * along.norm();
+    state.distance_m = distance_of(nearest);
     state.remaining_m = law_.length_m() - state.distance_m;
     state.waypoint = law_.index();
     state.finished = law_.finished();
     return state;
   }
 
+  void watch(const Pose2& pose, double speed_mps) {
+    const auto nearest = nearest_to(pose);
+    watch_.update(
+        {pose.p, nearest.point, distance_of(nearest), law_.length_m(), speed_mps * period_s_});
+  }
+
   DrivePorts ports_;
   PurePursuitLaw law_;
   StopProfile stop_;
+  PathWatch watch_;
+  double speed_mps_;  ///< on straights
+  double period_s_;
   PolylineDistance polyline_;
 };
 
@@ -137,7 +173,7 @@ PartSpec pure_pursuit_spec() {
   spec.parameters = pursuit_table().specs();
   spec.default_rate_Hz = 40.0;
   spec.reads = {"estimate", "plan", "authority"};
-  spec.writes = {"actuators", "command", "follower"};
+  spec.writes = {"actuators", "command", "follower", "controller_event"};
   return spec;
 }
 

@@ -2,11 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "controllers/parts/path_corners.h"
 #include "engine/api/messages/path.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
+namespace {
+
+constexpr double kSpotGain_per_s = 2.0;  // turning on the spot: yaw rate per heading error
+constexpr double kSpotMost_radps = 0.8;
+constexpr double kTurned_rad = 0.087;  // 5 deg: the law takes over
+constexpr double kCornerSpeed_mps = 0.1;
+
+}  // namespace
 
 std::optional<double> intersect_circle(const Eigen::Vector2d& centre, double radius_m,
                                        const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
@@ -37,21 +47,29 @@ void PurePursuitLaw::set_path(const PlannedPath& path) {
     speed_mps_.push_back(point.speed_mps);
     points_.push_back(p);
   }
+  stretch_ends_.clear();
+  for (const PathCorner& corner : find_corners(path, kSharpCorner_rad)) {
+    stretch_ends_.push_back(corner.point);
+  }
+  stretch_ends_.push_back(static_cast<int>(points_.size()) - 1);
+  stretch_ = 0;
+  is_turning_ = false;
   index_ = 0;
   finished_ = false;
 }
 
 void PurePursuitLaw::advance_index(const Eigen::Vector2d& p) {
-  const int last = static_cast<int>(points_.size()) - 1;
+  const int last = stretch_last();
   while (index_ < last && (points_[index_ + 1] - p).norm() < params_.crossed_distance_m) ++index_;
 }
 
 Eigen::Vector2d PurePursuitLaw::find_local_goal(const Eigen::Vector2d& p) const {
-  const int last = static_cast<int>(points_.size()) - 1;
+  const int last = stretch_last();
   // Near the end the circle has nothing ahead to meet.
-  const bool is_last_stretch =
-      length_m() - distance_m_[index_] <= params_.lookahead_m + longest_segment_m_;
-  if (params_.aim_at_goal && is_last_stretch && (points_[last] - p).norm() < params_.lookahead_m) {
+  const bool is_near_its_end =
+      distance_m_[last] - distance_m_[index_] <= params_.lookahead_m + longest_segment_m_;
+  const bool aims = params_.aim_at_goal || !is_last_stretch();
+  if (aims && is_near_its_end && (points_[last] - p).norm() < params_.lookahead_m) {
     return points_[last];
   }
   for (int i = index_; i < last; ++i) {
@@ -64,16 +82,41 @@ Eigen::Vector2d PurePursuitLaw::find_local_goal(const Eigen::Vector2d& p) const 
 bool PurePursuitLaw::is_at_goal(const Eigen::Vector2d& p) const {
   // The goal counts only from the last stretch on, so that a path may pass by or start at its goal.
   const double reach = std::max(params_.lookahead_m, params_.crossed_distance_m);
-  if (length_m() - distance_m_[index_] > reach + longest_segment_m_) return false;
+  if (distance_m_[stretch_last()] - distance_m_[index_] > reach + longest_segment_m_) return false;
   const double tolerance = std::max(params_.speed_mps * params_.cycle_s, params_.goal_tolerance_m);
-  return (points_.back() - p).norm() < tolerance;
+  return (points_[stretch_last()] - p).norm() < tolerance;
+}
+
+double PurePursuitLaw::calc_corner_speed(const Eigen::Vector2d& p) const {
+  if (is_last_stretch()) return std::numeric_limits<double>::infinity();
+  const double left_m = (points_[stretch_last()] - p).norm();
+  return std::sqrt(kCornerSpeed_mps * kCornerSpeed_mps + 2.0 * params_.brake_mps2 * left_m);
+}
+
+std::optional<VelocityCommand> PurePursuitLaw::turn_on_the_spot(double yaw_rad) {
+  int next = index_ + 1;
+  while (next < stretch_last() && points_[next] == points_[index_]) ++next;
+  const Eigen::Vector2d along = points_[next] - points_[index_];
+  const double theta = wrap_angle(std::atan2(along.y(), along.x()) - yaw_rad);
+  is_turning_ = std::abs(theta) > kTurned_rad;
+  if (!is_turning_) return std::nullopt;
+  const double most_radps = std::min(params_.yaw_rate_limit_radps, kSpotMost_radps);
+  return VelocityCommand{0.0, std::clamp(kSpotGain_per_s * theta, -most_radps, most_radps)};
 }
 
 VelocityCommand PurePursuitLaw::step(const Pose2& pose) {
   if (points_.empty() || finished_) return {};
   advance_index(pose.p);
-  finished_ = is_at_goal(pose.p);
-  if (finished_) return {};
+  if (is_at_goal(pose.p)) {
+    finished_ = is_last_stretch();
+    if (finished_) return {};
+    index_ = stretch_last();
+    ++stretch_;
+    is_turning_ = true;
+  }
+  if (is_turning_) {
+    if (const auto turn = turn_on_the_spot(pose.yaw_rad)) return *turn;
+  }
 
   local_goal_ = find_local_goal(pose.p);
   const Eigen::Vector2d to_goal = local_goal_ - pose.p;
@@ -83,7 +126,8 @@ VelocityCommand PurePursuitLaw::step(const Pose2& pose) {
   double full_speed = params_.speed_mps;
   if (speed_mps_[index_] > 0.0) full_speed = std::min(full_speed, speed_mps_[index_]);
   VelocityCommand command;
-  command.v_mps = full_speed * (1.0 - std::abs(theta) / params_.largest_angle_rad);
+  command.v_mps = std::min(full_speed * (1.0 - std::abs(theta) / params_.largest_angle_rad),
+                           calc_corner_speed(pose.p));
   command.yaw_rate_radps = std::clamp(params_.turn_gain * theta / params_.cycle_s,
                                       -params_.yaw_rate_limit_radps, params_.yaw_rate_limit_radps);
   return command;

@@ -18,6 +18,10 @@
 /// Settled here: D_th equals the lookahead distance and the last waypoint is aimed at once it is
 /// within the lookahead distance. Other choices loop about a waypoint or never reach the goal
 /// (docs/paper_b.md).
+///
+/// The paper's paths have no sharp corners, and its law circles about them. Here a sharp corner
+/// (path_corners.h) is the goal of the stretch before it: the vehicle brakes, turns on the spot and
+/// goes on with the stretch behind it.
 
 #include <optional>
 #include <vector>
@@ -39,6 +43,7 @@ struct PurePursuitParams {
   double turn_gain = 1.0;                          ///< 1 = eq. 6
   double cycle_s = 0.025;                          ///< t
   double goal_tolerance_m = 0.1;
+  double brake_mps2 = 0.8;  ///< before sharp corners
   bool aim_at_goal = true;
 };
 
@@ -63,8 +68,16 @@ class PurePursuitLaw {
   const std::vector<Eigen::Vector2d>& points() const { return points_; }
   const Eigen::Vector2d& local_goal() const { return local_goal_; }
 
+  /// First and last waypoint of the stretch between two sharp corners that it is on.
+  int stretch_first() const { return stretch_ == 0 ? 0 : stretch_ends_[stretch_ - 1]; }
+  int stretch_last() const { return stretch_ends_[stretch_]; }
+  bool is_last_stretch() const { return stretch_ + 1 == stretch_ends_.size(); }
+
  private:
   void advance_index(const Eigen::Vector2d& p);
+  double calc_corner_speed(const Eigen::Vector2d& p) const;
+  /// Towards the stretch that begins. @returns nothing once it looks there
+  std::optional<VelocityCommand> turn_on_the_spot(double yaw_rad);
   Eigen::Vector2d find_local_goal(const Eigen::Vector2d& p) const;
   bool is_at_goal(const Eigen::Vector2d& p) const;
 
@@ -74,6 +87,9 @@ class PurePursuitLaw {
   std::vector<double> speed_mps_;
   double longest_segment_m_ = 0.0;
   int index_ = 0;
+  std::vector<int> stretch_ends_;  ///< waypoints: the sharp corners, and the last one
+  std::size_t stretch_ = 0;
+  bool is_turning_ = false;  ///< on the spot
   bool finished_ = false;
   Eigen::Vector2d local_goal_ = Eigen::Vector2d::Zero();
 };

@@ -1,10 +1,13 @@
 #include "controllers/trajectory/time_law.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "controllers/parts/box_filter.h"
+#include "engine/core/error.h"
 
 namespace vinerow {
 namespace {
@@ -12,6 +15,7 @@ namespace {
 constexpr double kStep_s = 0.02;
 constexpr double kReserve = 0.97;  // of the limits: for what lies between knots and is averaged
 constexpr double kTiny = 1e-9;
+constexpr double kLongest_s = 2e5;  // 10 million samples
 
 double wanted_speed_mps(PathKind kind, const TrajectoryLimits& limits) {
   switch (kind) {
@@ -91,6 +95,20 @@ std::vector<double> widen(const std::vector<double>& most, const std::vector<dou
   return widened;
 }
 
+/// Limits that are next to nothing make a flight of years, sampled every kStep_s.
+void check_duration(const std::vector<double>& speeds, double step_m) {
+  double duration_s = 0.0;
+  for (std::size_t i = 0; i + 1 < speeds.size(); ++i) {
+    duration_s += 2.0 * step_m / (speeds[i] + speeds[i + 1]);
+  }
+  if (duration_s <= kLongest_s) return;
+  throw ConfigError(fmt::format(
+      "a stretch of {:.0f} m would take {:.3g} h within the limits of the trajectory, at most "
+      "{:.0f} "
+      "h are planned: raise its speeds, accelerations and yaw rates",
+      static_cast<double>(speeds.size() - 1) * step_m, duration_s / 3600.0, kLongest_s / 3600.0));
+}
+
 /// Distances at even times, with constant acceleration between two knots.
 std::vector<double> sample_distances(const std::vector<double>& speeds, double step_m,
                                      double before_s) {
@@ -126,6 +144,7 @@ TimeLaw::TimeLaw(const SmoothRun& run, const TrajectoryLimits& limits, double sl
   std::vector<double> speeds = limit_acceleration(most, step_m, limits.acceleration_mps2);
   speeds = limit_acceleration(widen(most, speeds, step_m, limits.ease_s), step_m,
                               limits.acceleration_mps2);
+  check_duration(speeds, step_m);
   const int half = calc_half_window(limits.ease_s, kStep_s);
   // Rest before and after, as long as the average looks, and for the spline's own three points.
   const double rest_s = (half + 3) * kStep_s;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "controllers/parts/plan_speed.h"
 #include "controllers/parts/stop_profile.h"
 #include "controllers/trajectory/flight_clock.h"
 #include "controllers/trajectory/simple_flights.h"
@@ -67,9 +68,13 @@ class Trajectory final : public Guidance {
           yaw_rad, params_.flight);
     }
     if (flight_.empty()) return;
-    tell(now, Event::Level::kInfo,
-         fmt::format("takes off for {:.1f} m that take {:.1f} s", flight_.length_m(),
-                     flight_.duration_s()));
+    const std::string slower =
+        params_.hover_m ? ""
+                        : tell_plan_too_fast(plan_.value(), params_.flight.limits.row_speed_mps,
+                                             "row_speed_mps");
+    tell(now, slower.empty() ? Event::Level::kInfo : Event::Level::kWarning,
+         fmt::format("takes off for {:.1f} m that take {:.1f} s{}{}", flight_.length_m(),
+                     flight_.duration_s(), slower.empty() ? "" : "; ", slower));
   }
 
   /// Where the flight is to wait until it may go on.

@@ -29,20 +29,20 @@ const ParameterTable<TrajectoryParams>& trajectory_table() {
       ParameterTable<P>()
           .integer("horizon", &P::horizon, between(1, 1000),
                    "points of the reference after the present one: N of the controller")
-          .number("sample_s", "s", &P::sample_s, kPositive,
+          .number("sample_s", "s", &P::sample_s, between(1e-3, 10.0),
                   "time between two points of the reference")
-          .number("row_speed_mps", "m/s", limits(&TrajectoryLimits::row_speed_mps), kPositive,
-                  "speed in rows (paper A, 4.2) and the most in turns")
+          .number("row_speed_mps", "m/s", limits(&TrajectoryLimits::row_speed_mps),
+                  between(0.01, 1e3), "speed in rows (paper A, 4.2) and the most in turns")
           .number("transit_speed_mps", "m/s", limits(&TrajectoryLimits::transit_speed_mps),
-                  kPositive, "speed on the way to the first row")
-          .number("return_speed_mps", "m/s", limits(&TrajectoryLimits::return_speed_mps), kPositive,
-                  "speed on the way home")
-          .number("climb_speed_mps", "m/s", limits(&TrajectoryLimits::climb_speed_mps), kPositive,
-                  "most upwards, also along slopes")
+                  between(0.01, 1e3), "speed on the way to the first row")
+          .number("return_speed_mps", "m/s", limits(&TrajectoryLimits::return_speed_mps),
+                  between(0.01, 1e3), "speed on the way home")
+          .number("climb_speed_mps", "m/s", limits(&TrajectoryLimits::climb_speed_mps),
+                  between(0.01, 1e3), "most upwards, also along slopes")
           .number("descent_speed_mps", "m/s", limits(&TrajectoryLimits::descent_speed_mps),
-                  kPositive, "most downwards, also along slopes")
+                  between(0.01, 1e3), "most downwards, also along slopes")
           .number("landing_speed_mps", "m/s", limits(&TrajectoryLimits::landing_speed_mps),
-                  kPositive, "speed of the last landing_zone_m")
+                  between(0.01, 1e3), "speed of the last landing_zone_m")
           .number("landing_zone_m", "m", limits(&TrajectoryLimits::landing_zone_m),
                   between(0.0, 100.0),
                   "height above the plan's end that is flown at landing_speed_mps")
@@ -51,14 +51,14 @@ const ParameterTable<TrajectoryParams>& trajectory_table() {
                   "a landing is continued this far below the plan's end until the vehicle "
                   "stands, and standing counts up to this far above")
           .number("acceleration_mps2", "m/s2", limits(&TrajectoryLimits::acceleration_mps2),
-                  kPositive, "along the path, both ways")
+                  between(1e-3, 1e4), "along the path, both ways")
           .number("lateral_acceleration_mps2", "m/s2",
-                  limits(&TrajectoryLimits::lateral_acceleration_mps2), kPositive,
+                  limits(&TrajectoryLimits::lateral_acceleration_mps2), between(1e-3, 1e4),
                   "across the path: 1.63 m/s in a turn of 1.77 m radius")
-          .number("yaw_rate_radps", "rad/s", limits(&TrajectoryLimits::yaw_rate_radps), kPositive,
-                  "most")
+          .number("yaw_rate_radps", "rad/s", limits(&TrajectoryLimits::yaw_rate_radps),
+                  between(1e-3, 1e4), "most")
           .number("yaw_acceleration_radps2", "rad/s2",
-                  limits(&TrajectoryLimits::yaw_acceleration_radps2), kPositive,
+                  limits(&TrajectoryLimits::yaw_acceleration_radps2), between(1e-3, 1e4),
                   "most; times the inertia it is the torque that turning takes")
           .number("ease_s", "s", limits(&TrajectoryLimits::ease_s), between(0.02, 5.0),
                   "time over which the acceleration along the path sets in")
@@ -67,15 +67,15 @@ const ParameterTable<TrajectoryParams>& trajectory_table() {
           .degrees("sharp_deg", flight(&FlightOptions::sharp_rad), between(0.0, 180.0),
                    "bends of the plan sharper than this are flown by a stop and a turn on the "
                    "spot")
-          .number("wait_m", "m", &P::wait_m, kPositive,
+          .number("wait_m", "m", &P::wait_m, between(1e-3, 1e4),
                   "from this distance between vehicle and reference on the reference slows "
                   "down; at twice this it waits")
           .number("spin_up_s", "s", flight(&FlightOptions::spin_up_s), between(0.0, 60.0),
                   "rest with turning rotors before the take-off")
-          .number("height_m", "m", &P::height_m, kPositive,
+          .number("height_m", "m", &P::height_m, between(0.01, 1e4),
                   "of the centre of mass above plans that lie on the ground, as those of "
                   "waypoints, coverage, rrt_star")
-          .numbers("hover_m", "m", &P::hover_m, kAnyNumber,
+          .numbers("hover_m", "m", &P::hover_m, between(-1e5, 1e5),
                    "[x, y, height above the ground at the take-off]: fly there and hold the "
                    "place, without a planner")
           .degrees("hover_yaw_deg", &P::hover_yaw_rad, between(-360.0, 360.0),

@@ -111,8 +111,21 @@ AirMission::Wanted AirMission::fly_land(double dt_s, const GuidanceState& state)
                             "m above it",
                             state.position.x(), state.position.y(), (state.position - goal).norm(),
                             above_m));
+    const double off_m = (state.position - goal).norm();
+    if (off_m > params_.land_tolerance_m) {
+      failure_ = fmt::format(
+          "landed at ({:.1f}, {:.1f}), {:.1f} m from where it should, at most {:g} m "
+          "(land_tolerance_m)",
+          state.position.x(), state.position.y(), off_m, params_.land_tolerance_m);
+    }
   }
   return wanted;
+}
+
+std::optional<Eigen::Vector2d> AirMission::touchdown() const {
+  const bool lands = stage_ == Stage::kDescend || stage_ == Stage::kLand || stage_ == Stage::kDone;
+  if (!lands) return std::nullopt;
+  return Eigen::Vector2d(final_.front().frame.to_W().head<2>());
 }
 
 }  // namespace vinerow

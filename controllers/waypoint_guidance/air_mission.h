@@ -48,6 +48,10 @@ class AirMission {
   /// What happened in the last call, "" if nothing did; and whether it is bad.
   const std::string& news() const { return news_; }
   bool is_bad_news() const { return is_bad_news_; }
+  /// Where it is to touch down, once it is on its way there.
+  std::optional<Eigen::Vector2d> touchdown() const;
+  /// Why its task has failed, "landed 279.8 m from where it should"; "" where it has not.
+  const std::string& failure() const { return failure_; }
 
  private:
   enum class Stage {
@@ -112,6 +116,7 @@ class AirMission {
   bool has_told_wind_ = false;
   WantedCourse course_;
   std::string news_;
+  std::string failure_;
   bool is_bad_news_ = false;
 };
 

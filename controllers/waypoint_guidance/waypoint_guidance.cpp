@@ -8,6 +8,8 @@
 #include "controllers/parts/wind_triangle.h"
 #include "controllers/waypoint_guidance/air_mission.h"
 #include "controllers/waypoint_guidance/waypoint_guidance_params.h"
+#include "engine/api/may_fail.h"
+#include "engine/api/messages/commands.h"
 #include "engine/api/messages/event.h"
 
 namespace vinerow {
@@ -18,7 +20,7 @@ bool is_finite(const Odometry& odometry) {
          odometry.v_WB_B.allFinite() && odometry.w_WB_B.allFinite();
 }
 
-class WaypointGuidance final : public Guidance {
+class WaypointGuidance final : public Guidance, public MayFail {
  public:
   WaypointGuidance(const ParameterSet& parameters, const ControllerContext& context)
       : source_(context.part),
@@ -27,6 +29,9 @@ class WaypointGuidance final : public Guidance {
         wind_(params_.wind_s),
         mission_(params_) {
     reference_.airspeed_mps = params_.legs.airspeed_mps;
+    warnings_ = params_.old_key;
+    landing_.names = {"x_m", "y_m"};
+    landing_.values.assign(2, 0.0);
   }
 
   void connect(Ports& ports) override {
@@ -35,6 +40,7 @@ class WaypointGuidance final : public Guidance {
     if (!params_.air_data.empty()) air_ = ports.read<AirData>(params_.air_data);
     out_ = ports.write<AirReference>("reference");
     news_ = ports.write<Event>("guidance_event");
+    landing_out_ = ports.write<NamedValues>("landing");
   }
 
   void step(Time now) override {
@@ -50,6 +56,8 @@ class WaypointGuidance final : public Guidance {
     }
     out_.write(now, reference_);
   }
+
+  std::string_view failure() const override { return mission_.failure(); }
 
  private:
   void take_state(double dt_s) {
@@ -90,6 +98,15 @@ class WaypointGuidance final : public Guidance {
       mission_.begin(state_);
     }
     tell_news(now);
+    tell_landing(now);
+  }
+
+  void tell_landing(Time now) {
+    const auto place = mission_.touchdown();
+    if (has_told_landing_ || !place) return;
+    has_told_landing_ = true;
+    landing_.values = {place->x(), place->y()};
+    landing_out_.write(now, landing_);
   }
 
   /// One sentence a tick: a signal holds the last event written.
@@ -150,6 +167,9 @@ class WaypointGuidance final : public Guidance {
   SignalReader<AirData> air_;
   SignalWriter<AirReference> out_;
   SignalWriter<Event> news_;
+  SignalWriter<NamedValues> landing_out_;  ///< where it is to touch down, once
+  NamedValues landing_;
+  bool has_told_landing_ = false;
 };
 
 }  // namespace
@@ -163,7 +183,7 @@ PartSpec waypoint_guidance_spec() {
   spec.parameters = waypoint_guidance_parameters();
   spec.default_rate_Hz = 20.0;
   spec.reads = {"estimate", "plan", "<air_data>"};
-  spec.writes = {"reference", "guidance_event"};
+  spec.writes = {"reference", "guidance_event", "landing"};
   return spec;
 }
 

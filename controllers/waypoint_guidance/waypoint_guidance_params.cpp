@@ -22,23 +22,28 @@ struct GivenParams {
   std::optional<double> bank_rad;
   std::optional<double> loiter_radius_m;
   std::optional<double> approach_mps;
+  std::optional<double> land_bearing_rad;
 };
 
 using MissionEnd = WaypointGuidanceParams::End;
-constexpr std::array<Choice<MissionEnd>, 3> kEnds = {{{"land", MissionEnd::kLand},
-                                                      {"loiter", MissionEnd::kLoiter},
-                                                      {"stop", MissionEnd::kStop}}};
+constexpr std::array<Choice<MissionEnd>, 3> kEnds = {
+    {{"land", MissionEnd::kLand}, {"loiter", MissionEnd::kLoiter}, {"stop", MissionEnd::kStop}}};
 
 std::string find_fault_in_landing(const GivenParams& given) {
   const WaypointGuidanceParams& p = given.params;
   const std::pair<const char*, bool> words[] = {
       {"land_at_m", p.land_at_m.has_value()},
       {"land_height_m", p.land_height_m.has_value()},
+      {"land_bearing_deg", given.land_bearing_rad.has_value()},
       {"land_course_deg", p.land_course_rad.has_value()},
       {"approach_speed_mps", given.approach_mps.has_value()}};
   for (const auto& [name, is_given] : words) {
     if (p.end == MissionEnd::kLand || !is_given) continue;
     return fmt::format("{} says how to land, but end is '{}'", name, name_of(kEnds, p.end));
+  }
+  if (given.land_bearing_rad && p.land_course_rad) {
+    return "land_bearing_deg and land_course_deg, its old form, are both given: leave out the "
+           "second";
   }
   if (p.flare_m < p.approach_height_m) return "";
   return fmt::format("flare_height_m = {:.2f} m is not below approach_height_m = {:.2f} m",
@@ -115,9 +120,13 @@ const ParameterTable<GivenParams>& given_table() {
                    "[x, y] in W of the touchdown; default the start")
           .number("land_height_m", "m", of(&P::land_height_m), between(-1e4, 1e4),
                   "z of W of the ground there; default the ground at the start")
+          .degrees("land_bearing_deg", &G::land_bearing_rad, between(-360.0, 360.0),
+                   "course of the landing, clockwise from north; default against the mean wind, "
+                   "below 1 m/s of wind the heading at the start")
           .degrees("land_course_deg", of(&P::land_course_rad), between(-360.0, 360.0),
-                   "course of the landing; default against the mean wind, below 1 m/s "
-                   "of wind the heading at the start")
+                   "old form of land_bearing_deg, counted from east to the left; warns")
+          .number("land_tolerance_m", "m", of(&P::land_tolerance_m), kPositive,
+                  "a landing farther from where it should be fails the vehicle's task")
           .number("approach_height_m", "m", of(&P::approach_height_m), kPositive,
                   "above the ground, where the glide begins; down to it the vehicle "
                   "circles beside the approach")
@@ -178,6 +187,14 @@ void settle_landing(const GivenParams& given, const VehicleDescription& vehicle,
   const FixedWingAircraft& aircraft = vehicle.need_fixed_wing(who);
   params.standing_m = aircraft.start_height_m.value_or(vehicle.height_above_ground_m);
   params.belly_m = aircraft.belly_height_m;
+  if (given.land_bearing_rad) params.land_course_rad = 0.5 * kPi - *given.land_bearing_rad;
+  if (given.params.land_course_rad) {
+    params.old_key = fmt::format(
+        "land_course_deg = {:g} counts from east to the left and is old: write land_bearing_deg: "
+        "{:g}, clockwise from north",
+        deg_from_rad(*given.params.land_course_rad),
+        deg_from_rad(wrap_angle(0.5 * kPi - *given.params.land_course_rad)));
+  }
   params.approach_mps = given.approach_mps.value_or(params.legs.airspeed_mps);
   if (params.approach_mps <= params.stall_mps) {
     throw ConfigError(fmt::format(

@@ -32,7 +32,9 @@ struct WaypointGuidanceParams {
   End end = End::kLand;
   std::optional<Eigen::Vector2d> land_at_m;
   std::optional<double> land_height_m;
-  std::optional<double> land_course_rad;
+  std::optional<double> land_course_rad;  ///< from east, positive to the left
+  double land_tolerance_m = 50.0;
+  std::string old_key;      ///< of a key that has a new name, for people; "" where none is used
   double standing_m = 0.0;  ///< of B above the ground at the start, on the launcher
   double belly_m = 0.0;     ///< of B above the ground when lying
   double approach_height_m = 30.0;

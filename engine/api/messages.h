@@ -12,6 +12,7 @@
 #include "engine/api/messages/event.h"
 #include "engine/api/messages/flight.h"
 #include "engine/api/messages/grid.h"
+#include "engine/api/messages/heading.h"
 #include "engine/api/messages/motion.h"
 #include "engine/api/messages/path.h"
 #include "engine/api/messages/sensors.h"
@@ -24,6 +25,7 @@ void for_each_message_type(F&& f) {
   f(static_cast<Odometry*>(nullptr));
   f(static_cast<ImuSample*>(nullptr));
   f(static_cast<GnssFix*>(nullptr));
+  f(static_cast<GnssHeading*>(nullptr));
   f(static_cast<RangeSample*>(nullptr));
   f(static_cast<PressureSample*>(nullptr));
   f(static_cast<MagneticSample*>(nullptr));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/parameter_limits.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
@@ -62,11 +63,14 @@ void check_number(const ParameterSpec& spec, double value, const std::string& pl
   if (!std::isfinite(value)) {
     throw ConfigError(fmt::format("{} = {}, must be a finite number", place, value));
   }
-  const bool too_small = spec.min_exclusive ? value <= spec.min : value < spec.min;
-  if (too_small || value > spec.max) {
+  const auto demand_within = [&](const ParameterSpec& range) {
+    const bool too_small = range.min_exclusive ? value <= range.min : value < range.min;
+    if (!too_small && value <= range.max) return;
     throw ConfigError(
-        fmt::format("{} = {}, must be {}", place, with_unit(value, spec.unit), range_words(spec)));
-  }
+        fmt::format("{} = {}, must be {}", place, with_unit(value, spec.unit), range_words(range)));
+  };
+  demand_within(spec);
+  demand_within(with_limits_of_unit(spec));
 }
 
 [[noreturn]] void fail_kind(const ParameterSpec& spec, const ParameterSet::Value& value) {

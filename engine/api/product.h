@@ -17,7 +17,9 @@ namespace vinerow {
 struct PictureSet {
   SurveyCamera camera;
   std::vector<Pose> X_WS;  ///< x of S along the optical axis, y to the picture's left
-  std::string source;      ///< for people: "plane/camera"
+  /// Where the vehicle's estimator told the camera to be at each of them; empty: nobody told.
+  std::vector<Eigen::Vector3d> told_W;
+  std::string source;  ///< for people: "plane/camera"
 };
 
 /// One product. Of the fields those of its kind are filled.

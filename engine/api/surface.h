@@ -14,7 +14,7 @@ enum class SurfaceClass : std::uint8_t {
   kCanopy,    ///< leaves and shoots: counted as contact, does not push (foliage gives way)
   kPost,      ///< posts and end assemblies: rigid
   kTrunk,     ///< vine or tree stems: rigid
-  kWire,      ///< trellis wires: drawn only
+  kWire,      ///< trellis wires: rigid, known to distances, missed by rays
   kObstacle,  ///< anything else that is rigid
   kVehicle,
 };

@@ -69,16 +69,16 @@ const ParameterTable<SurveyCameraParams>& survey_camera_table() {
                 "camera that looks straight down, the longer side of its picture across the "
                 "track; the numbers below replace its own")
           .one_of({"rededge", "rededge_5p5", "rx100"})
-          .number("focal_length_mm", "mm", &P::focal_length_mm, kPositive, "focal length")
-          .number("sensor_width_mm", "mm", &P::sensor_width_mm, kPositive,
+          .number("focal_length_mm", "mm", &P::focal_length_mm, between(0.1, 10'000.0), "focal length")
+          .number("sensor_width_mm", "mm", &P::sensor_width_mm, between(0.1, 1'000.0),
                   "sensor, across the track")
-          .number("sensor_height_mm", "mm", &P::sensor_height_mm, kPositive,
+          .number("sensor_height_mm", "mm", &P::sensor_height_mm, between(0.1, 1'000.0),
                   "sensor, along the track")
           .integer("image_columns", &P::columns, between(1.0, kMostPixels),
                    "pixels of a picture across the track")
           .integer("image_rows", &P::rows, between(1.0, kMostPixels),
                    "pixels of a picture along the track")
-          .number("max_rate_Hz", "Hz", &P::max_rate_Hz, kPositive, "pictures per second at most");
+          .number("max_rate_Hz", "Hz", &P::max_rate_Hz, between(1e-3, 1e3), "pictures per second at most");
   return table;
 }
 
@@ -90,6 +90,10 @@ SurveyCamera SurveyCameraParams::resolve() const {
   made.columns = columns.value_or(made.columns);
   made.rows = rows.value_or(made.rows);
   made.max_rate_Hz = max_rate_Hz.value_or(made.max_rate_Hz);
+  // With other optics it is no longer the camera of that name.
+  if (focal_length_mm || sensor_width_mm || sensor_height_mm || columns || rows) {
+    made.name = "own";
+  }
   return made;
 }
 

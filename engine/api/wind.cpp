@@ -98,7 +98,8 @@ const ParameterTable<Wind>& wind_table() {
                   {{"constant", Atmosphere::kConstant}, {"us76", Atmosphere::kStandard76}},
                   "density everywhere alike, or US Standard Atmosphere 1976")
           .number("air_density_kgm3", "kg/m3", &P::air_density_kgm3, kPositive,
-                  "of a constant atmosphere")
+                  "of a constant atmosphere; default: the standard's at the altitude of the "
+                  "world's origin, 1.225 at sea level")
           .rule(judge_roughness);
   return table;
 }

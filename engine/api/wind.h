@@ -21,7 +21,7 @@ enum class WindHeightLaw {
 
 /// How dense the air is.
 enum class Atmosphere {
-  kConstant,   ///< air_density_kgm3 everywhere
+  kConstant,   ///< air_density_kgm3 everywhere, or the standard's at the origin's altitude
   kStandard76  ///< US Standard Atmosphere 1976 at the altitude above the ellipsoid
 };
 
@@ -48,9 +48,10 @@ struct GustStatistics {
 
 struct Wind {
   Atmosphere atmosphere = Atmosphere::kConstant;
-  double air_density_kgm3 = 1.225;  ///< with Atmosphere::kConstant
-  double mean_speed_mps = 0.0;      ///< at reference_height_m above the ground
-  double from_azimuth_rad = 0.0;    ///< where it comes from, clockwise from north
+  /// With Atmosphere::kConstant; absent: that of the standard atmosphere where W's origin is.
+  std::optional<double> air_density_kgm3 = std::nullopt;
+  double mean_speed_mps = 0.0;    ///< at reference_height_m above the ground
+  double from_azimuth_rad = 0.0;  ///< where it comes from, clockwise from north
   double reference_height_m = 10.0;
   WindHeightLaw height_law = WindHeightLaw::kLogarithmic;
   double roughness_length_m = 0.1;

@@ -13,12 +13,19 @@
 #include "engine/io/yaml.h"
 
 namespace vinerow::io {
+namespace {
 
-BlockFile::BlockFile(const std::filesystem::path& file) : file_(file) {
+const char* name_of_kind(FileKind kind) {
+  return kind == FileKind::kMesh ? "mesh file" : "point cloud";
+}
+
+}  // namespace
+
+BlockFile::BlockFile(const std::filesystem::path& file, FileKind kind) : file_(file), kind_(kind) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
-    throw ConfigError(
-        fmt::format("point cloud '{}' does not exist{}", file.string(), nearest_file_hint(file)));
+    throw ConfigError(fmt::format("{} '{}' does not exist{}", name_of_kind(kind), file.string(),
+                                  nearest_file_hint(file)));
   }
   if (!std::filesystem::is_regular_file(file, error)) fail("is no file");
   size_ = std::filesystem::file_size(file, error);
@@ -114,7 +121,7 @@ void BlockFile::fail(const std::string& sentence) const {
     const auto byte = static_cast<unsigned char>(c);
     shown += byte >= 0x20 && byte < 0x7f ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
   }
-  throw ConfigError(fmt::format("point cloud '{}' {}", file_.string(), shown));
+  throw ConfigError(fmt::format("{} '{}' {}", name_of_kind(kind_), file_.string(), shown));
 }
 
 void BlockFile::fail_kind(const std::string& begin, const char* kind, const char* magic) const {

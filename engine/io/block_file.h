@@ -12,14 +12,17 @@
 
 namespace vinerow::io {
 
-/// Bytes or lines of a point cloud's file, in order. What take() and line() give is valid until
-/// the next call. No heap after construction.
+/// What a file is called in messages.
+enum class FileKind { kPointCloud, kMesh };
+
+/// Bytes or lines of a point cloud's or mesh's file, in order. What take() and line() give is valid
+/// until the next call. No heap after construction.
 class BlockFile {
  public:
   static constexpr std::size_t kBytes = 1 << 18;  ///< of the buffer: the longest take() and line()
 
   /// @throws ConfigError naming the file: missing, no regular file, empty
-  explicit BlockFile(const std::filesystem::path& file);
+  explicit BlockFile(const std::filesystem::path& file, FileKind kind = FileKind::kPointCloud);
   /// Bytes in memory as if they were a file of that name. @throws ConfigError: no bytes
   BlockFile(const std::filesystem::path& name, std::string bytes);
 
@@ -42,7 +45,7 @@ class BlockFile {
   /// Goes back to where a line begins, with so many lines before it.
   void seek_line(std::uint64_t position, std::uint64_t lines_before);
 
-  /// "point cloud 'file' sentence" as ConfigError.
+  /// "point cloud 'file' sentence" or "mesh file 'file' sentence" as ConfigError.
   [[noreturn]] void fail(const std::string& sentence) const;
   /// "... is no LAS file: it begins with 'abc', must begin with LASF".
   [[noreturn]] void fail_kind(const std::string& begin, const char* kind, const char* magic) const;
@@ -52,6 +55,7 @@ class BlockFile {
   bool fill(std::size_t wanted);
 
   std::filesystem::path file_;
+  FileKind kind_ = FileKind::kPointCloud;
   std::unique_ptr<std::istream> stream_;
   std::vector<char> buffer_;
   std::uint64_t size_ = 0;

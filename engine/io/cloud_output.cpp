@@ -7,24 +7,20 @@
 namespace vinerow::io {
 
 CloudOutput::CloudOutput(const std::filesystem::path& file)
-    : file_(file), stream_(file, std::ios::binary | std::ios::trunc) {
-  if (!stream_) fail("cannot be written");
-}
+    : file_(file), out_(file, "point cloud") {}
 
 void CloudOutput::flush() {
-  stream_.write(pending_.data(), static_cast<std::streamsize>(pending_.size()));
+  out_.write(pending_);
   pending_.clear();
-  if (!stream_) fail("cannot be written");
 }
 
 void CloudOutput::overwrite_text(std::uint64_t at, std::string_view bytes) {
-  stream_.seekp(static_cast<std::streamoff>(at));
-  stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::fseek(out_.stream(), static_cast<long>(at), SEEK_SET);
+  out_.write(bytes);
 }
 
 void CloudOutput::close() {
-  stream_.close();
-  if (!stream_) fail("cannot be written");
+  out_.finish();
 }
 
 void CloudOutput::check_finite(const CloudPoint& point) const {

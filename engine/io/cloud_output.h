@@ -5,10 +5,10 @@
 #include <bit>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
+#include "engine/core/whole_file.h"
 #include "engine/io/point_cloud.h"
 
 namespace vinerow::io {
@@ -36,7 +36,7 @@ class CloudOutput {
     constexpr std::size_t kLong = 1 << 16;
     if (pending_.size() >= kLong) flush();
   }
-  /// Writes what was put. @throws ConfigError where the disk refuses
+  /// Writes what was put. @throws WriteError where the disk refuses
   void flush();
   /// Overwrites what lies at a byte from the start, after a flush.
   void overwrite_text(std::uint64_t at, std::string_view bytes);
@@ -45,7 +45,7 @@ class CloudOutput {
     const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
     overwrite_text(at, {bytes.data(), bytes.size()});
   }
-  /// Ends the file. @throws ConfigError where it is not whole
+  /// Ends the file, which has its name from here on. @throws WriteError where it is not whole
   void close();
 
   /// @throws ConfigError where a coordinate is not finite
@@ -55,7 +55,7 @@ class CloudOutput {
 
  private:
   std::filesystem::path file_;
-  std::ofstream stream_;
+  WholeFile out_;
   std::string pending_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-/// GeoJSON (RFC 7946): features with points, lines and polygons, coordinates in WGS84 degrees.
+/// GeoJSON (RFC 7946): features with points, lines and polygons, coordinates in WGS84 degrees, or
+/// in the system that a member `crs` names (GeoJSON of 2008).
 
 #include <Eigen/Core>
 #include <filesystem>
@@ -42,7 +43,9 @@ struct SurveyFile {
   std::vector<GeoFeature> vines;  ///< Points whose type or name says vine or tree
 };
 
-/// Reads rows (and, where the file has them, poles and vines).
+/// Reads rows (and, where the file has them, poles and vines) from any file of read_features
+/// (geo_features.h). Where there is no LineString, points that tell their row's number (property
+/// row, row_id, row_number or row_nr; poles alone where some are called so) make the rows.
 /// @param row_type  take LineStrings whose property `type` is this; "" takes `row`, `vine_row`,
 /// `connection_line` if
 ///                  any line has one of them, else every line that is not called mid_row_line

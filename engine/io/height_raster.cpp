@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <memory>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/gdal_handles.h"
 #include "engine/io/quiet_gdal.h"
 #include "engine/math/angles.h"
@@ -41,6 +43,15 @@ OGRSpatialReference crs_about(const GeoOrigin& origin) {
   throw ConfigError(fmt::format("raster '{}' {}", file.string(), sentence));
 }
 
+/// @pre errno is of the call that failed, where the library left it
+[[noreturn]] void fail_to_store(const std::filesystem::path& file,
+                                const std::filesystem::path& unfinished) {
+  const int error_number = errno != 0 ? errno : EIO;
+  std::error_code ignored;
+  std::filesystem::remove(unfinished, ignored);
+  throw_cannot_write(fmt::format("raster '{}'", file.string()), error_number);
+}
+
 }  // namespace
 
 void write_height_raster(const HeightField& field, const std::optional<GeoOrigin>& origin,
@@ -57,9 +68,11 @@ void write_height_raster(const HeightField& field, const std::optional<GeoOrigin
   options.list = CSLSetNameValue(options.list, "PREDICTOR", "3");
   // What QGIS and GDAL would put into a file .aux.xml beside it goes into the file itself.
   options.list = CSLSetNameValue(options.list, "PROFILE", "GDALGeoTIFF");
+  // Whole or not at all, as every other file; GDAL writes by itself.
+  const std::filesystem::path unfinished = temporary_name(file);
   Dataset dataset(driver == nullptr ? nullptr
-                                    : driver->Create(file.c_str(), field.columns, field.rows, 1,
-                                                     GDT_Float32, options.list));
+                                    : driver->Create(unfinished.c_str(), field.columns, field.rows,
+                                                     1, GDT_Float32, options.list));
   if (!dataset) fail(file, "cannot be written");
   const double half_m = 0.5 * field.cell_m;
   double transform[6] = {field.corner_W.x() - half_m,
@@ -85,12 +98,17 @@ void write_height_raster(const HeightField& field, const std::optional<GeoOrigin
     std::copy(from, from + field.columns, row.begin());
     if (band->RasterIO(GF_Write, 0, j, field.columns, 1, row.data(), field.columns, 1, GDT_Float32,
                        0, 0) != CE_None) {
-      fail(file, "cannot be written completely");
+      dataset.reset();
+      fail_to_store(file, unfinished);
     }
   }
   CPLErrorReset();
+  errno = 0;
   dataset.reset();  // writes what is left
-  if (CPLGetLastErrorType() >= CE_Failure) fail(file, "cannot be written completely");
+  if (CPLGetLastErrorType() >= CE_Failure) fail_to_store(file, unfinished);
+  std::error_code failed;
+  std::filesystem::rename(unfinished, file, failed);
+  if (failed) throw_cannot_write(fmt::format("raster '{}'", file.string()), failed.value());
 }
 
 HeightField read_height_raster(const std::filesystem::path& file) {

@@ -22,8 +22,10 @@ std::string text_of(const std::uint8_t* bytes, std::size_t count) {
 
 [[noreturn]] void fail_compressed(const BlockFile& file) {
   file.fail(
-      "is compressed (LAZ), which is not read; decompress it first, with "
-      "'laszip -i in.laz -o out.las' or 'pdal translate in.laz out.las'");
+      "is compressed (LAZ), which is not read; Debian 12 has no program for it, Python's laspy "
+      "has: "
+      "pip install 'laspy[lazrs]', then python3 -c \"import laspy; "
+      "laspy.read('in.laz').write('out.las')\"");
 }
 
 /// Smallest header of LAS 1.2, 1.3, 1.4.
@@ -106,6 +108,12 @@ void check_count(const BlockFile& file, const LasHeader& header) {
   if (held > header.point_count) {
     file.fail(fmt::format("has more data than its header counts: {} points, it holds {}",
                           header.point_count, held));
+  }
+  // A byte too many in the middle shifts every point behind it to where it never was.
+  const std::uint64_t rest = header.points_end - header.points_at - held * header.record_bytes;
+  if (header.points_end == file.size() && rest > 0) {
+    file.fail(fmt::format("is damaged: behind its {} points are {} bytes, less than one more",
+                          header.point_count, rest));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/error.h"
+#include "engine/io/crs_text.h"
 #include "engine/io/gdal_handles.h"
 #include "engine/io/geo.h"
 #include "engine/io/quiet_gdal.h"
@@ -14,12 +15,7 @@ namespace vinerow::io {
 
 struct LocalToCrs::Impl {
   Impl(const std::string& text, const GeoOrigin& origin) : frame(origin) {
-    OGRSpatialReference crs;
-    if (text.empty() || crs.SetFromUserInput(text.c_str()) != OGRERR_NONE) {
-      throw ConfigError(
-          fmt::format("crs = '{}' is not a coordinate reference system, must be like EPSG:32632",
-                      text.substr(0, 60)));
-    }
+    OGRSpatialReference crs = parse_crs(text);
     name = crs.GetName() ? crs.GetName() : "unknown";
     if (crs.IsCompound() || crs.IsVertical()) {
       height_m = crs.GetTargetLinearUnits("VERT_CS");
@@ -28,9 +24,7 @@ struct LocalToCrs::Impl {
     }
     if (crs.IsCompound()) crs.StripVertical();
     crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    OGRSpatialReference wgs84;
-    wgs84.SetWellKnownGeogCS("WGS84");
-    wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const OGRSpatialReference wgs84 = make_wgs84();
     from_wgs84.reset(OGRCreateCoordinateTransformation(&wgs84, &crs));
     if (!from_wgs84) {
       throw ConfigError(fmt::format("WGS84 does not convert to the crs '{}'", name));

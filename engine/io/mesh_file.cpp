@@ -13,7 +13,8 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
-#include "engine/io/assimp_traps.h"
+#include "engine/io/collada_check.h"
+#include "engine/io/mesh_ply.h"
 #include "engine/io/mesh_references.h"
 
 namespace vinerow::io {
@@ -64,12 +65,16 @@ double linear_from_srgb(double value) {
 }
 
 /// glTF's factors are linear; the other formats hold what a screen shows.
-Eigen::Vector3f linear_colour(const aiColor4D& colour, bool file_is_linear) {
-  const Eigen::Vector3d rgb(colour.r, colour.g, colour.b);
-  if (file_is_linear) return rgb.cast<float>();
+Eigen::Vector3f linear_colour(const Eigen::Vector3f& colour, bool file_is_linear) {
+  if (file_is_linear) return colour;
+  const Eigen::Vector3d rgb = colour.cast<double>();
   return Eigen::Vector3d(linear_from_srgb(rgb.x()), linear_from_srgb(rgb.y()),
                          linear_from_srgb(rgb.z()))
       .cast<float>();
+}
+
+Eigen::Vector3f linear_colour(const aiColor4D& colour, bool file_is_linear) {
+  return linear_colour(Eigen::Vector3f(colour.r, colour.g, colour.b), file_is_linear);
 }
 
 void add_note_once(std::vector<std::string>& notes, std::string note) {
@@ -122,38 +127,18 @@ Eigen::Matrix4d to_eigen(const aiMatrix4x4& m) {
   return result;
 }
 
-TriangleMesh convert_mesh(const aiMesh& source, const Eigen::Matrix4d& transform,
-                          bool file_is_linear, const std::filesystem::path& file) {
+TriangleMesh convert_mesh(const aiMesh& source, bool file_is_linear) {
   TriangleMesh mesh;
-  const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
-  const Eigen::Vector3d shift = transform.topRightCorner<3, 1>();
-  const double determinant = linear.determinant();
   mesh.vertices.reserve(source.mNumVertices);
   for (unsigned i = 0; i < source.mNumVertices; ++i) {
     const aiVector3D& v = source.mVertices[i];
-    const Eigen::Vector3d p = linear * Eigen::Vector3d(v.x, v.y, v.z) + shift;
-    if (!p.allFinite()) {
-      throw ConfigError(
-          fmt::format("mesh file '{}': vertex {} of '{}' has a coordinate that is not finite",
-                      file.string(), i, source.mName.C_Str()));
-    }
-    mesh.vertices.push_back(p.cast<float>());
+    mesh.vertices.emplace_back(v.x, v.y, v.z);
   }
-  if (source.HasNormals() && std::abs(determinant) > 0.0) {
-    const Eigen::Matrix3d normal_matrix = linear.inverse().transpose();
+  if (source.HasNormals()) {
     mesh.normals.reserve(source.mNumVertices);
-    const bool keep_bits = linear == Eigen::Matrix3d::Identity();
     for (unsigned i = 0; i < source.mNumVertices; ++i) {
       const aiVector3D& n = source.mNormals[i];
-      if (keep_bits) {
-        mesh.normals.emplace_back(n.x, n.y, n.z);
-        continue;
-      }
-      const Eigen::Vector3d turned = normal_matrix * Eigen::Vector3d(n.x, n.y, n.z);
-      const double length = turned.norm();
-      const bool usable = std::isfinite(length) && length > 0.0;
-      mesh.normals.push_back(usable ? Eigen::Vector3f((turned / length).cast<float>())
-                                    : Eigen::Vector3f::UnitZ());
+      mesh.normals.emplace_back(n.x, n.y, n.z);
     }
   }
   if (source.HasTextureCoords(0)) {
@@ -172,17 +157,46 @@ TriangleMesh convert_mesh(const aiMesh& source, const Eigen::Matrix4d& transform
   for (unsigned i = 0; i < source.mNumFaces; ++i) {
     const aiFace& face = source.mFaces[i];
     if (face.mNumIndices != 3) continue;  // points and lines
-    std::array<std::uint32_t, 3> t = {face.mIndices[0], face.mIndices[1], face.mIndices[2]};
-    if (determinant < 0.0) std::swap(t[1], t[2]);  // a mirror turns faces inside out
+    mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+  }
+  return mesh;
+}
+
+/// From the file's axes and unit to the result's; triangles without area are left out.
+void place_mesh(TriangleMesh& mesh, const Eigen::Matrix4d& transform, const std::string& name,
+                const std::filesystem::path& file) {
+  const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
+  const Eigen::Vector3d shift = transform.topRightCorner<3, 1>();
+  const double determinant = linear.determinant();
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Eigen::Vector3d p = linear * mesh.vertices[i].cast<double>() + shift;
+    if (!p.allFinite()) {
+      throw ConfigError(
+          fmt::format("mesh file '{}': vertex {} of '{}' has a coordinate that is not finite",
+                      file.string(), i, name));
+    }
+    mesh.vertices[i] = p.cast<float>();
+  }
+  if (!(std::abs(determinant) > 0.0)) mesh.normals.clear();
+  if (linear != Eigen::Matrix3d::Identity() && !mesh.normals.empty()) {
+    const Eigen::Matrix3d normal_matrix = linear.inverse().transpose();
+    for (Eigen::Vector3f& n : mesh.normals) {
+      const Eigen::Vector3d turned = normal_matrix * n.cast<double>();
+      const double length = turned.norm();
+      const bool usable = std::isfinite(length) && length > 0.0;
+      n = usable ? Eigen::Vector3f((turned / length).cast<float>()) : Eigen::Vector3f::UnitZ();
+    }
+  }
+  if (determinant < 0.0) {  // a mirror turns faces inside out
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  // Triangles without area have no normal and trouble contact and rays.
+  std::erase_if(mesh.triangles, [&](const std::array<std::uint32_t, 3>& t) {
     const Eigen::Vector3f& a = mesh.vertices[t[0]];
     const Eigen::Vector3f& b = mesh.vertices[t[1]];
     const Eigen::Vector3f& c = mesh.vertices[t[2]];
-    // Triangles without area have no normal and trouble contact and rays.
-    if ((b - a).cast<double>().cross((c - a).cast<double>()).squaredNorm() > 0.0) {
-      mesh.triangles.push_back(t);
-    }
-  }
-  return mesh;
+    return !((b - a).cast<double>().cross((c - a).cast<double>()).squaredNorm() > 0.0);
+  });
 }
 
 struct Reading {
@@ -197,7 +211,8 @@ void read_node(const aiNode& node, const Eigen::Matrix4d& parent, Reading& readi
   const Eigen::Matrix4d transform = parent * to_eigen(node.mTransformation);
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& source = *reading.scene.mMeshes[node.mMeshes[i]];
-    TriangleMesh mesh = convert_mesh(source, transform, reading.file_is_linear, reading.file);
+    TriangleMesh mesh = convert_mesh(source, reading.file_is_linear);
+    place_mesh(mesh, transform, source.mName.C_Str(), reading.file);
     if (mesh.triangles.empty()) continue;
     MeshPart part;
     part.name = node.mName.length > 0 ? node.mName.C_Str() : source.mName.C_Str();
@@ -211,6 +226,34 @@ void read_node(const aiNode& node, const Eigen::Matrix4d& parent, Reading& readi
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
     read_node(*node.mChildren[i], transform, reading);
   }
+}
+
+MeshFile load_ply(const std::filesystem::path& file, const Eigen::Matrix4d& to_metres,
+                  bool join_vertices) {
+  PlyMesh ply = read_ply_mesh(file);
+  if (join_vertices) join_equal_vertices(ply.mesh);
+  if (!ply.linear_colours) {
+    for (Eigen::Vector3f& colour : ply.mesh.colours) colour = linear_colour(colour, false);
+  }
+  place_mesh(ply.mesh, to_metres, file.stem().string(), file);
+  if (ply.mesh.triangles.empty()) {
+    throw ConfigError(fmt::format("mesh file '{}' has no triangles", file.string()));
+  }
+  MeshFile result;
+  result.notes = std::move(ply.notes);
+  MeshPart part;
+  part.material.colour = linear_colour(Eigen::Vector3f::Constant(0.6f), ply.linear_colours);
+  if (!ply.texture.empty()) {
+    if (const auto found = find_reference(file, ply.texture)) {
+      part.material.texture = found->string();
+    } else {
+      result.notes.push_back(
+          fmt::format("{}: texture '{}' is missing", file.string(), ply.texture));
+    }
+  }
+  part.mesh = std::make_shared<const TriangleMesh>(std::move(ply.mesh));
+  result.parts.push_back(std::move(part));
+  return result;
 }
 
 }  // namespace
@@ -231,16 +274,18 @@ MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& opt
   Assimp::Importer importer;
   const std::string extension = lower_extension(file);
   check_readable(file, extension, importer);
+  Eigen::Matrix4d to_metres = Eigen::Matrix4d::Identity();
+  to_metres.topLeftCorner<3, 3>() = calc_file_to_metres(file, extension, options);
+  if (extension == ".ply") return load_ply(file, to_metres, options.join_vertices);
 
+  if (extension == ".dae") check_collada(file);
   // assimp would turn Z-up COLLADA into Y-up; the axes are handled above for all formats alike.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType;
   if (options.join_vertices) steps |= aiProcess_JoinIdenticalVertices;
-  const std::optional<std::string> ply = extension == ".ply" ? check_ply(file) : std::nullopt;
-  const aiScene* scene = ply ? importer.ReadFileFromMemory(ply->data(), ply->size(), steps, "ply")
-                             : importer.ReadFile(file.string(), steps);
+  const aiScene* scene = importer.ReadFile(file.string(), steps);
   if (scene == nullptr) {
     // assimp has no error text for a file that holds nothing it could use.
     const std::string reason = importer.GetErrorString();
@@ -252,8 +297,7 @@ MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& opt
                                   reason.empty() ? "it holds no geometry" : reason));
   }
 
-  const bool file_is_linear = extension == ".gltf" || extension == ".glb" ||
-                              (extension == ".ply" && has_float_colours(file));
+  const bool file_is_linear = extension == ".gltf" || extension == ".glb";
   std::vector<std::string> notes;
   if (extension == ".obj") {
     for (const std::string& library : read_material_libraries(file)) {
@@ -267,8 +311,6 @@ MeshFile load_mesh(const std::filesystem::path& file, const MeshFileOptions& opt
   for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
     materials.push_back(convert_material(*scene->mMaterials[i], file, file_is_linear, notes));
   }
-  Eigen::Matrix4d to_metres = Eigen::Matrix4d::Identity();
-  to_metres.topLeftCorner<3, 3>() = calc_file_to_metres(file, extension, options);
   Reading reading{file, *scene, materials, file_is_linear, {}};
   if (scene->mRootNode != nullptr) read_node(*scene->mRootNode, to_metres, reading);
   if (reading.result.parts.empty()) {

@@ -57,14 +57,6 @@ ColladaAsset read_collada_asset(const std::filesystem::path& file) {
   return asset;
 }
 
-bool has_float_colours(const std::filesystem::path& ply_file) {
-  const std::string text = read_beginning(ply_file);
-  const std::string header = text.substr(0, text.find("end_header"));
-  return header.find("property float red") != std::string::npos ||
-         header.find("property float32 red") != std::string::npos ||
-         header.find("property double red") != std::string::npos;
-}
-
 std::vector<std::string> read_material_libraries(const std::filesystem::path& obj_file) {
   std::vector<std::string> libraries;
   std::ifstream stream(obj_file);

@@ -1,6 +1,5 @@
 #pragma once
-/// What mesh files say outside their triangles: axes and unit of COLLADA, files they refer to, kind
-/// of colours.
+/// What mesh files say outside their triangles: axes and unit of COLLADA, files they refer to.
 
 #include <filesystem>
 #include <optional>
@@ -16,9 +15,6 @@ struct ColladaAsset {
 };
 
 ColladaAsset read_collada_asset(const std::filesystem::path& file);
-
-/// True where a PLY file's colours are not bytes: floats are linear, bytes are what a screen shows.
-bool has_float_colours(const std::filesystem::path& ply_file);
 
 /// The `mtllib` files an OBJ file names, as written.
 std::vector<std::string> read_material_libraries(const std::filesystem::path& obj_file);

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 
 namespace vinerow::io {
 namespace {
@@ -42,10 +42,7 @@ std::vector<NamedMesh> checked(std::span<const NamedMesh> meshes,
 }
 
 void save(const std::string& bytes, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (!stream) throw ConfigError(fmt::format("mesh file '{}' cannot be written", file.string()));
+  write_whole_file(file, bytes, "mesh file");
 }
 
 template <class T>

@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <fstream>
 #include <string>
 #include <string_view>
 
 #include "engine/api/mesh.h"
 #include "engine/core/check.h"
-#include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/core/hash.h"
+#include "engine/core/whole_file.h"
 
 namespace vinerow::io {
 namespace {
@@ -62,12 +61,10 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& file) {
     bytes += '\3';
     bytes.append(reinterpret_cast<const char*>(t.data()), sizeof t);
   }
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  const std::string beginning = kBeginning + digest_of(bytes) + "\n";
-  stream.write(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (!stream) throw ConfigError(fmt::format("mesh file '{}' cannot be written", file.string()));
+  WholeFile out(file, "mesh file");
+  out.write(kBeginning + digest_of(bytes) + "\n");
+  out.write(bytes);
+  out.finish();
 }
 
 bool is_intact_ply(const std::filesystem::path& file) {

@@ -40,6 +40,7 @@ struct MissionFile {
   std::optional<Geodetic> planned_home;    ///< altitude above mean sea level
   std::optional<double> cruise_speed_mps;  ///< of vehicles with wings
   std::optional<double> hover_speed_mps;
+  bool rotorcraft = false;  ///< what a plan that is written is for
   std::vector<FencePolygon> fence_polygons;
   std::vector<FenceCircle> fence_circles;
   std::vector<Geodetic> rally_points;

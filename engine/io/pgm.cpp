@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/yaml.h"
 
 namespace vinerow::io {
@@ -150,14 +150,10 @@ GrayImage read_pgm(const std::filesystem::path& file) {
 
 void write_pgm(const std::filesystem::path& file, const GrayImage& image) {
   VINEROW_DEMAND(image.maximum <= 255);
-  std::ofstream stream(file, std::ios::binary);
-  stream << fmt::format("P5\n{} {}\n{}\n", image.width, image.height, image.maximum);
-  std::string bytes;
-  bytes.reserve(image.values.size());
+  std::string bytes = fmt::format("P5\n{} {}\n{}\n", image.width, image.height, image.maximum);
+  bytes.reserve(bytes.size() + image.values.size());
   for (const std::uint16_t value : image.values) bytes += static_cast<char>(value);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.flush();
-  if (!stream) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
+  write_whole_file(file, bytes);
 }
 
 }  // namespace vinerow::io

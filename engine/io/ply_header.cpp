@@ -11,6 +11,7 @@ namespace {
 constexpr std::uint64_t kMostLines = 10'000;
 constexpr std::uint64_t kMostBytes = 1 << 20;
 constexpr std::size_t kMostProperties = 1'000;
+constexpr std::size_t kMostComments = 100;
 
 Scalar parse_type(const BlockFile& file, std::string_view word) {
   constexpr std::array<std::pair<std::string_view, Scalar>, 16> kTypes = {{
@@ -131,7 +132,9 @@ PlyHeader read_ply_header(BlockFile& file) {
       read_element(file, line, header);
     } else if (keyword == "property") {
       read_property(file, line, header);
-    } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+    } else if (keyword == "comment") {
+      if (header.comments.size() < kMostComments) header.comments.emplace_back(line);
+    } else if (keyword != "obj_info" && !keyword.empty()) {
       file.fail(fmt::format("has the unknown word '{}' in line {} of its header",
                             keyword.substr(0, 40), file.line_number()));
     }

@@ -31,6 +31,7 @@ struct PlyHeader {
   bool ascii = false;
   std::endian order = std::endian::little;  ///< of a binary file
   std::vector<PlyElement> elements;
+  std::vector<std::string> comments;  ///< without the word "comment"; at most 100
 };
 
 /// Reads up to and with end_header. @throws ConfigError naming file, line and what is wrong

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "engine/core/error.h"
+#include "engine/io/crs_text.h"
 #include "engine/io/gdal_handles.h"
 #include "engine/io/geo.h"
 #include "engine/io/quiet_gdal.h"
@@ -15,16 +16,6 @@
 
 namespace vinerow::io {
 namespace {
-
-OGRSpatialReference parse_crs(const std::string& text) {
-  OGRSpatialReference crs;
-  if (text.empty() || crs.SetFromUserInput(text.c_str()) != OGRERR_NONE) {
-    throw ConfigError(
-        fmt::format("crs = '{}' is not a coordinate reference system, must be like EPSG:32632",
-                    text.substr(0, 60)));
-  }
-  return crs;
-}
 
 /// Metres of one unit of z.
 double height_unit_m(const OGRSpatialReference& crs) {

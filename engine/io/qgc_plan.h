@@ -15,7 +15,7 @@ namespace vinerow::io {
 /// (TransectStyleComplexItem/Items). @throws ConfigError, see read_mission
 MissionFile parse_qgc_plan(const std::string& text, const std::filesystem::path& file);
 
-/// The mission as QGroundControl saves it, for a vehicle with wings.
+/// The mission as QGroundControl saves it, for a vehicle with wings or a multirotor.
 /// @pre mission.planned_home
 std::string format_qgc_plan(const MissionFile& mission);
 /// @throws ConfigError if the file cannot be written

@@ -1,10 +1,8 @@
-#include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/mav_command.h"
 #include "engine/io/qgc_plan.h"
 #include "engine/math/angles.h"
@@ -63,7 +61,7 @@ json format_fences(const MissionFile& mission) {
 }  // namespace
 
 std::string format_qgc_plan(const MissionFile& mission) {
-  constexpr int kGenericAutopilot = 0, kFixedWing = 1,
+  constexpr int kGenericAutopilot = 0, kFixedWing = 1, kQuadrotor = 2,
                 kDefaultHover_mps = 5;  // MAV_AUTOPILOT, MAV_TYPE
   json items = json::array();
   for (const MissionItem& item : mission.items) {
@@ -86,7 +84,7 @@ std::string format_qgc_plan(const MissionFile& mission) {
                        {"hoverSpeed", mission.hover_speed_mps.value_or(kDefaultHover_mps)},
                        {"items", items},
                        {"plannedHomePosition", home},
-                       {"vehicleType", kFixedWing},
+                       {"vehicleType", mission.rotorcraft ? kQuadrotor : kFixedWing},
                        {"version", 2}}},
                      {"rallyPoints", {{"points", rally}, {"version", 2}}},
                      {"version", 1}};
@@ -94,10 +92,7 @@ std::string format_qgc_plan(const MissionFile& mission) {
 }
 
 void write_qgc_plan(const MissionFile& mission, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << format_qgc_plan(mission);
-  stream.flush();
-  if (!stream) throw ConfigError(fmt::format("mission file '{}' cannot be written", file.string()));
+  write_whole_file(file, format_qgc_plan(mission), "mission file");
 }
 
 }  // namespace vinerow::io

@@ -6,10 +6,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/mission_item_check.h"
 #include "engine/math/angles.h"
 
@@ -128,10 +128,7 @@ std::string format_qgc_wpl(const MissionFile& mission) {
 }
 
 void write_qgc_wpl(const MissionFile& mission, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << format_qgc_wpl(mission);
-  stream.flush();
-  if (!stream) throw ConfigError(fmt::format("mission file '{}' cannot be written", file.string()));
+  write_whole_file(file, format_qgc_wpl(mission), "mission file");
 }
 
 }  // namespace vinerow::io

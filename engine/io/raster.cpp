@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "engine/core/error.h"
+#include "engine/io/crs_text.h"
 #include "engine/io/gdal_handles.h"
 #include "engine/io/geo.h"
 #include "engine/io/quiet_gdal.h"
@@ -31,9 +32,7 @@ OGRSpatialReference make_crs(const std::string& wkt) {
 class ToRaster {
  public:
   explicit ToRaster(const ElevationRaster& raster) : raster_(raster) {
-    OGRSpatialReference wgs84;
-    wgs84.SetWellKnownGeogCS("WGS84");
-    wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const OGRSpatialReference wgs84 = make_wgs84();
     const OGRSpatialReference target = make_crs(raster.crs_wkt);
     transformation_.reset(OGRCreateCoordinateTransformation(&wgs84, &target));
     if (!transformation_) {
@@ -79,25 +78,25 @@ class ToRaster {
 
 namespace {
 
-[[noreturn]] void fail_outside(const ElevationRaster& raster, double latitude_rad,
-                               double longitude_rad) {
+[[noreturn]] void fail_outside(const ElevationRaster& raster, const ToRaster& to_raster,
+                               double latitude_rad, double longitude_rad) {
   const double* g = raster.geo_transform;
+  const bool is_swapped = std::abs(longitude_rad) <= 0.5 * kPi &&
+                          std::isfinite(to_raster.height_m(longitude_rad, latitude_rad));
   throw ConfigError(
       fmt::format("raster '{}' has no height at latitude {:.6f} deg, longitude {:.6f} deg; it "
                   "covers x {:.0f} to {:.0f}, y {:.0f} "
-                  "to {:.0f} of {}",
+                  "to {:.0f} of {}{}",
                   raster.file.string(), deg_from_rad(latitude_rad), deg_from_rad(longitude_rad),
                   g[0], g[0] + raster.columns * g[1] + raster.rows * g[2],
-                  g[3] + raster.columns * g[4] + raster.rows * g[5], g[3], raster.crs_name));
+                  g[3] + raster.columns * g[4] + raster.rows * g[5], g[3], raster.crs_name,
+                  is_swapped ? "; are latitude and longitude swapped?" : ""));
 }
 
 void read_crs(ElevationRaster& raster, GDALDataset& dataset, const std::string& wanted) {
   OGRSpatialReference crs;
   if (!wanted.empty()) {
-    if (crs.SetFromUserInput(wanted.c_str()) != OGRERR_NONE) {
-      throw ConfigError(fmt::format(
-          "crs = '{}' is not a coordinate reference system, must be like EPSG:32632", wanted));
-    }
+    crs = parse_crs(wanted);
   } else {
     const OGRSpatialReference* own = dataset.GetSpatialRef();
     if (own == nullptr || own->IsEmpty() || own->IsLocal()) {
@@ -141,6 +140,13 @@ ElevationRaster read_elevation(const std::filesystem::path& file, const std::str
         fmt::format("raster '{}' does not say where it lies (no geotransform)", file.string()));
   }
 
+  constexpr double kMostPixels = 250e6;  // a gigabyte
+  if (static_cast<double>(raster.columns) * raster.rows > kMostPixels) {
+    throw ConfigError(fmt::format(
+        "raster '{}' has {} x {} pixels, must have at most {:g} million: cut out what is needed "
+        "with 'gdal_translate -projwin'",
+        file.string(), raster.columns, raster.rows, kMostPixels / 1e6));
+  }
   GDALRasterBand* band = dataset->GetRasterBand(1);
   raster.heights_m.resize(static_cast<std::size_t>(raster.columns) * raster.rows);
   if (band->RasterIO(GF_Read, 0, 0, raster.columns, raster.rows, raster.heights_m.data(),
@@ -199,7 +205,17 @@ HeightField resample_elevation(const ElevationRaster& raster, const GeoOrigin& o
       // altitude_m of this point is what W's tangent plane has there.
       const Geodetic point = frame.to_geodetic(p_W);
       const double height = to_raster.height_m(point.latitude_rad, point.longitude_rad);
-      if (!std::isfinite(height)) fail_outside(raster, point.latitude_rad, point.longitude_rad);
+      if (!std::isfinite(height)) {
+        fail_outside(raster, to_raster, point.latitude_rad, point.longitude_rad);
+      }
+      constexpr double kHighest_m = 20e3;
+      if (std::abs(height) > kHighest_m) {
+        throw ConfigError(fmt::format(
+            "raster '{}' has a height of {:g} m at latitude {:.6f} deg, longitude {:.6f} deg: does "
+            "it mean \"no data\" there without saying so?",
+            raster.file.string(), height, deg_from_rad(point.latitude_rad),
+            deg_from_rad(point.longitude_rad)));
+      }
       field.heights_m.push_back(static_cast<float>(height - point.altitude_m));
     }
   }

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/pgm.h"
 #include "engine/io/yaml.h"
 
@@ -156,10 +156,7 @@ void save_ros_map(const OccupancyGrid& grid, const std::filesystem::path& yaml_f
   map.put("occupied_thresh", yaml_number(0.65));
   map.put("free_thresh", yaml_number(0.196));
   map.put("mode", yaml_text("trinary"));
-  std::ofstream stream(yaml_file, std::ios::binary);
-  stream << to_yaml(map);
-  stream.flush();
-  if (!stream) throw ConfigError(fmt::format("'{}' cannot be written", yaml_file.string()));
+  write_whole_file(yaml_file, to_yaml(map));
 }
 
 }  // namespace vinerow::io

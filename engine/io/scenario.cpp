@@ -53,6 +53,7 @@ class ScenarioReader {
     scenario_.pictures.moments = read_moments(scenario_.pictures.moment_texts,
                                               mark_of("pictures", "moments"), scenario_.phases);
     check_shot_cameras(scenario_.pictures, scenario_.vehicles);
+    check_picture_count();
     resolved_.put("pictures", std::move(pictures));
     scenario_.resolved_yaml =
         "# Written by vinerow: includes and overrides applied, defaults written out, paths "
@@ -90,6 +91,12 @@ class ScenarioReader {
     if (scenario_.name.empty()) {
       scenario_.name = default_name;
       resolved_.put("name", yaml_text(default_name));
+    } else if (!is_valid_name(scenario_.name)) {
+      // Folders and files are named after it.
+      fail_at(root_.find("name")->mark,
+              fmt::format("name = '{}', must be made of letters, digits, '_' and '-' and start "
+                          "with a letter or '_' (results go to runs/<name>)",
+                          scenario_.name));
     }
     scenario_.description = values.description;
     scenario_.seed = values.seed;
@@ -112,6 +119,16 @@ class ScenarioReader {
                         key->spec.fields, name);
     resolved_.put(name, std::move(read.resolved));
     return std::move(read.values);
+  }
+
+  void check_picture_count() const {
+    const double every_s = scenario_.pictures.every_s;
+    if (!(every_s > 0.0) || scenario_.duration_s / every_s <= kMostPictureInstants) return;
+    fail_at(mark_of("pictures", "every_s"),
+            fmt::format("pictures.every_s = {} s makes {:.0f} frames of each camera in {} s, must "
+                        "make at most {:.0f}",
+                        every_s, scenario_.duration_s / every_s, scenario_.duration_s,
+                        kMostPictureInstants));
   }
 
   SourceMark mark_of(const char* group, const char* key) const {
@@ -217,6 +234,8 @@ class ScenarioReader {
 
   void read_record() {
     scenario_.record = record_table().read(read_group("record"), "");
+    // Without a log nothing is written at this rate.
+    if (!scenario_.record.enabled) return;
     check_rate(scenario_.record.truth_rate_Hz, scenario_.physics_step,
                mark_of("record", "truth_rate_Hz"), "record.truth_rate_Hz");
   }

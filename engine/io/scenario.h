@@ -101,6 +101,9 @@ struct PhaseMoment {
   SourceMark where;
 };
 
+/// Frames of one camera at regular intervals that are drawn without asking whether that was meant.
+inline constexpr double kMostPictureInstants = 10'000.0;
+
 struct PicturesConfig {
   int width = 1280;
   int height = 720;

@@ -112,11 +112,10 @@ const ParameterTable<RecordConfig>& record_table() {
 
 const ParameterTable<VehicleConfig>& vehicle_table() {
   using P = VehicleConfig;
-  static const ParameterTable<P> table =
-      ParameterTable<P>().choice("on_crash", &P::on_crash,
-                                 {{"end", OnCrash::kEnd}, {"fail", OnCrash::kFail}},
-                                 "what a crash of the vehicle does beside failing the run: it ends "
-                                 "there, or goes on for the others");
+  static const ParameterTable<P> table = ParameterTable<P>().choice(
+      "on_crash", &P::on_crash, {{"end", OnCrash::kEnd}, {"fail", OnCrash::kFail}},
+      "what a crash of the vehicle does beside failing the run: it ends "
+      "there, or goes on for the others");
   return table;
 }
 
@@ -271,11 +270,13 @@ const ParameterTable<PlacedSpawn>& placed_spawn_table() {
   using P = PlacedSpawn;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("x_m", "m", [](P& p) -> double& { return p.p_W.x(); }, between(-1e7, 1e7),
-                  "east of the world's origin")
+          .number(
+              "x_m", "m", [](P& p) -> double& { return p.p_W.x(); }, between(-1e7, 1e7),
+              "east of the world's origin")
           .required()
-          .number("y_m", "m", [](P& p) -> double& { return p.p_W.y(); }, between(-1e7, 1e7),
-                  "north of the world's origin")
+          .number(
+              "y_m", "m", [](P& p) -> double& { return p.p_W.y(); }, between(-1e7, 1e7),
+              "north of the world's origin")
           .required()
           .degrees("yaw_deg", &P::yaw_rad, between(-360.0, 360.0),
                    "heading, from east, positive to the left");
@@ -354,9 +355,11 @@ ParameterTable<CameraFields<kKind>> make_camera_table() {
   ParameterTable<P> table;
   if constexpr (kKind == CameraKind::kFixed) {
     table
-        .numbers("position_m", "m", of(&C::p_W), kAnyNumber, "x, y and height above the ground")
+        .numbers("position_m", "m", of(&C::p_W), between(-1e5, 1e5),
+                 "x, y and height above the ground")
         .required()
-        .numbers("look_at_m", "m", of(&C::target_W), kAnyNumber, "x, y and height above the ground")
+        .numbers("look_at_m", "m", of(&C::target_W), between(-1e5, 1e5),
+                 "x, y and height above the ground")
         .required();
   } else {
     table.text("vehicle", &P::vehicle,
@@ -371,7 +374,7 @@ ParameterTable<CameraFields<kKind>> make_camera_table() {
                  "orbit angle from behind, positive to the left");
   } else if constexpr (kKind == CameraKind::kTop) {
     table
-        .numbers("centre_m", "m", of(&C::centre_W), kAnyNumber,
+        .numbers("centre_m", "m", of(&C::centre_W), between(-1e5, 1e5),
                  "x and y in the middle of the picture, instead of a vehicle")
         .number("height_m", "m", of(&C::height_m), between(0.0, 1e5),
                 "what the picture shows from south to north; 0 = the whole world");
@@ -381,7 +384,7 @@ ParameterTable<CameraFields<kKind>> make_camera_table() {
                  "pictures whose index is a multiple of it");
   } else if constexpr (kKind == CameraKind::kOnBoard) {
     table
-        .numbers("offset_m", "m", of(&C::offset_B), kAnyNumber,
+        .numbers("offset_m", "m", of(&C::offset_B), between(-1e3, 1e3),
                  "in the body frame: forward, left, up")
         .degrees("yaw_deg", of(&C::yaw_rad), between(-360.0, 360.0), "view direction, to the left")
         .degrees("pitch_deg", of(&C::pitch_rad), between(-90.0, 90.0), "positive looks down");
@@ -478,9 +481,9 @@ bool is_valid_name(const std::string& name) {
 
 const std::vector<std::string>& reserved_signal_names() {
   static const std::vector<std::string> names = {
-      "truth",     "estimate",        "plan",     "reference", "links",
-      "actuators", "follower",        "command",  "plan_tree", "local_command",
-      "ellipsoid", "estimator_state", "contacts", "map_edges", "authority"};
+      "truth",    "estimate",  "plan",      "reference",     "links",     "actuators",
+      "follower", "command",   "plan_tree", "local_command", "ellipsoid", "estimator_state",
+      "contacts", "map_edges", "landing",   "authority"};
   return names;
 }
 

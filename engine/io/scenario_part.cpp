@@ -109,14 +109,36 @@ void check_signal_name(const YamlEntry& entry, const std::string& path, const ch
   }
 }
 
-/// Every sensor writes "<name>_truth" beside its own name.
-void check_truth_names(const std::vector<NamedPart>& sensors, const std::string& path) {
-  for (const NamedPart& sensor : sensors) {
-    for (const NamedPart& other : sensors) {
-      if (sensor.name != other.name + "_truth") continue;
-      fail_at(sensor.part.where,
-              fmt::format("{}: a sensor cannot have the name of the truth beside the sensor '{}'",
-                          join_path(path, sensor.name), other.name));
+/// Whether a signal, named in full or as its vehicle names it, tells what is true.
+bool is_truth_signal(const std::string& name) {
+  const std::string local = name.substr(name.rfind('/') + 1);
+  return local == "truth" || local.ends_with("_truth");
+}
+
+/// A vehicle knows the world by its sensors: sensors, payloads and metrics alone may ask the truth.
+bool works_on_readings(PartKind kind) {
+  return kind == PartKind::kEstimator || kind == PartKind::kPlanner ||
+         kind == PartKind::kGuidance || kind == PartKind::kController;
+}
+
+/// Parts take the names of the signals they read as free texts.
+void check_wires(const YamlEntry& entry, const std::string& path, PartKind kind,
+                 const std::vector<ParameterSpec>& fields, const ParameterSet& values) {
+  if (!works_on_readings(kind)) return;
+  for (const ParameterSpec& field : fields) {
+    std::vector<std::string> names;
+    if (field.kind == ParameterKind::kText && field.choices.empty() && values.has(field.name)) {
+      names = {values.text(field.name)};
+    } else if (field.kind == ParameterKind::kTextList && values.has(field.name)) {
+      names = values.texts(field.name);
+    }
+    for (const std::string& name : names) {
+      if (!is_truth_signal(name)) continue;
+      const YamlEntry* given = entry.value.find_entry(field.name);
+      fail_at(given ? given->mark : entry.mark,
+              fmt::format("{} = '{}' is the truth, which no part of a vehicle reads by name; must "
+                          "be the name of a sensor's signal",
+                          join_path(path, field.name), name));
     }
   }
 }
@@ -145,7 +167,58 @@ void check_observer_names(const VehicleConfig& vehicle, const std::string& path)
   }
 }
 
+/// A vehicle's other parts write signals as well, which their specs name: "wheels", "battery".
+void check_part_signals(const VehicleConfig& vehicle, const std::string& path,
+                        const Registry& registry) {
+  struct Writer {
+    std::string who;  ///< "the vehicle 'diff_drive_rover'"
+    std::vector<std::string> signals;
+  };
+  std::map<std::string, Writer> writers;
+  const auto add = [&](PartKind kind, const PartConfig& part) {
+    Writer writer{fmt::format("the {} '{}'", to_string(kind), part.type),
+                  fixed_signals(registry.spec(kind, part.type))};
+    for (const std::string& signal : writer.signals) writers.emplace(signal, writer);
+  };
+  add(PartKind::kVehicle, vehicle.vehicle);
+  if (vehicle.estimator) add(PartKind::kEstimator, *vehicle.estimator);
+  if (vehicle.planner) add(PartKind::kPlanner, *vehicle.planner);
+  if (vehicle.guidance) add(PartKind::kGuidance, *vehicle.guidance);
+  if (vehicle.controller) add(PartKind::kController, *vehicle.controller);
+  const auto check = [&](const std::string& signal, const NamedPart& part, const char* group,
+                         const char* what) {
+    const auto found = writers.find(signal);
+    if (found == writers.end()) return;
+    fail_at(
+        part.part.where,
+        fmt::format("{}.{}.{}: {} cannot have the name of a signal that {} writes ({}); give "
+                    "it another name",
+                    path, group, part.name, what, found->second.who, join(found->second.signals)));
+  };
+  for (const NamedPart& sensor : vehicle.sensors) {
+    check(sensor.name, sensor, "sensors", "a sensor");
+    check(sensor.name + "_truth", sensor, "sensors", "a sensor");
+  }
+  for (const NamedPart& payload : vehicle.payloads) {
+    check(payload.name, payload, "payloads", "a payload");
+  }
+  for (const NamedPart& observer : vehicle.observers) {
+    for (const auto& [local, signal] : observer_signals(observer.name)) {
+      check(signal, observer, "observers", "an observer");
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> fixed_signals(const PartSpec& spec) {
+  std::vector<std::string> signals;
+  for (const std::string& written : spec.writes) {
+    if (written.find('<') != std::string::npos) continue;
+    signals.push_back(written.substr(0, written.find(':')));
+  }
+  return signals;
+}
 
 ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kind,
                    const ReadContext& context, const std::vector<std::string>& extra_keys) {
@@ -190,6 +263,7 @@ ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kin
   for (YamlEntry& written : read.resolved.entries) {
     part.resolved.put(written.key, std::move(written.value));
   }
+  check_wires(entry, path, kind, fields, read.values);
   part.config.parameters = std::move(read.values);
   return part;
 }
@@ -205,12 +279,17 @@ std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::stri
     if (kind == PartKind::kSensor) check_signal_name(entry, path, "a sensor");
     if (kind == PartKind::kEstimator) check_signal_name(entry, path, "an observer");
     if (kind == PartKind::kPayload) check_signal_name(entry, path, "a payload");
+    if (kind != PartKind::kMetric && entry.key.ends_with("_truth")) {
+      fail_at(entry.mark,
+              fmt::format("{}: a name cannot end in '_truth', which marks what a sensor "
+                          "would have read without error",
+                          join_path(path, entry.key)));
+    }
     if (entry.value.is_null()) continue;
     ReadPart part = read_part(entry, join_path(path, entry.key), kind, context);
     parts.push_back({entry.key, std::move(part.config)});
     resolved.put(entry.key, std::move(part.resolved));
   }
-  if (kind == PartKind::kSensor) check_truth_names(parts, path);
   return parts;
 }
 
@@ -259,6 +338,7 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
     resolved.put(key.spec.name, std::move(written));
   }
   check_observer_names(vehicle, path);
+  check_part_signals(vehicle, path, context.registry);
   return vehicle;
 }
 

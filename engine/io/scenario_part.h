@@ -24,10 +24,14 @@ std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::stri
                                         PartKind kind, const ReadContext& context,
                                         YamlNode& resolved);
 
+/// Signals that a part of this type writes whatever it is called: "wheels", not "<name>_event".
+std::vector<std::string> fixed_signals(const PartSpec& spec);
+
 VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
                            const ReadContext& context, YamlNode& resolved);
 
-/// `pictures`, read like {cameras: {}} where it is absent. @param vehicles  names in file order
+/// `pictures`, read like {} where it is absent: a chase camera. @param vehicles  names in file
+/// order
 PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::string>& vehicles,
                              YamlNode& resolved);
 

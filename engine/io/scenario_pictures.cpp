@@ -73,7 +73,7 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
   return camera;
 }
 
-/// The cameras of a `pictures` block that names none.
+/// The cameras of a scenario that names none.
 YamlNode default_cameras(const std::vector<std::string>& vehicles) {
   YamlNode cameras = yaml_mapping();
   if (!vehicles.empty()) cameras.put("chase", yaml_mapping());
@@ -129,7 +129,7 @@ PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::stri
   if (pictures.moment_texts.empty()) resolved.erase("moments");
 
   const YamlNode* given = node.find("cameras");
-  const YamlNode cameras = given ? *given : entry ? default_cameras(vehicles) : yaml_mapping();
+  const YamlNode cameras = given ? *given : default_cameras(vehicles);
   require_mapping(cameras, "pictures.cameras", "{chase: {kind: chase}}");
   YamlNode written = yaml_mapping();
   for (const YamlEntry& camera : cameras.entries) {

@@ -285,7 +285,13 @@ Duration check_rate(double rate_Hz, Duration physics_step, const SourceMark& mar
   if (period.ns % physics_step.ns == 0) return period;
   const std::int64_t steps = period.ns / physics_step.ns;
   const auto rate_of = [&](std::int64_t n) {
-    return fmt::format("{:.6g} Hz", 1e9 / static_cast<double>(n * physics_step.ns));
+    // As many digits as it takes to be read back as a rate that fits.
+    const double fitting_Hz = 1e9 / static_cast<double>(n * physics_step.ns);
+    for (int digits = 6; digits < 17; ++digits) {
+      const std::string text = fmt::format("{:.{}g}", fitting_Hz, digits);
+      if (period_of_rate(std::stod(text)).ns == n * physics_step.ns) return text + " Hz";
+    }
+    return fmt::format("{} Hz", fitting_Hz);
   };
   const std::string fitting =
       steps == 0 ? rate_of(1) + " is the fastest"

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "engine/api/parameter_limits.h"
 #include "engine/api/parameter_table.h"
 #include "engine/io/scenario.h"
 #include "engine/io/scenario_keys.h"
@@ -31,7 +32,12 @@ Json reference(const std::string& name) {
   return {{"$ref", "#/$defs/" + name}};
 }
 
-Json range(Json schema, const ParameterSpec& spec) {
+Json range(Json schema, const ParameterSpec& given) {
+  ParameterSpec spec = with_limits_of_unit(given);
+  if (given.min_exclusive) {  // "> 0" says more than the least number that is still taken
+    spec.min = given.min;
+    spec.min_exclusive = true;
+  }
   const auto bound = [](double value) -> Json {
     // Whole numbers without point and exponent, as a person would write them.
     if (value == std::floor(value) && std::abs(value) < 9e15) {
@@ -233,6 +239,11 @@ class SchemaBuilder {
     switch (key.shape) {
       case KeyShape::kParameter:
         if (key.spec.name == "vinerow") return {{"const", kFormatVersion}};
+        if (key.spec.name == "name") {  // empty: the file's
+          schema = parameter_schema(key.spec, partial);
+          schema["pattern"] = std::string("^$|") + kNamePattern;
+          return schema;
+        }
         return parameter_schema(key.spec, partial);
       case KeyShape::kGroup:
         schema = value_schema(key.spec, partial);

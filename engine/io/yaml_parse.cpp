@@ -26,6 +26,9 @@ class TreeBuilder : public YAML::EventHandler {
 
   YamlNode take_root() { return std::move(root_); }
 
+  /// Line where the innermost list or mapping begins that has not ended; 0: there is none.
+  int open_line() const { return open_.empty() ? 0 : open_.back().node.mark.line; }
+
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
 
@@ -170,6 +173,24 @@ void check_characters(const std::string& text, const std::string& file_name) {
   }
 }
 
+/// The parser's words for what people leave out most often, in theirs.
+std::string explain_yaml_fault(const YAML::Exception& fault, int open_line) {
+  const auto not_closed = [&](const char* opening, const char* closing) {
+    return fmt::format("the '{}' of line {} is not closed by '{}'", opening, open_line, closing);
+  };
+  if (open_line > 0 && fault.msg == YAML::ErrorMsg::END_OF_MAP_FLOW) return not_closed("{", "}");
+  if (open_line > 0 && fault.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW) return not_closed("[", "]");
+  if (fault.msg == YAML::ErrorMsg::FLOW_END) return "a '}' or ']' closes nothing";
+  if (fault.msg == YAML::ErrorMsg::EOF_IN_SCALAR) return "a quotation mark is not closed";
+  if (fault.msg == YAML::ErrorMsg::MAP_VALUE) {
+    return "a ':' stands where none can be: is a text with ': ' not in quotes?";
+  }
+  if (fault.msg == YAML::ErrorMsg::END_OF_MAP) {
+    return "a key is expected here: is this line indented as those above it?";
+  }
+  return fault.msg;
+}
+
 }  // namespace
 
 YamlNode parse_yaml(const std::string& text, const std::string& file_name,
@@ -189,7 +210,8 @@ YamlNode parse_yaml(const std::string& text, const std::string& file_name,
     return root;
   } catch (const YAML::Exception& fault) {
     const int line = fault.mark.is_null() ? 0 : fault.mark.line + 1;
-    fail_at({file_name, line}, fmt::format("is not valid YAML: {}", fault.msg));
+    fail_at({file_name, line},
+            fmt::format("is not valid YAML: {}", explain_yaml_fault(fault, builder.open_line())));
   }
 }
 

@@ -10,14 +10,20 @@ namespace vinerow::physics {
 /// @throws ConfigError naming the mesh or terrain, what is wrong and what is allowed
 void check_world(const WorldModel& world);
 
-/// Rays and distances see canopy, but no wires, which are drawn only.
+/// Rays miss wires: one of 5 mm is narrower than the beams and footprints that rays stand for.
+/// Contacts and distances know them.
 inline bool is_seen_by_rays(const MeshInstance& instance) {
   return instance.collides && instance.surface != SurfaceClass::kWire;
 }
 
-/// What pushes back: all of that but the canopy, which gives way.
+/// What pushes back: all but the canopy, which gives way.
 inline bool is_rigid(const MeshInstance& instance) {
-  return is_seen_by_rays(instance) && instance.surface != SurfaceClass::kCanopy;
+  return instance.collides && instance.surface != SurfaceClass::kCanopy;
+}
+
+/// What carries a wheel: ground probes are rays.
+inline bool carries_wheels(const MeshInstance& instance) {
+  return is_rigid(instance) && is_seen_by_rays(instance);
 }
 
 }  // namespace vinerow::physics

@@ -8,7 +8,6 @@
 #include "engine/api/height_field.h"
 #include "engine/api/mesh.h"
 #include "engine/api/world_model.h"
-#include "engine/physics/check_world.h"
 #include "engine/physics/triangle_box.h"
 
 namespace vinerow::physics {
@@ -87,7 +86,7 @@ MeshDistance::MeshDistance(const WorldModel& world) : world_(world) {
   std::map<const TriangleMesh*, const BoxTree*> known;
   std::vector<Eigen::AlignedBox3f> boxes;
   for (const MeshInstance& instance : world.meshes) {
-    if (!is_seen_by_rays(instance)) continue;
+    if (!instance.collides) continue;
     const BoxTree*& tree = known[instance.mesh.get()];
     if (!tree) {
       trees_.push_back(make_tree(*instance.mesh));

@@ -243,7 +243,9 @@ bool MeshRays::empty() const {
 
 std::optional<RayHit> MeshRays::cast(const Vector3d& p_W, const Vector3d& dir_W,
                                      double max_distance_m, SurfaceMask mask) const {
-  if (impl_->placed.empty() || !p_W.allFinite() || !dir_W.allFinite()) return std::nullopt;
+  if (impl_->placed.empty() || !p_W.allFinite() || !dir_W.allFinite() || !(max_distance_m >= 0.0)) {
+    return std::nullopt;
+  }
   // Embree's ray begins where the meshes do: single precision loses no digits to a far start.
   const std::optional<double> start_m = enter_m(impl_->bounds_W, p_W, dir_W, max_distance_m);
   if (!start_m) return std::nullopt;

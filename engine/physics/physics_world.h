@@ -3,7 +3,8 @@
 /// meets the engine.
 ///
 /// Static geometry comes from the WorldModel: the height field and every mesh with `collides`
-/// (canopy excepted: it is seen by rays and distances but does not push; wires are drawn only).
+/// (canopy excepted: it is seen by rays and distances but does not push). Wires push and are known
+/// to distances; rays miss them.
 /// Dynamic bodies are added by vehicles and tests. README.md tells accuracy and limits.
 
 #include <cstdint>

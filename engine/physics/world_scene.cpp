@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 constexpr SurfaceMask kRigidMask =
     kAllSurfaces & ~mask_of(SurfaceClass::kCanopy) & ~mask_of(SurfaceClass::kWire);
 
-/// Calls `use(x0, y0, x1, y1)` with the plan of every triangle of a rigid mesh.
+/// Calls `use(x0, y0, x1, y1)` with the plan of every triangle that may carry a wheel.
 template <class Use>
-void for_each_rigid_triangle(const WorldModel& world, Use&& use) {
+void for_each_carrying_triangle(const WorldModel& world, Use&& use) {
   for (const MeshInstance& instance : world.meshes) {
-    if (!is_rigid(instance)) continue;
+    if (!carries_wheels(instance)) continue;
     const Eigen::Matrix3d R_WM = instance.X_WM.q.toRotationMatrix();
     for (const auto& triangle : instance.mesh->triangles) {
       Eigen::AlignedBox2d plan;
@@ -36,7 +36,7 @@ void for_each_rigid_triangle(const WorldModel& world, Use&& use) {
 
 RigidMap::RigidMap(const WorldModel& world) {
   Eigen::AlignedBox2d all;
-  for_each_rigid_triangle(world, [&](const Eigen::AlignedBox2d& plan) { all.extend(plan); });
+  for_each_carrying_triangle(world, [&](const Eigen::AlignedBox2d& plan) { all.extend(plan); });
   if (all.isEmpty()) return;
   constexpr double kMostCells = 2048.0;  // along an axis: 0.5 MB of bits
   corner_W_ = all.min();
@@ -44,7 +44,7 @@ RigidMap::RigidMap(const WorldModel& world) {
   columns_ = static_cast<int>(all.sizes().x() / cell_m_) + 1;
   rows_ = static_cast<int>(all.sizes().y() / cell_m_) + 1;
   marked_.assign(static_cast<std::size_t>(columns_) * rows_, false);
-  for_each_rigid_triangle(world, [&](const Eigen::AlignedBox2d& plan) {
+  for_each_carrying_triangle(world, [&](const Eigen::AlignedBox2d& plan) {
     // Single precision of the ray caster moves triangles by less than this.
     constexpr double kMargin_m = 1e-3;
     mark(plan.min().x() - kMargin_m, plan.min().y() - kMargin_m, plan.max().x() + kMargin_m,
@@ -86,6 +86,17 @@ bool RigidMap::any_near(double x0, double y0, double x1, double y1) const {
 WorldScene::WorldScene(const WorldModel& world)
     : mesh_rays_(world), mesh_distance_(world), rigid_map_(world) {
   if (world.terrain) terrain_.emplace(*world.terrain);
+  // The ray caster's single precision moves triangles by far less.
+  constexpr double kMargin_m = 1.0;
+  for (const MeshInstance& instance : world.meshes) {
+    if (!is_seen_by_rays(instance) || (mask_of(instance.surface) & kGroundMask) == 0) continue;
+    const Vector3d up_M = instance.X_WM.q.conjugate() * Vector3d::UnitZ();
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      const double height_m = up_M.dot(v.cast<double>()) + instance.X_WM.p.z();
+      meshes_top_m_ = std::max(meshes_top_m_, height_m + kMargin_m);
+      meshes_bottom_m_ = std::min(meshes_bottom_m_, height_m - kMargin_m);
+    }
+  }
 }
 
 std::optional<RayHit> WorldScene::cast_ray(const Vector3d& p_W, const Vector3d& dir_W,
@@ -108,11 +119,11 @@ std::optional<double> WorldScene::ground_height_m(double x, double y, double z_f
     const double height = terrain_->field().height_m(x, y);
     if (height <= z_from) highest = height;
   }
-  // Deep enough for any parcel where there is no terrain to stop at.
-  constexpr double kDeepest_m = 1e5;
-  const double reach_m = highest ? z_from - *highest : kDeepest_m;
-  if (const auto hit = mesh_rays_.cast({x, y, z_from}, -Vector3d::UnitZ(), reach_m, kGroundMask)) {
-    highest = z_from - hit->distance_m;
+  const double top_m = std::min(z_from, meshes_top_m_);
+  const double reach_m = top_m - (highest ? *highest : meshes_bottom_m_);
+  if (!(reach_m > 0.0)) return highest;
+  if (const auto hit = mesh_rays_.cast({x, y, top_m}, -Vector3d::UnitZ(), reach_m, kGroundMask)) {
+    highest = top_m - hit->distance_m;
   }
   return highest;
 }

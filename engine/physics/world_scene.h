@@ -2,6 +2,7 @@
 /// The static world's answers to rays, distances and ground probes.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -52,6 +53,9 @@ class WorldScene : public SceneQuery {
   MeshRays mesh_rays_;
   MeshDistance mesh_distance_;
   RigidMap rigid_map_;
+  /// Heights between which meshes are ground; turned round where none is.
+  double meshes_top_m_ = -std::numeric_limits<double>::infinity();
+  double meshes_bottom_m_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace vinerow::physics

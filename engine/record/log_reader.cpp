@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <set>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
@@ -11,6 +14,9 @@
 namespace vinerow::record {
 namespace {
 
+/// Later stamps (the year 2116) are damage; differences of two stamps stay within 64 bits.
+constexpr std::uint64_t kLastStamp_ns = std::uint64_t{1} << 62;
+
 Time time_of(std::uint64_t ns) {
   return {static_cast<std::int64_t>(ns)};
 }
@@ -18,6 +24,12 @@ Time time_of(std::uint64_t ns) {
 }  // namespace
 
 struct LogReader::Impl {
+  struct KeptMessage {
+    std::uint64_t stamp_ns = 0;
+    std::uint64_t index = 0;  ///< in its channel, from 1
+    std::vector<std::uint8_t> data;
+  };
+
   explicit Impl(const std::filesystem::path& file) : name(file.string()), mcap(file) {
     info.complete = mcap.complete();
     info.first = time_of(mcap.start_time());
@@ -65,6 +77,50 @@ struct LogReader::Impl {
     return *channel;
   }
 
+  /// Channels whose stamps fall somewhere; found out once, by a walk over all messages.
+  const std::set<std::uint16_t>& channels_out_of_order() {
+    if (out_of_order) return *out_of_order;
+    out_of_order.emplace();
+    std::set<std::uint16_t> all;
+    for (const ChannelInfo& channel : info.channels) {
+      all.insert(static_cast<std::uint16_t>(channel.id));
+    }
+    std::map<std::uint16_t, std::uint64_t> latest;
+    mcap.for_each_message(all, [&](const McapMessage& message) {
+      std::uint64_t& last = latest[message.channel];
+      if (message.publish_time < last) out_of_order->insert(message.channel);
+      last = std::max(last, message.publish_time);
+    });
+    return *out_of_order;
+  }
+
+  /// The messages of a channel in the order of their stamps.
+  void for_each_in_order(const ChannelInfo& channel,
+                         const std::function<void(std::uint64_t stamp_ns, std::uint64_t index,
+                                                  std::span<const std::uint8_t>)>& callback) {
+    const auto id = static_cast<std::uint16_t>(channel.id);
+    const bool is_sorted = !channels_out_of_order().contains(id);
+    std::vector<KeptMessage> kept;
+    std::uint64_t index = 0;
+    mcap.for_each_message({id}, [&](const McapMessage& message) {
+      ++index;
+      if (is_sorted) {
+        callback(message.publish_time, index, message.data);
+      } else {
+        kept.push_back({message.publish_time, index, {message.data.begin(), message.data.end()}});
+      }
+    });
+    if (is_sorted) return;
+    if (told_as_sorted.insert(channel.id).second) {
+      info.warnings.push_back(
+          fmt::format("{}: the messages of topic '{}' are not in the order of their stamps; they "
+                      "were sorted",
+                      name, channel.topic));
+    }
+    std::ranges::stable_sort(kept, {}, &KeptMessage::stamp_ns);
+    for (const KeptMessage& message : kept) callback(message.stamp_ns, message.index, message.data);
+  }
+
   void note_damage() {
     // The reader below appends; messages that could not be decoded stand between.
     for (; mcap_warnings < mcap.warnings().size(); ++mcap_warnings) {
@@ -78,6 +134,8 @@ struct LogReader::Impl {
   LogInfo info;
   std::size_t mcap_warnings = 0;
   std::set<std::pair<int, std::uint64_t>> undecoded;  ///< channel, number in it
+  std::optional<std::set<std::uint16_t>> out_of_order;
+  std::set<int> told_as_sorted;  ///< channels
 };
 
 LogReader::LogReader(const std::filesystem::path& file) : impl_(std::make_unique<Impl>(file)) {}
@@ -92,24 +150,26 @@ bool LogReader::has_topic(const std::string& topic) const {
   return impl_->find(topic) != nullptr;
 }
 
-void LogReader::read_messages(const std::string& topic, const MessageNames& names,
-                              const std::function<bool(CdrReader&, const FrameNames&, Time)>& take)
-    const {
+void LogReader::read_messages(
+    const std::string& topic, const MessageNames& names,
+    const std::function<bool(CdrReader&, const FrameNames&, Time)>& take) const {
   const ChannelInfo& channel = impl_->channel_of(topic, names);
   const auto signal = channel.metadata.find("signal");
   const FrameNames frames = FrameNames::of_signal(
       signal != channel.metadata.end() ? signal->second : topic.substr(topic.find('/') + 1));
-  std::uint64_t index = 0;
-  impl_->mcap.for_each_message(
-      {static_cast<std::uint16_t>(channel.id)}, [&](const McapMessage& message) {
-        CdrReader in(message.data);
-        ++index;
-        if (take(in, frames, time_of(message.publish_time))) return;
-        if (!impl_->undecoded.insert({channel.id, index}).second) return;
-        impl_->info.warnings.push_back(
-            fmt::format("{}: message {} of topic '{}' does not hold {} and was left out",
-                        impl_->name, index, channel.topic, channel.schema));
-      });
+  impl_->for_each_in_order(channel, [&](std::uint64_t stamp_ns, std::uint64_t index,
+                                        std::span<const std::uint8_t> data) {
+    CdrReader in(data);
+    if (stamp_ns <= kLastStamp_ns && take(in, frames, time_of(stamp_ns))) return;
+    if (!impl_->undecoded.insert({channel.id, index}).second) return;
+    impl_->info.warnings.push_back(
+        stamp_ns > kLastStamp_ns
+            ? fmt::format(
+                  "{}: message {} of topic '{}' has a stamp beyond 2^62 ns and was left out",
+                  impl_->name, index, channel.topic)
+            : fmt::format("{}: message {} of topic '{}' does not hold {} and was left out",
+                          impl_->name, index, channel.topic, channel.schema));
+  });
   impl_->note_damage();
 }
 

@@ -50,8 +50,10 @@ class LogReader {
   const LogInfo& info() const;
   bool has_topic(const std::string& topic) const;
 
-  /// Calls back for every message of a topic in log order, decoded, with the stamp it was written
-  /// with. Where a topic has an exact channel, that is read.
+  /// Calls back for every message of a topic in the order of the stamps that they were written
+  /// with, decoded; equal stamps in the order of the file. Where a topic has an exact channel, that
+  /// is read. A topic whose messages lie in another order (a merged log, another writer's) is held
+  /// in memory to be sorted, and a warning says so.
   /// @tparam T  a message (engine/api/field.h), also one that a plug-in brought
   /// @throws ConfigError if there is no such topic, or it has another type
   template <class T>

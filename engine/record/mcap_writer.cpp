@@ -1,11 +1,12 @@
 #include "engine/record/mcap_writer.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 #include "engine/core/check.h"
-#include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 
 namespace vinerow::record {
 
@@ -14,7 +15,7 @@ McapWriter::McapWriter(const std::filesystem::path& file, const std::string& com
     : compressor_(compression) {
   file_.reset(std::fopen(file.c_str(), "wb"));
   if (!file_) {
-    throw ConfigError(file.string() + ": the log cannot be created: " + std::strerror(errno));
+    throw_cannot_write("log '" + file.string() + "'", errno);
   }
   // Records are put together here; a second buffer would only delay them.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
@@ -34,7 +35,9 @@ void McapWriter::write(std::span<const std::uint8_t> bytes) {
   if (!failure_.empty() || bytes.empty()) return;
   errno = 0;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-    failure_ = errno != 0 ? std::strerror(errno) : "write failed";
+    failure_ = words_of_write_failure(errno);
+    // What fitted of the record would be half a chunk; the file ends with the last whole one.
+    static_cast<void>(::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes_written_)));
     return;
   }
   bytes_written_ += bytes.size();
@@ -269,7 +272,9 @@ void McapWriter::finish() {
   scratch_.add_bytes(kMagic.data(), kMagic.size());
   write(scratch_.view());
   scratch_.clear();
-  if (std::fclose(file_.release()) != 0 && failure_.empty()) failure_ = std::strerror(errno);
+  if (std::fclose(file_.release()) != 0 && failure_.empty()) {
+    failure_ = words_of_write_failure(errno);
+  }
 }
 
 }  // namespace vinerow::record

@@ -22,7 +22,7 @@ namespace vinerow::record {
 
 class McapWriter {
  public:
-  /// @throws ConfigError when the file cannot be created or the compression is unknown
+  /// @throws ConfigError, WriteError when the file cannot be created or the compression is unknown
   McapWriter(const std::filesystem::path& file, const std::string& compression,
              std::size_t chunk_bytes, std::string_view profile, std::string_view library);
   McapWriter(const McapWriter&) = delete;
@@ -51,8 +51,7 @@ class McapWriter {
   /// Closes the chunk, writes summary and footer, closes the file.
   void finish();
 
-  /// Of the first write that failed ("No space left on device"), or "". Nothing is written after
-  /// it.
+  /// Of the first write that failed ("the disk is full"), or "". Nothing is written after it.
   const std::string& failure() const { return failure_; }
   std::uint64_t bytes_written() const { return bytes_written_; }
   std::uint64_t message_count() const { return message_count_; }

@@ -1,9 +1,9 @@
 #include "engine/record/recorder.h"
 
+#include <vinerow/version.h>
 #include <chrono>
 #include <utility>
 #include <vector>
-#include <vinerow/version.h>
 
 #include "engine/api/messages.h"
 #include "engine/core/error.h"
@@ -19,8 +19,8 @@ struct RecordedSignal {
   Duration min_period;
   FrameNames frames;
   const Signal<Odometry>* truth = nullptr;  ///< of the same vehicle
-  std::uint16_t channel = 0;
-  std::uint16_t exact_channel = 0;  ///< 0: none
+  std::uint16_t channel = 0;                ///< 0: the exact one alone
+  std::uint16_t exact_channel = 0;          ///< 0: none
   std::uint64_t seen = 0;
   bool recorded = false;
   Time last_stamp;
@@ -43,7 +43,7 @@ void write_messages(McapWriter& writer, const RecordedSignal& entry, Time now) {
   const WriteContext context = context_of(entry);
   const auto log_time = static_cast<std::uint64_t>(now.ns);
   const auto publish_time = static_cast<std::uint64_t>(stamp.ns);
-  {
+  if (entry.channel != 0) {
     CdrWriter out(writer.begin_message(entry.channel, log_time, publish_time));
     RosMapping<T>::write(out, context, value);
     writer.end_message();
@@ -75,6 +75,19 @@ void write_described_signal(McapWriter& writer, const RecordedSignal& entry, Tim
 
 }  // namespace
 
+namespace {
+
+/// As rosbag2 stores it: who comes later is given the message as well (reliable, transient local).
+constexpr const char* kLatchedQos =
+    "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n"
+    "  deadline:\n    sec: 9223372036\n    nsec: 854775807\n"
+    "  lifespan:\n    sec: 9223372036\n    nsec: 854775807\n"
+    "  liveliness: 1\n"
+    "  liveliness_lease_duration:\n    sec: 9223372036\n    nsec: 854775807\n"
+    "  avoid_ros_namespace_conventions: false\n";
+
+}  // namespace
+
 struct Recorder::Impl {
   Impl(const std::filesystem::path& file, const RecorderOptions& options)
       : path(file),
@@ -95,8 +108,19 @@ struct Recorder::Impl {
     return id;
   }
 
+  /// A channel of one message, at time 0.
+  template <class F>
+  void add_once(const std::string& topic, const std::string& type, const F& write) {
+    const std::uint16_t channel =
+        writer.add_channel(schema_id(type, full_ros_definition(type)), topic, "cdr",
+                           {{"offered_qos_profiles", kLatchedQos}});
+    CdrWriter out(writer.begin_message(channel, 0, 0));
+    write(out);
+    writer.end_message();
+  }
+
   std::uint16_t add_channel(const SignalBase& signal, const std::string& type,
-                            const std::string& definition, const std::string& suffix) {
+                            const std::string& definition, std::string_view suffix) {
     // offered_qos_profiles: asked for by the ros2 profile; an empty list: nothing was published.
     TextMap metadata = {{"signal", signal.name()}, {"offered_qos_profiles", "[]"}};
     if (suffix.empty()) {
@@ -104,15 +128,22 @@ struct Recorder::Impl {
     } else {
       metadata["exact_of"] = "/" + signal.name();
     }
-    return writer.add_channel(schema_id(type, definition), "/" + signal.name() + suffix, "cdr",
-                              metadata);
+    return writer.add_channel(schema_id(type, definition),
+                              "/" + signal.name() + std::string(suffix), "cdr", metadata);
   }
 
   template <class T>
-  void set_type(RecordedSignal& entry) {
+  void set_type(RecordedSignal& entry, bool exact_alone) {
     if (!is_message<T>(*entry.signal)) return;
     using Mapping = RosMapping<T>;
     entry.write = &write_messages<T>;
+    if constexpr (requires { &Mapping::write_exact; }) {
+      if (exact_alone) {
+        entry.exact_channel =
+            add_channel(*entry.signal, Mapping::exact_type(), Mapping::exact_definition(), "");
+        return;
+      }
+    }
     entry.channel = add_channel(*entry.signal, Mapping::type(), Mapping::definition(), "");
     if constexpr (requires { &Mapping::write_exact; }) {
       entry.exact_channel =
@@ -124,9 +155,8 @@ struct Recorder::Impl {
   void set_described_type(RecordedSignal& entry) {
     const std::string type = ros_type_of(entry.signal->type());
     entry.write = &write_described_signal;
-    entry.channel =
-        add_channel(*entry.signal, type,
-                    described_definition(type, {}, FieldsOfSignal(*entry.signal)), "");
+    entry.channel = add_channel(*entry.signal, type,
+                                described_definition(type, {}, FieldsOfSignal(*entry.signal)), "");
   }
 
   /// Every signal learns where its vehicle is from "<vehicle>/truth", in whatever order they come.
@@ -175,12 +205,26 @@ Recorder::~Recorder() {
   }
 }
 
-void Recorder::add_signal(const SignalBase& signal, Duration min_period) {
+void Recorder::add_static_transforms(const std::vector<StaticTransform>& transforms) {
+  if (transforms.empty()) return;
+  impl_->add_once("/tf_static", "tf2_msgs/msg/TFMessage",
+                  [&](CdrWriter& out) { write_static_transforms(out, transforms); });
+}
+
+void Recorder::add_scene(const std::vector<SceneEntity>& entities) {
+  if (entities.empty()) return;
+  impl_->add_once("/run/scene", "foxglove_msgs/msg/SceneUpdate",
+                  [&](CdrWriter& out) { write_scene(out, entities); });
+}
+
+void Recorder::add_signal(const SignalBase& signal, Duration min_period, const std::string& frame,
+                          bool exact_alone) {
   RecordedSignal entry;
   entry.signal = &signal;
   entry.min_period = min_period;
   entry.frames = FrameNames::of_signal(signal.name());
-  for_each_message_type([&]<class T>(T*) { impl_->set_type<T>(entry); });
+  if (!frame.empty()) entry.frames.own = frame;
+  for_each_message_type([&]<class T>(T*) { impl_->set_type<T>(entry, exact_alone); });
   if (entry.write == nullptr) impl_->set_described_type(entry);
   impl_->entries.push_back(std::move(entry));
   if (impl_->compact_poses) impl_->connect_truth();

@@ -11,8 +11,10 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/api/signal.h"
+#include "engine/record/scene.h"
 
 namespace vinerow::record {
 
@@ -38,7 +40,16 @@ class Recorder {
   /// the whole value. Topic is "/" + signal name. Order of calls = channel ids.
   /// @param min_period  samples whose stamp is closer than this to the last recorded one's are left
   /// out; 0 = every one
-  void add_signal(const SignalBase& signal, Duration min_period);
+  /// @param frame  of messages that name the signal's own; empty: the signal's name
+  /// @param exact_alone  where there are two messages, only the one that holds the whole value, as
+  /// "<topic>"
+  void add_signal(const SignalBase& signal, Duration min_period, const std::string& frame = {},
+                  bool exact_alone = false);
+
+  /// Stores where frames stand in others as "/tf_static", at time 0.
+  void add_static_transforms(const std::vector<StaticTransform>& transforms);
+  /// Stores solid things to be drawn as "/run/scene", at time 0.
+  void add_scene(const std::vector<SceneEntity>& entities);
 
   /// Stores every added signal that was written since the last call. Log time is `now`, publish
   /// time the signal's stamp. Never logs; throws SimulationError when the file cannot be written

@@ -139,6 +139,49 @@ constexpr std::array kDefinitions = {
                "geometry_msgs/Transform[] transforms\ngeometry_msgs/Twist[] velocities\n"
                "geometry_msgs/Twist[] accelerations\n"
                "builtin_interfaces/Duration time_from_start\n"},
+    // Foxglove's own messages, package foxglove_msgs.
+    Definition{"foxglove_msgs/Color", "float64 r\nfloat64 g\nfloat64 b\nfloat64 a\n"},
+    Definition{"foxglove_msgs/KeyValuePair", "string key\nstring value\n"},
+    Definition{"foxglove_msgs/ArrowPrimitive",
+               "geometry_msgs/Pose pose\nfloat64 shaft_length\nfloat64 shaft_diameter\n"
+               "float64 head_length\nfloat64 head_diameter\nfoxglove_msgs/Color color\n"},
+    Definition{"foxglove_msgs/CubePrimitive",
+               "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfoxglove_msgs/Color color\n"},
+    Definition{"foxglove_msgs/SpherePrimitive",
+               "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfoxglove_msgs/Color color\n"},
+    Definition{"foxglove_msgs/CylinderPrimitive",
+               "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 size\nfloat64 bottom_scale\n"
+               "float64 top_scale\nfoxglove_msgs/Color color\n"},
+    Definition{"foxglove_msgs/LinePrimitive",
+               "uint8 LINE_STRIP=0\nuint8 LINE_LOOP=1\nuint8 LINE_LIST=2\nuint8 type\n"
+               "geometry_msgs/Pose pose\nfloat64 thickness\nbool scale_invariant\n"
+               "geometry_msgs/Point[] points\nfoxglove_msgs/Color color\n"
+               "foxglove_msgs/Color[] colors\nuint32[] indices\n"},
+    Definition{"foxglove_msgs/TriangleListPrimitive",
+               "geometry_msgs/Pose pose\ngeometry_msgs/Point[] points\n"
+               "foxglove_msgs/Color color\nfoxglove_msgs/Color[] colors\nuint32[] indices\n"},
+    Definition{"foxglove_msgs/TextPrimitive",
+               "geometry_msgs/Pose pose\nbool billboard\nfloat64 font_size\n"
+               "bool scale_invariant\nfoxglove_msgs/Color color\nstring text\n"},
+    Definition{"foxglove_msgs/ModelPrimitive",
+               "geometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\n"
+               "foxglove_msgs/Color color\nbool override_color\nstring url\n"
+               "string media_type\nuint8[] data\n"},
+    Definition{"foxglove_msgs/SceneEntityDeletion",
+               "builtin_interfaces/Time timestamp\nuint8 MATCHING_ID=0\nuint8 ALL=1\n"
+               "uint8 type\nstring id\n"},
+    Definition{"foxglove_msgs/SceneEntity",
+               "builtin_interfaces/Time timestamp\nstring frame_id\nstring id\n"
+               "builtin_interfaces/Duration lifetime\nbool frame_locked\n"
+               "foxglove_msgs/KeyValuePair[] metadata\nfoxglove_msgs/ArrowPrimitive[] arrows\n"
+               "foxglove_msgs/CubePrimitive[] cubes\nfoxglove_msgs/SpherePrimitive[] spheres\n"
+               "foxglove_msgs/CylinderPrimitive[] cylinders\n"
+               "foxglove_msgs/LinePrimitive[] lines\n"
+               "foxglove_msgs/TriangleListPrimitive[] triangles\n"
+               "foxglove_msgs/TextPrimitive[] texts\nfoxglove_msgs/ModelPrimitive[] models\n"},
+    Definition{"foxglove_msgs/SceneUpdate",
+               "foxglove_msgs/SceneEntityDeletion[] deletions\n"
+               "foxglove_msgs/SceneEntity[] entities\n"},
     Definition{"geometry_msgs/Vector3Stamped",
                "std_msgs/Header header\ngeometry_msgs/Vector3 vector\n"},
 };

@@ -32,7 +32,8 @@ FrameNames FrameNames::of_signal(const std::string& signal) {
   const std::string vehicle = signal.substr(0, signal.find('/'));
   FrameNames names;
   names.prefix = vehicle + "/";
-  names.body = names.prefix + "base_link";
+  // What belongs to the run and to no vehicle has no body.
+  names.body = vehicle == "run" ? names.world : names.prefix + "base_link";
   names.own = signal;
   return names;
 }

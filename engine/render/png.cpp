@@ -4,23 +4,25 @@
 #include <png.h>
 
 #include <csetjmp>
-#include <cstdio>
-#include <memory>
 #include <stdexcept>
+#include <string>
 
 #include "engine/core/hash.h"
+#include "engine/core/whole_file.h"
 #include "engine/render/scene.h"
 
 namespace vinerow::render {
 
 namespace {
 
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
+}
 
 /// libpng leaves by longjmp, so nothing with a destructor may live in this function's frame.
-bool encode(png_structp png, png_infop info, std::FILE* file, const Image& image) {
+bool encode(png_structp png, png_infop info, std::string* out, const Image& image) {
   if (setjmp(png_jmpbuf(png))) return false;
-  png_init_io(png, file);
+  png_set_write_fn(png, out, &append_bytes, nullptr);
   // Level 2 with the SUB filter: a quarter of the default's time at about the same size for
   // rendered pictures.
   png_set_compression_level(png, 2);
@@ -44,14 +46,13 @@ void write_png(const std::string& file, const Image& image) {
     throw std::runtime_error(fmt::format("{}: an image of {} x {} pixels with {} bytes is no image",
                                          file, image.width, image.height, image.rgb.size()));
   }
-  File out(std::fopen(file.c_str(), "wb"), std::fclose);
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be opened for writing", file));
+  std::string bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
-  const bool encoded = encode(png, info, out.get(), image);
+  const bool encoded = encode(png, info, &bytes, image);
   png_destroy_write_struct(&png, &info);
-  const bool flushed = std::fflush(out.get()) == 0;
-  if (!encoded || !flushed) throw std::runtime_error(fmt::format("{}: cannot be written", file));
+  if (!encoded) throw std::runtime_error(fmt::format("{}: cannot be encoded", file));
+  write_whole_file(file, bytes);
 }
 
 Result<Pixels> read_png(const std::string& file) {

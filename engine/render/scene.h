@@ -111,7 +111,7 @@ Result<std::unique_ptr<Renderer>> make_renderer(const WorldModel& world,
                                                 const RendererSettings& settings = {});
 
 /// Fast compression, no time stamps: the same image gives the same file.
-/// @throws std::runtime_error when the file cannot be written
+/// Whole or not at all. @throws WriteError, ConfigError when the file cannot be written
 void write_png(const std::string& file, const Image& image);
 
 /// Digest of size and pixels.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/core/error.h"
-#include "engine/core/suggest.h"
 #include "engine/sensors/gnss_error.h"
 #include "engine/sensors/gnss_mode.h"
 #include "engine/sensors/gnss_tracking.h"
@@ -46,8 +44,7 @@ const ParameterTable<JammingParams>& jamming_table() {
 }
 
 struct GnssParams {
-  std::vector<std::string> constellations = {"gps", "galileo"};
-  std::string epoch_utc = "2024-06-15T10:00:00";
+  GnssSkyParams sky;
   GnssModeRules modes;
   GnssSignals signals;
   GnssErrorParams errors;
@@ -58,9 +55,7 @@ const ParameterTable<GnssParams>& gnss_table() {
   using P = GnssParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .texts("constellations", &P::constellations, "satellites it receives: gps, galileo")
-          .text("epoch_utc", &P::epoch_utc,
-                "date and time at the start of the run, which say where satellites stand")
+          .include(&P::sky, gnss_sky_table())
           .include(&P::modes, gnss_mode_table())
           .include(&P::signals, gnss_signal_table())
           .include(&P::errors, gnss_error_table())
@@ -87,30 +82,6 @@ std::vector<Jamming> make_jamming(const std::vector<JammingParams>& params) {
   return all;
 }
 
-GnssSky make_sky(const GnssParams& params, const SensorContext& context) {
-  static const std::vector<std::string> kKnown = {"gps", "galileo"};
-  std::vector<CircularOrbit> orbits;
-  std::vector<std::string> seen;
-  for (const std::string& name : params.constellations) {
-    if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
-      throw ConfigError(fmt::format("{}: constellations: unknown constellation '{}'{} (known: {})",
-                                    context.part, name, did_you_mean(name, kKnown), join(kKnown)));
-    }
-    if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
-      throw ConfigError(fmt::format("{}: constellations: '{}' is given twice", context.part, name));
-    }
-    seen.push_back(name);
-    const std::vector<CircularOrbit> more = name == "gps" ? gps_orbits() : galileo_orbits();
-    orbits.insert(orbits.end(), more.begin(), more.end());
-  }
-  if (orbits.empty()) {
-    throw ConfigError(fmt::format("{}: constellations is empty, must name one of: {}", context.part,
-                                  join(kKnown)));
-  }
-  return GnssSky(context.world->origin, std::move(orbits),
-                 read_utc(params.epoch_utc, context.part + ": epoch_utc"));
-}
-
 class Gnss final : public SatelliteReceiver {
  public:
   Gnss(const ParameterSet& parameters, const SensorContext& context)
@@ -118,8 +89,9 @@ class Gnss final : public SatelliteReceiver {
   Gnss(const GnssParams& params, const ParameterSet& parameters, const SensorContext& context)
       : SatelliteReceiver(parameters, context),
         jamming_(make_jamming(params.jamming)),
-        tracking_(params.signals, make_sky(params, context), *context.scene, context.period.s(),
-                  params.modes.is_running_at_start, context.random("fading")),
+        tracking_(params.signals, make_gnss_sky(params.sky, context.world->origin, context.part),
+                  *context.scene, context.period.s(), params.modes.is_running_at_start,
+                  context.random("fading")),
         modes_(params.modes, context.period.s()),
         error_(params.errors.resolve(), context.period.s(), context.random()) {}
 

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
+#include "engine/core/suggest.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {
@@ -147,6 +149,40 @@ GnssSky::GnssSky(const GeoOrigin& origin, std::vector<CircularOrbit> orbits, dou
 Vector3d GnssSky::direction_W(std::size_t satellite, double time_s) const {
   const Vector3d away_E = orbits_[satellite].position_E(start_s_ + time_s) - origin_E_;
   return (R_WE_ * away_E).normalized();
+}
+
+const ParameterTable<GnssSkyParams>& gnss_sky_table() {
+  using P = GnssSkyParams;
+  static const ParameterTable<P> table =
+      ParameterTable<P>()
+          .texts("constellations", &P::constellations, "satellites it receives: gps, galileo")
+          .text("epoch_utc", &P::epoch_utc,
+                "date and time at the start of the run, which say where satellites stand");
+  return table;
+}
+
+GnssSky make_gnss_sky(const GnssSkyParams& params, const GeoOrigin& origin,
+                      const std::string& who) {
+  static const std::vector<std::string> kKnown = {"gps", "galileo"};
+  std::vector<CircularOrbit> orbits;
+  std::vector<std::string> seen;
+  for (const std::string& name : params.constellations) {
+    if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
+      throw ConfigError(fmt::format("{}: constellations: unknown constellation '{}'{} (known: {})",
+                                    who, name, did_you_mean(name, kKnown), join(kKnown)));
+    }
+    if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
+      throw ConfigError(fmt::format("{}: constellations: '{}' is given twice", who, name));
+    }
+    seen.push_back(name);
+    const std::vector<CircularOrbit> more = name == "gps" ? gps_orbits() : galileo_orbits();
+    orbits.insert(orbits.end(), more.begin(), more.end());
+  }
+  if (orbits.empty()) {
+    throw ConfigError(
+        fmt::format("{}: constellations is empty, must name one of: {}", who, join(kKnown)));
+  }
+  return GnssSky(origin, std::move(orbits), read_utc(params.epoch_utc, who + ": epoch_utc"));
 }
 
 }  // namespace vinerow

@@ -11,10 +11,12 @@
 /// Left out: eccentricity, spares, GLONASS and BeiDou, the difference of UTC and UT1 (< 1 s).
 
 #include <Eigen/Core>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/api/geo_origin.h"
+#include "engine/api/parameter_table_fwd.h"
 
 namespace vinerow {
 
@@ -61,5 +63,17 @@ class GnssSky {
   Eigen::Vector3d origin_E_;
   Eigen::Matrix3d R_WE_;
 };
+
+struct GnssSkyParams {
+  std::vector<std::string> constellations = {"gps", "galileo"};
+  std::string epoch_utc = "2024-06-15T10:00:00";
+};
+
+/// `constellations`, `epoch_utc`
+const ParameterTable<GnssSkyParams>& gnss_sky_table();
+
+/// @param who  the sensor, for errors  @throws ConfigError for an unknown constellation, one given
+/// twice, none, an epoch that is no date
+GnssSky make_gnss_sky(const GnssSkyParams& params, const GeoOrigin& origin, const std::string& who);
 
 }  // namespace vinerow

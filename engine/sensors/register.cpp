@@ -5,6 +5,7 @@
 #include "engine/sensors/camera_trigger.h"
 #include "engine/sensors/encoders.h"
 #include "engine/sensors/gnss.h"
+#include "engine/sensors/gnss_heading.h"
 #include "engine/sensors/gps.h"
 #include "engine/sensors/imu.h"
 #include "engine/sensors/ins.h"
@@ -20,6 +21,7 @@ void register_sensors(Registry& registry) {
   registry.add_sensor(camera_trigger_spec(), make_camera_trigger);
   registry.add_sensor(encoders_spec(), make_encoders);
   registry.add_sensor(gnss_spec(), make_gnss);
+  registry.add_sensor(gnss_heading_spec(), make_gnss_heading);
   registry.add_sensor(gps_spec(), make_gps);
   registry.add_sensor(imu_spec(), make_imu);
   registry.add_sensor(ins_spec(), make_ins);

@@ -1,5 +1,5 @@
 #pragma once
-/// The end of a vehicle: when and why it was wrecked.
+/// The end of a vehicle: when and why it was wrecked, is stuck, or gave its task up.
 
 #include <string>
 
@@ -7,12 +7,23 @@
 
 namespace vinerow {
 
+enum class EndKind {
+  kCrashed,
+  kStuck,   ///< whole, but it gets nowhere
+  kGaveUp,  ///< whole, but its guidance or controller cannot go on
+};
+
+/// "crashed", "is stuck", "gave up"
+const char* to_string(EndKind kind);
+
 struct Crash {
   std::string vehicle;
   Time time;
-  std::string text;  ///< what Vehicle::crash() told
+  std::string text;  ///< what Vehicle::crash(), ProgressWatch or MayFail::failure() reported
+  EndKind kind = EndKind::kCrashed;
 
-  /// "drone crashed at 12.345 s: hit the ground at 2.3 m/s"
+  /// "drone crashed at 12.345 s: hit the ground at 2.3 m/s", "rover is stuck at 62.000 s: ...",
+  /// "rover gave up at ..."
   std::string sentence() const;
 };
 

@@ -7,6 +7,7 @@
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/math/angles.h"
+#include "engine/physics/world_scene.h"
 #include "engine/render/cameras.h"
 #include "engine/sim/estimate_drawing.h"
 
@@ -37,6 +38,17 @@ FrameComposer::FrameComposer(const io::Scenario& scenario, const WorldModel& wor
   for (const PlantRow& row : world.rows->rows) {
     for (const Eigen::Vector3d& p : row.line_W)
       extent_W_.extend(p).extend(p + Eigen::Vector3d(0, 0, row.canopy_top_m));
+  }
+  if (!world.terrain && !world.meshes.empty()) {
+    scene_ = std::make_unique<physics::WorldScene>(world);
+    ground_.emplace(world, *scene_);
+  }
+  // A world of meshes is as large as they are.
+  for (const MeshInstance& instance : world.meshes) {
+    if (!world.rows->rows.empty() || !instance.visible) continue;
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      extent_W_.extend(instance.X_WM * v.cast<double>());
+    }
   }
   for (const auto& [name, vehicle] : trace.vehicles) {
     for (const Odometry& truth : vehicle.truth.values) extent_W_.extend(truth.X_WB.p);
@@ -85,7 +97,8 @@ bool FrameComposer::flies(const std::string& vehicle) const {
 }
 
 double FrameComposer::ground_m(double x, double y) const {
-  return world_.terrain ? world_.terrain->height_m(x, y) : 0.0;
+  if (world_.terrain) return world_.terrain->height_m(x, y);
+  return ground_ ? ground_->height_m(x, y).value_or(0.0) : 0.0;
 }
 
 render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, double aspect) const {

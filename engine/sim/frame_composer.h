@@ -10,6 +10,7 @@
 #include "engine/io/scenario.h"
 #include "engine/render/scene.h"
 #include "engine/sim/log_trace.h"
+#include "engine/sim/standing_ground.h"
 
 namespace vinerow {
 
@@ -51,7 +52,9 @@ class FrameComposer {
   const WorldModel& world_;
   const std::vector<std::unique_ptr<Vehicle>>& vehicles_;
   const LogTrace& trace_;
-  Eigen::AlignedBox3d extent_W_;  // what a top view shows: rows, plans and tracks
+  std::unique_ptr<SceneQuery> scene_;     // of a world whose ground is meshes; else null
+  std::optional<StandingGround> ground_;  // likewise
+  Eigen::AlignedBox3d extent_W_;  // what a top view shows: rows or else meshes, plans and tracks
   Eigen::AlignedBox3d parcel_W_;  // the same with the parcel's boundary, for views with the grid
   std::shared_ptr<const OccupancyGrid>
       grid_;  // of the log or else the world; null: neither has one

@@ -25,7 +25,30 @@ double find_metric(const io::Criterion& criterion,
                                 did_you_mean(criterion.metric, known), join(known)));
 }
 
+/// Why a metric has no value, from what its name says that it looks at.
+const char* why_not_measured(const std::string& metric) {
+  const std::string name = metric.substr(metric.find('.') + 1);
+  for (const char* begin : {"cross_track_", "heading_error_rms_rad", "altitude_error_",
+                            "height_above_ground_", "row_speed_", "straight_"}) {
+    if (name.starts_with(begin)) return "it never drove a leg";
+  }
+  if (name.starts_with("turn_") || name.ends_with("_turn")) return "it never drove a turn";
+  if (name.starts_with("hover_")) return "it never hovered";
+  return "nothing happened to measure it on";
+}
+
 }  // namespace
+
+std::string sentence_of(const CriterionResult& criterion) {
+  const std::string limit =
+      fmt::format("({} {:g})", criterion.kind == "max" ? "at most" : "at least", criterion.limit);
+  if (std::isnan(criterion.value)) {
+    return fmt::format("{} not measured {}: {}", criterion.metric, limit,
+                       why_not_measured(criterion.metric));
+  }
+  if (std::isinf(criterion.value)) return fmt::format("{} = infinite {}", criterion.metric, limit);
+  return fmt::format("{} = {:.6g} {}", criterion.metric, criterion.value, limit);
+}
 
 std::vector<CriterionResult> judge(
     const std::vector<io::Criterion>& criteria,

@@ -16,4 +16,8 @@ std::vector<CriterionResult> judge(
     const std::vector<io::Criterion>& criteria,
     const std::map<std::string, std::map<std::string, double>>& metrics);
 
+/// "rover.cross_track_rms_m = 0.0123 (at most 0.5)"; of a value that is NaN
+/// "rover.cross_track_rms_m not measured (at most 0.5): it never drove a leg".
+std::string sentence_of(const CriterionResult& criterion);
+
 }  // namespace vinerow

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "engine/sim/judge.h"
+
 namespace vinerow {
 namespace {
 
@@ -57,8 +59,7 @@ Case case_of(const CriterionResult& criterion) {
   Case result{"criteria", criterion.name, 0.0, "", ""};
   if (!criterion.met) {
     result.element = "failure";
-    result.message = fmt::format("{} = {:.6g}, must be {} {:g}", criterion.metric, criterion.value,
-                                 criterion.kind == "max" ? "at most" : "at least", criterion.limit);
+    result.message = sentence_of(criterion);
   }
   return result;
 }

@@ -68,10 +68,12 @@ Odometry odometry_at(const Trace<Odometry>& trace, Time t) {
 std::vector<Pose> VehicleTrace::links_at(Time t) const {
   if (links.empty()) return {};
   const Bracket at = bracket(links.times, t);
+  const std::vector<Pose>& before = links.values[at.before].X_WL;
+  const std::vector<Pose>& after = links.values[at.after].X_WL;
   std::vector<Pose> poses;
-  for (std::size_t i = 0; i < links.values[at.before].X_WL.size(); ++i) {
-    poses.push_back(
-        pose_between(links.values[at.before].X_WL[i], links.values[at.after].X_WL[i], at.share));
+  // Another writer's messages may tell of more links at one instant than at another.
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+    poses.push_back(pose_between(before[i], after[i], at.share));
   }
   return poses;
 }

@@ -7,6 +7,7 @@
 #include "engine/api/map.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/scenario_phases.h"
 #include "engine/sim/judge.h"
 
@@ -292,6 +293,9 @@ void Mission::run_job(std::size_t i, Time now) {
     throw;
   } catch (const ConfigError& error) {
     phase.job_failure = error.what();
+  } catch (const WriteError& error) {
+    throw SimulationError(fmt::format("phases.{} ({})", report.name, report.job), now,
+                          error.what());
   } catch (const std::exception& error) {
     throw SimulationError(fmt::format("phases.{} ({})", report.name, report.job), now,
                           fmt::format("threw an exception: {}", error.what()));
@@ -359,9 +363,7 @@ void Mission::finish(std::size_t i, Time now) {
   std::vector<std::string> missed;
   for (const CriterionResult& criterion : report.criteria) {
     if (criterion.met) continue;
-    missed.push_back(fmt::format("{} = {:.6g} ({} {:g})", criterion.metric, criterion.value,
-                                 criterion.kind == "max" ? "at most" : "at least",
-                                 criterion.limit));
+    missed.push_back(sentence_of(criterion));
   }
   if (!missed.empty()) {
     fail(i, now, "missed " + join(missed, " and "));

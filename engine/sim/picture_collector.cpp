@@ -2,9 +2,22 @@
 
 namespace vinerow {
 
+Eigen::Vector3d told_place(const Odometry& estimate, double later_s, const Eigen::Vector3d& p_B) {
+  // Shots and estimates are a few milliseconds apart, in which the body hardly turns.
+  return estimate.X_WB * p_B + later_s * (estimate.X_WB.q * estimate.v_WB_B);
+}
+
+Eigen::Vector3d place_of_sensor(const ParameterSet& parameters) {
+  if (parameters.find("position_m") == nullptr) return Eigen::Vector3d::Zero();
+  const std::vector<double>& p = parameters.numbers("position_m");
+  return {p[0], p[1], p[2]};
+}
+
 PictureCollector::PictureCollector(SignalBus& bus, const std::string& vehicle,
                                    const io::NamedPart& camera)
     : shots_(bus.subscribe<CameraShot>(vehicle + "/" + camera.name, "mission")),
+      estimate_(bus.subscribe_optional<Odometry>(vehicle + "/estimate", "mission")),
+      p_BS_(place_of_sensor(camera.part.parameters)),
       pictures_(std::make_shared<PictureSet>()) {
   pictures_->camera = read_survey_camera(camera.part.parameters);
   pictures_->source = vehicle + "/" + camera.name;
@@ -17,6 +30,15 @@ void PictureCollector::look() {
   if (shot.index < 0 || shot.index == last_index_) return;
   last_index_ = shot.index;
   pictures_->X_WS.push_back(shot.X_WS);
+  // One that knows nothing yet cannot write anything into a picture.
+  const bool knows = estimate_.has_value();
+  if (!knows) told_all_ = false;
+  if (told_all_) {
+    pictures_->told_W.push_back(
+        told_place(estimate_.value(), (shots_.stamp() - estimate_.stamp()).s(), p_BS_));
+  } else {
+    pictures_->told_W.clear();
+  }
 }
 
 Product PictureCollector::product() const {

@@ -11,6 +11,7 @@
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/core/whole_file.h"
 #include "engine/render/scene.h"
 #include "engine/sim/frame_composer.h"
 #include "engine/sim/log_trace.h"
@@ -28,6 +29,14 @@ std::vector<io::CameraConfig> chosen_cameras(const io::Scenario& scenario,
   for (const io::CameraConfig& camera : scenario.pictures.cameras) known.push_back(camera.name);
   for (const std::string& name : wanted) {
     const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end() && name == "chase" && !scenario.vehicles.empty()) {
+      // As a scenario without cameras has it: behind the first vehicle.
+      io::CameraConfig chase;
+      chase.name = name;
+      chase.vehicle = scenario.vehicles.front().name;
+      chosen.push_back(chase);
+      continue;
+    }
     if (found == known.end()) {
       throw ConfigError(fmt::format("no camera '{}' in scenario '{}'{} (known: {})", name,
                                     scenario.name, did_you_mean(name, known),
@@ -59,11 +68,21 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
     if (t >= trace.first && t <= trace.last) times.insert(t);
   };
   const bool own_schedule = options.times_s || options.every_s;
+  for (const double t_s : options.times_s.value_or(std::vector<double>{})) {
+    if (t_s >= trace.first.s() && t_s <= trace.last.s()) continue;
+    throw ConfigError(fmt::format("there is no frame at {} s: the log holds {} s to {} s", t_s,
+                                  trace.first.s(), trace.last.s()));
+  }
   for (const double t_s :
        own_schedule ? options.times_s.value_or(std::vector<double>{}) : pictures.times_s)
     add(t_s);
   const double every_s = own_schedule ? options.every_s.value_or(0.0) : pictures.every_s;
   if (every_s > 0.0) {
+    if (trace.last.s() / every_s > io::kMostPictureInstants) {
+      throw ConfigError(fmt::format(
+          "a frame every {} s is {:.0f} instants of {} s, must be at most {:.0f}", every_s,
+          trace.last.s() / every_s, trace.last.s(), io::kMostPictureInstants));
+    }
     const auto count = static_cast<std::int64_t>(trace.last.s() / every_s + 1e-9);
     for (std::int64_t k = 0; k <= count; ++k) add(static_cast<double>(k) * every_s);
   }
@@ -96,19 +115,20 @@ std::set<Time> times_of(const io::CameraConfig& camera, const std::set<Time>& sc
 }
 
 io::Scenario scenario_in(const record::LogReader& reader, const std::filesystem::path& log,
-                         const Registry& registry) {
+                         const Registry& registry, const io::Overrides& overrides = {}) {
   const auto found = reader.info().attachments.find("scenario.resolved.yaml");
   if (found == reader.info().attachments.end()) {
     throw ConfigError(fmt::format("{}: holds no scenario.resolved.yaml, so its world is not known",
                                   log.string()));
   }
-  return io::parse_scenario(found->second, log.parent_path(), registry);
+  return io::parse_scenario(found->second, log.parent_path(), registry, overrides);
 }
 
 }  // namespace
 
-io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry) {
-  return scenario_in(record::LogReader(log), log, registry);
+io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
+                             const io::Overrides& overrides) {
+  return scenario_in(record::LogReader(log), log, registry, overrides);
 }
 
 std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& scenario,
@@ -164,19 +184,33 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
     total += static_cast<int>(own.size());
   }
 
-  std::filesystem::create_directories(out);
   const auto start = std::chrono::steady_clock::now();
-  for (const Time t : times) {
-    for (std::size_t c = 0; c < cameras.size(); ++c) {
-      if (!times_by_camera[c].contains(t)) continue;
-      const io::CameraConfig& camera = cameras[c];
-      const render::Image image = (*renderer)->draw(composer.compose(camera, t));
-      const auto file = out / fmt::format("{}_{:09d}.png", camera.name, t.ns / 1'000'000);
-      render::write_png(file.string(), image);
-      report.files.push_back(file);
-      report.digests.push_back(render::image_digest(image));
-      if (options.progress) options.progress(static_cast<int>(report.files.size()), total);
+  if (options.progress) options.progress(0, total);
+  const auto draw = [&](const io::CameraConfig& camera, Time t) {
+    const render::Image image = (*renderer)->draw(composer.compose(camera, t));
+    const auto file = out / fmt::format("{}_{:09d}.png", camera.name, t.ns / 1'000'000);
+    render::write_png(file.string(), image);
+    report.files.push_back(file);
+    report.digests.push_back(render::image_digest(image));
+    if (options.progress) options.progress(static_cast<int>(report.files.size()), total);
+  };
+  try {
+    std::error_code failed;
+    std::filesystem::create_directories(out, failed);
+    if (failed) throw_cannot_write(fmt::format("folder '{}'", out.string()), failed.value());
+    for (const Time t : times) {
+      for (std::size_t c = 0; c < cameras.size() && report.note.empty(); ++c) {
+        if (!times_by_camera[c].contains(t)) continue;
+        if (options.interrupted && options.interrupted()) {
+          report.note = fmt::format("interrupted after {} of {}", report.files.size(), total);
+        } else {
+          draw(cameras[c], t);
+        }
+      }
     }
+  } catch (const WriteError& error) {
+    report.write_failure = error.what();
+    report.note = fmt::format("{} of {}: {}", report.files.size(), total, error.what());
   }
   report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -22,12 +22,14 @@ struct PictureOptions {
   std::optional<int> width;
   std::optional<int> height;
   std::function<void(int done, int total)> progress;
+  std::function<bool()> interrupted;  ///< asked before each frame; true ends the drawing
 };
 
 struct PictureReport {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> digests;  ///< of the pixels, same order
-  std::string note;                  ///< why there are no pictures
+  std::string note;                  ///< why there are no pictures, or not all
+  std::string write_failure;         ///< why a frame could not be stored; empty: all were
   double wall_s = 0.0;
 };
 
@@ -36,8 +38,9 @@ struct PictureReport {
 PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
                          const Registry& registry, const PictureOptions& options);
 
-/// The scenario that a log holds.
-io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry);
+/// The scenario that a log holds. @param overrides  written over it and checked like it
+io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
+                             const io::Overrides& overrides = {});
 
 /// A scenario's vehicles, built and not spawned: their links and descriptions, in its order.
 std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& scenario,

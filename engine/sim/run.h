@@ -4,12 +4,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/api/registry.h"
 #include "engine/io/scenario.h"
 #include "engine/sim/crash.h"
+#include "engine/sim/folder_lock.h"
 #include "engine/sim/phase_report.h"
 
 namespace vinerow {
@@ -23,13 +25,20 @@ struct Progress {
   double wall_s = 0.0;
 };
 
+struct RunResult;
+
 struct RunOptions {
   std::filesystem::path out;  ///< folder of the files; created
   bool log = true;
   bool pictures = true;
   bool measure_cost = true;                       ///< computing time of each stage in summary.json
   std::function<void(const Progress&)> progress;  ///< called about five times a second of wall time
-  std::function<bool()> interrupted;  ///< asked every simulated quarter second; true ends the run
+  /// Asked every simulated quarter second, where true ends the run, and before each picture, where
+  /// it ends the drawing.
+  std::function<bool()> interrupted;
+  /// Called when the verdict and all files but the pictures are written.
+  std::function<void(const RunResult&)> judged;
+  std::function<void(int done, int total)> picture_progress;
 };
 
 struct RunResult {
@@ -45,13 +54,27 @@ struct RunResult {
   std::vector<PhaseReport> phases;  ///< of a mission; any that did not succeed: kCriterionFailed
   std::vector<std::filesystem::path> canopy;  ///< what payloads did, a file each
   std::vector<std::filesystem::path> pictures;
-  std::string picture_note;  ///< why there are no pictures, if they were asked for
+  std::string picture_note;  ///< why there are no pictures or not all, if they were asked for
+  /// What could not be stored after the verdict, and why: "the disk is full". Takes nothing from
+  /// the verdict.
+  std::string write_failure;
+  /// Keeps other runs out of the folder while this result or a copy lives.
+  std::shared_ptr<FolderLock> lock;
 
   double real_time_factor() const { return wall_s > 0.0 ? simulated_s / wall_s : 0.0; }
 };
 
-/// Runs a scenario and writes its files. @throws ConfigError on bad input found while building or
-/// planning
+/// Refuses what run_scenario() would refuse before its first step, by the same code, and writes
+/// nothing. Outside missions, where a plan that cannot be made fails its phase, it runs until every
+/// planner has made its plan, at most 10 simulated seconds.
+/// @returns notes for people: those of the world, and which planner has no plan yet
+/// @throws ConfigError, SimulationError as run_scenario()
+std::vector<std::string> rehearse_run(const io::Scenario& scenario, const Registry& registry);
+
+/// Runs a scenario and writes its files; each of them, but log and events, is there whole or not at
+/// all. Verdict and summary are written before pictures are drawn, and once more behind them.
+/// @throws ConfigError on bad input found while building or planning, or if another run has the
+///   folder; WriteError where the run cannot even begin to write
 RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
                        const RunOptions& options);
 

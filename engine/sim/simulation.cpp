@@ -12,6 +12,7 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/sim/camera_check.h"
 #include "engine/sim/mission.h"
 #include "engine/sim/separation.h"
 #include "engine/sim/traffic_control.h"
@@ -25,6 +26,24 @@ std::filesystem::path make_own_folder() {
   static std::atomic<int> count = 0;
   return std::filesystem::temp_directory_path() /
          fmt::format("vinerow_products_{}_{}", ::getpid(), ++count);
+}
+
+/// Nobody asked for the air of another height than the ground's; empty where that is near.
+std::string doubt_of_density(const WorldModel& world) {
+  constexpr double kSameAir_m = 150.0;  // 1.4 % of the density
+  const Wind& wind = world.wind;
+  if (!world.terrain || wind.atmosphere != Atmosphere::kConstant || wind.air_density_kgm3)
+    return "";
+  const HeightField& ground = *world.terrain;
+  const Eigen::Vector2d middle =
+      ground.corner_W + 0.5 * Eigen::Vector2d(ground.width_m(), ground.depth_m());
+  const double height_m = ground.height_m(middle.x(), middle.y());
+  if (std::abs(height_m) <= kSameAir_m) return "";
+  return fmt::format(
+      "the air has the density of the origin's altitude, {:.0f} m, but the ground lies at z = "
+      "{:.0f} "
+      "m: set wind.atmosphere to us76, or air_density_kgm3, or origin_altitude_m",
+      world.origin.altitude_m, height_m);
 }
 
 }  // namespace
@@ -42,6 +61,8 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
   settings.gravity_mps2 = scenario_.gravity_mps2;
   physics_ = std::make_unique<physics::PhysicsWorld>(settings, world_.scene, *world_.model);
 
+  refuse_hidden_cameras(scenario_.pictures, world(), physics_->scene());
+
   events_ = bus_.advertise<Event>("run/events", "run");
   if (!world().rows->occupancy.empty()) map_ = bus_.advertise<OccupancyGrid>("run/map", "run");
   const RunContext run{scenario_,
@@ -53,8 +74,9 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
                        setup.shelf,
                        [this](Event::Level level, const std::string& source,
                               const std::string& text) { emit(level, source, text); }};
+  std::vector<StartBox> starts;
   for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
-    vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run));
+    vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run, starts));
     // In a mission a vehicle begins with its phase.
     if (scenario_.phases.empty()) {
       vehicles_.back()->begin(now_, {});
@@ -179,6 +201,10 @@ bool Simulation::is_done() const {
 
 void Simulation::work_instant() {
   if (now_.ns == 0 && map_.connected()) map_.write(now_, world().rows->occupancy);
+  if (now_.ns == 0) {
+    const std::string doubt = doubt_of_density(world());
+    if (!doubt.empty()) emit(Event::Level::kWarning, "world", doubt);
+  }
   for (const auto& vehicle : vehicles_) vehicle->publish_truth(now_);
   outside_.deliver(now_);
   if (mission_) {

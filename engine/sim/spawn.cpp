@@ -1,12 +1,19 @@
+#include "engine/sim/spawn.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/api/map.h"
+#include "engine/api/vehicle.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/math/angles.h"
-#include "engine/sim/vehicle_runtime.h"
+#include "engine/physics/box_distance.h"
+#include "engine/physics/mesh_distance.h"
+#include "engine/sim/standing_ground.h"
 
 namespace vinerow {
 namespace {
@@ -19,6 +26,13 @@ struct Heading {
 Heading find_on_alley(const io::SpawnConfig& spawn, const WorldModel& world,
                       const std::string& vehicle) {
   const auto& alleys = world.rows->alleys;
+  if (alleys.empty()) {
+    throw ConfigError(fmt::format(
+        "{}: vehicles.{}.spawn.alley = {}, but world '{}' has {} row{} and so no alley between two: "
+        "give it more rows or the vehicle a spawn of {{x_m, y_m}}",
+        spawn.where.text(), vehicle, *spawn.alley, world.name, world.rows->rows.size(),
+        world.rows->rows.size() == 1 ? "" : "s"));
+  }
   if (*spawn.alley < 0 || *spawn.alley >= static_cast<int>(alleys.size())) {
     throw ConfigError(
         fmt::format("{}: vehicles.{}.spawn.alley = {}, but world '{}' has {} alleys (0 to {})",
@@ -45,6 +59,40 @@ Heading find_point(const io::SpawnConfig& spawn, const WorldModel& world,
       known.empty() ? "none" : join(known)));
 }
 
+/// Slope from the ground a wheel base around, so that a pebble under the centre does not tilt the
+/// vehicle.
+constexpr double kReach_m = 0.5;
+
+/// Rise of the ground along an axis; from one side alone where the other has none.
+double calc_slope(double here_m, std::optional<double> ahead_m, std::optional<double> behind_m) {
+  if (ahead_m && behind_m) return (*ahead_m - *behind_m) / (2 * kReach_m);
+  if (ahead_m) return (*ahead_m - here_m) / kReach_m;
+  if (behind_m) return (here_m - *behind_m) / kReach_m;
+  return 0.0;
+}
+
+/// The first mesh of some classes that a box meets. Asked before a run is refused, so it may cost.
+const MeshInstance* find_touched(const WorldModel& world, const StartBox& box, SurfaceMask mask) {
+  for (const MeshInstance& instance : world.meshes) {
+    if ((mask & mask_of(instance.surface)) == 0) continue;
+    WorldModel alone;
+    alone.meshes.push_back(instance);
+    if (physics::MeshDistance(alone).to_box_m(box.X_WC, box.half_m, 1.0, mask) == 0.0) {
+      return &instance;
+    }
+  }
+  return nullptr;
+}
+
+/// "; free places of this world: ..."
+std::string name_free_places(const WorldModel& world) {
+  if (!world.rows->alleys.empty()) {
+    return fmt::format("; 'alley: 0' to 'alley: {}' start in the middle of an alley",
+                       world.rows->alleys.size() - 1);
+  }
+  return "; move it";
+}
+
 }  // namespace
 
 Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, const SceneQuery& scene,
@@ -58,26 +106,81 @@ Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, cons
     heading.p_W = *spawn.p_W;
   }
   const double x = heading.p_W.x(), y = heading.p_W.y();
-  constexpr double kFromAbove_m = 1e5;
-  const auto ground = scene.ground_height_m(x, y, kFromAbove_m);
+  const StandingGround standing(world, scene);
+  const auto ground = standing.height_m(x, y);
   if (!ground) {
     throw ConfigError(fmt::format(
         "{}: vehicles.{}.spawn is at x = {:.3f} m, y = {:.3f} m, where world '{}' has no ground",
         spawn.where.text(), vehicle, x, y, world.name));
   }
-  // Slope from the ground a wheel base around, so that a pebble under the centre does not tilt the
-  // vehicle.
-  constexpr double kReach_m = 0.5;
+  const bool obstacles = standing.takes_obstacles(x, y);
   const auto height_at = [&](double dx, double dy) {
-    return scene.ground_height_m(x + dx, y + dy, kFromAbove_m).value_or(*ground);
+    return standing.beside_m(x + dx, y + dy, *ground, obstacles, kReach_m);
   };
-  const Eigen::Vector3d normal(-(height_at(kReach_m, 0) - height_at(-kReach_m, 0)) / (2 * kReach_m),
-                               -(height_at(0, kReach_m) - height_at(0, -kReach_m)) / (2 * kReach_m),
-                               1.0);
+  const Eigen::Vector3d normal(
+      -calc_slope(*ground, height_at(kReach_m, 0), height_at(-kReach_m, 0)),
+      -calc_slope(*ground, height_at(0, kReach_m), height_at(0, -kReach_m)), 1.0);
   Pose pose;
   pose.q = quaternion_on_slope(heading.yaw_rad, normal);
   pose.p = Eigen::Vector3d(x, y, *ground) + height_above_ground_m * normal.normalized();
   return pose;
+}
+
+StartBox find_start_box(const std::string& vehicle, const Pose& X_WB,
+                        const VehicleDescription& description) {
+  const Eigen::Vector3d half = description.collision_half_extents_m;
+  Eigen::AlignedBox3d box(description.collision_centre_B - half,
+                          description.collision_centre_B + half);
+  for (const Eigen::Vector2d& p : description.footprint_B) {
+    box.extend(Eigen::Vector3d(p.x(), p.y(), description.collision_centre_B.z()));
+  }
+  if (description.wheeled) {
+    // A wheel may stand on a pebble.
+    constexpr double kPebble_m = 0.05;
+    box.extend(Eigen::Vector3d(box.center().x(), box.center().y(),
+                               kPebble_m - description.height_above_ground_m));
+  }
+  return {vehicle, {X_WB.q, X_WB * box.center()}, 0.5 * box.sizes()};
+}
+
+void refuse_start_in_contact(const io::SpawnConfig& spawn, const StartBox& box,
+                             const std::vector<StartBox>& others, const WorldModel& world,
+                             const SceneQuery& scene) {
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    throw ConfigError(fmt::format(
+        "{}: vehicles.{}.spawn: at x = {:.3f} m, y = {:.3f} m the vehicle would stand in {}{}",
+        spawn.where.text(), box.vehicle, box.X_WC.p.x(), box.X_WC.p.y(), what, remedy));
+  };
+  // Side by side they may touch.
+  constexpr double kTouch_m = 1e-3;
+  const Eigen::Vector3d inner_m = (box.half_m.array() - kTouch_m).max(0.0);
+  for (const StartBox& other : others) {
+    if (physics::box_distance_m(box.X_WC, inner_m, other.X_WC, other.half_m) > 0.0) continue;
+    refuse(fmt::format("vehicle '{}', which starts at x = {:.3f} m, y = {:.3f} m", other.vehicle,
+                       other.X_WC.p.x(), other.X_WC.p.y()),
+           "; give one of them another place");
+  }
+  const bool on_obstacles =
+      StandingGround(world, scene).takes_obstacles(box.X_WC.p.x(), box.X_WC.p.y());
+  // The ground may touch a vehicle from below: a little more than its lower half is for that.
+  StartBox upper = box;
+  upper.X_WC.p = box.X_WC * Eigen::Vector3d(0.0, 0.0, 0.55 * box.half_m.z());
+  upper.half_m.z() *= 0.45;
+  constexpr double kSearch_m = 1.0;
+  for (const SurfaceClass surface :
+       {SurfaceClass::kCanopy, SurfaceClass::kPost, SurfaceClass::kTrunk, SurfaceClass::kObstacle,
+        SurfaceClass::kTerrain}) {
+    const bool is_ground =
+        surface == SurfaceClass::kTerrain || (surface == SurfaceClass::kObstacle && on_obstacles);
+    const StartBox& room = is_ground ? upper : box;
+    const SurfaceMask mask = mask_of(surface);
+    if (scene.distance_to_box_m(room.X_WC, room.half_m, kSearch_m, mask) > 0.0) continue;
+    const MeshInstance* touched = find_touched(world, room, mask);
+    const bool is_deck = surface == SurfaceClass::kObstacle;
+    refuse(touched ? fmt::format("the {} '{}'", to_string(surface), touched->name) : "the ground",
+           name_free_places(world) +
+               (is_deck ? " (what vehicles are to start on must be of surface terrain)" : ""));
+  }
 }
 
 }  // namespace vinerow

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <vinerow/version.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "engine/api/abi_version.h"
@@ -22,6 +23,10 @@ ordered_json criteria_json(const std::vector<CriterionResult>& criteria) {
                     {"value", c.value},
                     {"limit", c.limit},
                     {"met", c.met}});
+    // JSON has no word for either.
+    if (!std::isfinite(c.value)) {
+      list.back()["reason"] = std::isnan(c.value) ? "not measured" : "infinite";
+    }
   }
   return list;
 }
@@ -66,7 +71,33 @@ ordered_json phases_json(const RunResult& result) {
 ordered_json crashes_json(const RunResult& result) {
   ordered_json list = ordered_json::array();
   for (const Crash& crash : result.crashes) {
-    list.push_back({{"vehicle", crash.vehicle}, {"time_s", crash.time.s()}, {"text", crash.text}});
+    list.push_back({{"vehicle", crash.vehicle},
+                    {"time_s", crash.time.s()},
+                    {"kind", to_string(crash.kind)},
+                    {"text", crash.text}});
+  }
+  return list;
+}
+
+/// What every vehicle acts on: its estimator, and what it takes from the truth ("state": all).
+ordered_json estimation_json(const io::Scenario& scenario) {
+  ordered_json list = ordered_json::object();
+  for (const io::VehicleConfig& vehicle : scenario.vehicles) {
+    ordered_json of_truth = ordered_json::array();
+    if (!vehicle.estimator || vehicle.estimator->type == "truth") {
+      of_truth.push_back("state");
+    } else {
+      const ParameterSet& parameters = vehicle.estimator->parameters;
+      for (const ParameterSpec& spec : parameters.specs()) {
+        const bool is_choice = spec.kind == ParameterKind::kText && !spec.choices.empty();
+        if (is_choice && parameters.has(spec.name) && parameters.text(spec.name) == "truth") {
+          of_truth.push_back(spec.name);
+        }
+      }
+    }
+    list[vehicle.name] = {
+        {"estimator", vehicle.estimator ? ordered_json(vehicle.estimator->type) : ordered_json()},
+        {"truth", std::move(of_truth)}};
   }
   return list;
 }
@@ -84,6 +115,18 @@ ordered_json cost_json(Simulation& simulation) {
   return list;
 }
 
+const char* status_by(EndKind kind) {
+  switch (kind) {
+    case EndKind::kStuck:
+      return "a vehicle is stuck";
+    case EndKind::kGaveUp:
+      return "a vehicle gave up";
+    case EndKind::kCrashed:
+      break;
+  }
+  return "a vehicle crashed";
+}
+
 const char* status_name(const RunResult& result) {
   switch (result.status) {
     case RunStatus::kAllMet:
@@ -92,7 +135,8 @@ const char* status_name(const RunResult& result) {
       for (const PhaseReport& phase : result.phases) {
         if (phase.state == PhaseState::kFailed) return "a phase failed";
       }
-      return result.crashes.empty() ? "a criterion failed" : "a vehicle crashed";
+      if (result.crashes.empty()) return "a criterion failed";
+      return status_by(result.crashes.front().kind);
     case RunStatus::kBadInput:
       return "bad input";
     case RunStatus::kBrokenOff:
@@ -125,6 +169,7 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   summary["criteria"] = criteria_json(result.criteria);
   if (!result.phases.empty()) summary["phases"] = phases_json(result);
   if (!result.crashes.empty()) summary["crashes"] = crashes_json(result);
+  summary["estimation"] = estimation_json(scenario);
   summary["metrics"] = ordered_json::object();
   for (const auto& [vehicle, metrics] : result.metrics) {
     for (const auto& [name, value] : metrics) summary["metrics"][vehicle][name] = value;
@@ -140,10 +185,9 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   if (!result.picture_note.empty()) summary["picture_note"] = result.picture_note;
   summary["notes"] = simulation.world().notes;
   summary["cost"] = cost_json(simulation);
-  summary["versions"] = {
-      {"vinerow", program_version()},
-      {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
-      {"compiler", __VERSION__}};
+  summary["versions"] = {{"vinerow", program_version()},
+                         {"abi", fmt::format("{} ({})", VINEROW_ABI_VERSION, VINEROW_ABI_HEADERS)},
+                         {"compiler", __VERSION__}};
   return summary.dump(2) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/api/map.h"
+#include "engine/api/may_fail.h"
 #include "engine/api/observer.h"
 #include "engine/api/outside.h"
 #include "engine/core/error.h"
@@ -21,6 +22,8 @@ constexpr Duration kContactGap{500'000'000};
 /// Envelope of a sane state; beyond it the run has come apart.
 constexpr double kMaxDistance_m = 1e6;
 constexpr double kMaxSpeed_mps = 1e3;
+/// Parameter of metrics that judge pictures: the sensor that takes them.
+constexpr const char* kCamera = "camera";
 /// Diagnostics need no more than a picture does; the recorder thins further.
 constexpr double kDefaultControlRate_Hz = 20.0;
 
@@ -34,6 +37,47 @@ Duration diagnostics_period(double rate_Hz, Duration step) {
 bool is_finite(const Odometry& state) {
   return state.X_WB.p.allFinite() && state.X_WB.q.coeffs().allFinite() &&
          state.v_WB_B.allFinite() && state.w_WB_B.allFinite();
+}
+
+/// Ground may be touched: wheels roll on it, and a belly may scrape over a bump. A face steeper
+/// than 45 deg is none, of whatever class: only a friction above 1 would hold a vehicle on it,
+/// which no tyre has on soil, so nothing drives there, and who touches it has run into it. A fence,
+/// a wall or a step that is part of the terrain's mesh is told from the terrain in this way.
+bool is_ground(const physics::Contact& contact) {
+  constexpr double kSteepestNormal_z = 0.70710678118654752;  // cos 45 deg
+  return contact.surface == SurfaceClass::kTerrain &&
+         std::abs(contact.normal_W.z()) >= kSteepestNormal_z;
+}
+
+/// Of the height field and the meshes of class terrain; of all that is rigid where there are none.
+Eigen::AlignedBox2d find_ground_extent(const WorldModel& world) {
+  Eigen::AlignedBox2d terrain, rigid;
+  if (world.terrain) {
+    const HeightField& field = *world.terrain;
+    terrain.extend(field.corner_W);
+    terrain.extend(field.corner_W + Eigen::Vector2d(field.width_m(), field.depth_m()));
+  }
+  for (const MeshInstance& instance : world.meshes) {
+    if (!instance.collides) continue;
+    Eigen::AlignedBox2d& box = instance.surface == SurfaceClass::kTerrain ? terrain : rigid;
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      box.extend((instance.X_WM * v.cast<double>()).head<2>());
+    }
+  }
+  return terrain.isEmpty() ? rigid : terrain;
+}
+
+/// What the part of a vehicle refuses is told with the place where the scenario names the part.
+template <class Make>
+auto with_place(const io::SourceMark& where, const std::string& vehicle, Make&& make) {
+  try {
+    return make();
+  } catch (const ConfigError& error) {
+    const std::string text = error.what();
+    // Others say a place of their own: a file's, or that of the key.
+    if (!text.starts_with(vehicle + ".") && !text.starts_with(vehicle + ":")) throw;
+    throw ConfigError(fmt::format("{}: {}", where.text(), text));
+  }
 }
 
 }  // namespace
@@ -98,17 +142,24 @@ void VehicleRuntime::add_diagnostic(const std::string& signal) {
   if (known == diagnostic_signals_.end()) diagnostic_signals_.push_back(signal);
 }
 
-VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext& run)
+VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext& run,
+                               std::vector<StartBox>& others)
     : config_(config), run_(run) {
   const std::string& name = config_.name;
-  vehicle_ = run_.registry.make_vehicle(config_.vehicle.type, config_.vehicle.parameters,
-                                        context<VehicleContext>(name, 0.0));
+  vehicle_ = with_place(config_.vehicle.where, name, [&] {
+    return run_.registry.make_vehicle(config_.vehicle.type, config_.vehicle.parameters,
+                                      context<VehicleContext>(name, 0.0));
+  });
   const VehicleDescription& description = vehicle_->description();
   const Pose X_WB = find_spawn_pose(config_.spawn, run_.world, run_.physics.scene(), name,
                                     description.height_above_ground_m);
   first_body_ = run_.physics.body_count();
-  vehicle_->spawn(run_.physics, X_WB);
+  with_place(config_.vehicle.where, name, [&] { vehicle_->spawn(run_.physics, X_WB); });
   end_body_ = run_.physics.body_count();
+  vehicle_->read_truth(truth_);
+  const StartBox box = find_start_box(name, truth_.X_WB, description);
+  refuse_start_in_contact(config_.spawn, box, others, run_.world, run_.physics.scene());
+  others.push_back(box);
 
   Ports ports(run_.bus, name, name);
   truth_writer_ = ports.write<Odometry>("truth");
@@ -182,6 +233,7 @@ void VehicleRuntime::take_down() {
   tasks_.clear();
   metrics_.clear();
   payloads_.clear();
+  may_fail_.clear();
   controller_.reset();
   guidance_.reset();
   planner_.reset();
@@ -245,8 +297,9 @@ void VehicleRuntime::add_sensors() {
     sensor_context.scene = &run_.physics.scene();
     sensor_context.world = &run_.world;
     sensor_context.vehicle_truth = vehicle_.get();
-    sensors_.push_back(
-        run_.registry.make_sensor(sensor.part.type, sensor.part.parameters, sensor_context));
+    sensors_.push_back(with_place(sensor.part.where, config_.name, [&] {
+      return run_.registry.make_sensor(sensor.part.type, sensor.part.parameters, sensor_context);
+    }));
     Sensor& built = *sensors_.back();
     add_stepped(Stage::kSense, part, sensor.part.type, sensor.part.rate_Hz, built);
     // What a sensor would read without error follows from the truth.
@@ -267,9 +320,14 @@ void VehicleRuntime::add_estimator() {
   const std::string type = given ? config_.estimator->type : "truth";
   const double rate_Hz =
       given && config_.estimator->rate_Hz > 0.0 ? config_.estimator->rate_Hz : control_rate_Hz();
-  estimator_ = given ? run_.registry.make_estimator(type, config_.estimator->parameters,
-                                                    estimator_context(part, rate_Hz))
-                     : std::make_unique<TruthEstimator>();
+  if (given) {
+    estimator_ = with_place(config_.estimator->where, config_.name, [&] {
+      return run_.registry.make_estimator(type, config_.estimator->parameters,
+                                          estimator_context(part, rate_Hz));
+    });
+  } else {
+    estimator_ = std::make_unique<TruthEstimator>();
+  }
   add_stepped(Stage::kEstimate, part, type, rate_Hz, *estimator_);
 }
 
@@ -286,8 +344,10 @@ void VehicleRuntime::add_observers() {
   for (const io::NamedPart& observer : config_.observers) {
     const std::string part = fmt::format("{}.observers.{}", config_.name, observer.name);
     const double rate_Hz = observer.part.rate_Hz > 0.0 ? observer.part.rate_Hz : control_rate_Hz();
-    observers_.push_back(run_.registry.make_estimator(observer.part.type, observer.part.parameters,
-                                                      estimator_context(part, rate_Hz)));
+    observers_.push_back(with_place(observer.part.where, config_.name, [&] {
+      return run_.registry.make_estimator(observer.part.type, observer.part.parameters,
+                                          estimator_context(part, rate_Hz));
+    }));
     add_stepped(Stage::kEstimate, part, observer.part.type, rate_Hz, *observers_.back(),
                 observer_signals(observer.name));
   }
@@ -307,8 +367,10 @@ void VehicleRuntime::add_planner() {
   if (!config_.planner && !handover_.plan) return;
   const std::string part = config_.name + ".planner";
   if (!handover_.plan) {
-    planner_ = run_.registry.make_planner(config_.planner->type, config_.planner->parameters,
-                                          planner_context());
+    planner_ = with_place(config_.planner->where, config_.name, [&] {
+      return run_.registry.make_planner(config_.planner->type, config_.planner->parameters,
+                                        planner_context());
+    });
   }
   Ports ports(run_.bus, config_.name, part);
   estimate_ = ports.read<Odometry>("estimate");
@@ -371,6 +433,12 @@ void VehicleRuntime::try_to_plan(Time now) {
 }
 
 void VehicleRuntime::add_controller() {
+  if (!config_.controller && config_.guidance) {
+    throw ConfigError(fmt::format(
+        "{}: {}.guidance ({}) works for a controller, but the vehicle has none: give it one, or "
+        "take the guidance away",
+        config_.guidance->where.text(), config_.name, config_.guidance->type));
+  }
   if (!config_.controller) {
     Ports ports(run_.bus, config_.name, config_.name);
     actuators_ = ports.read_optional<NamedValues>("actuators");
@@ -390,19 +458,49 @@ void VehicleRuntime::add_controller() {
     const std::string part = config_.name + ".guidance";
     const double rate_Hz =
         config_.guidance->rate_Hz > 0.0 ? config_.guidance->rate_Hz : control_rate_Hz();
-    guidance_ = run_.registry.make_guidance(config_.guidance->type, config_.guidance->parameters,
-                                            controller_context_of(part, rate_Hz));
+    guidance_ = with_place(config_.guidance->where, config_.name, [&] {
+      return run_.registry.make_guidance(config_.guidance->type, config_.guidance->parameters,
+                                         controller_context_of(part, rate_Hz));
+    });
     add_stepped(Stage::kGuide, part, config_.guidance->type, rate_Hz, *guidance_);
+    note_if_it_may_fail(guidance_.get());
+    // Where it lands: follows from what it told already.
+    add_diagnostic(config_.name + "/landing");
   }
   const std::string part = config_.name + ".controller";
-  controller_ =
-      run_.registry.make_controller(config_.controller->type, config_.controller->parameters,
-                                    controller_context_of(part, control_rate_Hz()));
+  controller_ = with_place(config_.controller->where, config_.name, [&] {
+    return run_.registry.make_controller(config_.controller->type, config_.controller->parameters,
+                                         controller_context_of(part, control_rate_Hz()));
+  });
+  note_if_it_may_fail(controller_.get());
   add_stepped(Stage::kControl, part, config_.controller->type, control_rate_Hz(), *controller_);
   refuse_a_missing_plan();
+  progress_.emplace(vehicle_->description());
+  progress_seen_ = begin_.value_or(Time{});
   Ports ports(run_.bus, config_.name, config_.name);
   actuators_ = ports.read<NamedValues>("actuators");
   add_actuators(period_of_rate(control_rate_Hz()));
+}
+
+void VehicleRuntime::note_if_it_may_fail(const SteppedPart* part) {
+  if (const auto* may_fail = dynamic_cast<const MayFail*>(part)) may_fail_.push_back(may_fail);
+}
+
+ParameterSet VehicleRuntime::parameters_of(const io::NamedPart& metric) const {
+  // Nothing is read here: what is not given is filled in before the part reads it by its table.
+  ParameterSet given = metric.part.parameters;
+  const std::vector<ParameterSpec>& specs =
+      run_.registry.spec(PartKind::kMetric, metric.part.type).parameters;
+  const bool judges_pictures = std::any_of(
+      specs.begin(), specs.end(), [](const ParameterSpec& spec) { return spec.name == kCamera; });
+  if (!judges_pictures || given.has(kCamera)) return given;
+  std::vector<std::string> cameras;
+  for (const io::NamedPart& sensor : config_.sensors) {
+    const auto gives = run_.registry.spec(PartKind::kSensor, sensor.part.type).gives;
+    if (gives == ProductKind::kPictures) cameras.push_back(sensor.name);
+  }
+  if (cameras.size() == 1) given.set(kCamera, cameras.front());
+  return given;
 }
 
 void VehicleRuntime::add_actuators(Duration period) {
@@ -422,9 +520,10 @@ void VehicleRuntime::add_payloads() {
     payload_context.vehicle_truth = vehicle_.get();
     payload_context.vehicle_description = &vehicle_->description();
     payload_context.map = &map();
-    payloads_.emplace_back(
-        payload.name,
-        run_.registry.make_payload(payload.part.type, payload.part.parameters, payload_context));
+    payloads_.emplace_back(payload.name, with_place(payload.part.where, config_.name, [&] {
+                             return run_.registry.make_payload(
+                                 payload.part.type, payload.part.parameters, payload_context);
+                           }));
     add_stepped(Stage::kPayload, part, payload.part.type, rate_Hz, *payloads_.back().second);
   }
 }
@@ -450,13 +549,31 @@ void VehicleRuntime::check_command(const SignalBase& value) const {
                                   wanted.values.size(), wanted.names.size()));
   }
   for (const std::string& name : wanted.names) {
-    static_cast<void>(
-        vehicle_->description().actuator_index(name, fmt::format("a command for '{}'",
-                                                                 value.name())));
+    static_cast<void>(vehicle_->description().actuator_index(
+        name, fmt::format("a command for '{}'", value.name())));
   }
 }
 
+void VehicleRuntime::watch_progress(Time now) {
+  if (crash_ || !progress_ || finished()) return;
+  std::string told = progress_->update(now, truth_.X_WB.p, actuator_values_, now - progress_seen_);
+  progress_seen_ = now;
+  if (told.empty()) return;
+  told += fmt::format(", at x = {:.2f} m, y = {:.2f} m", truth_.X_WB.p.x(), truth_.X_WB.p.y());
+  crash_ = Crash{config_.name, now, std::move(told), EndKind::kStuck};
+  run_.emit(Event::Level::kError, config_.name, fmt::format("is stuck: {}", crash_->text));
+}
+
 void VehicleRuntime::actuate(Time now) {
+  watch_progress(now);
+  if (crash_ && crash_->kind == EndKind::kStuck) {
+    for (std::size_t i = 0; i < actuator_values_.size(); ++i) {
+      const ActuatorSpec& spec = vehicle_->description().actuators[i];
+      actuator_values_[i] = std::clamp(0.0, spec.min, spec.max);
+    }
+    vehicle_->actuate(actuator_values_);
+    return;
+  }
   if (!said_finished_ && controller_ && finished()) {
     said_finished_ = true;
     run_.emit(Event::Level::kInfo, config_.name + ".controller", "finished its path");
@@ -497,9 +614,8 @@ void VehicleRuntime::add_metrics() {
     for (const io::NamedPart& observer : config_.observers) {
       metric_context.observers.push_back(observer.name);
     }
-    metrics_.push_back(
-        {metric.name,
-         run_.registry.make_metric(metric.part.type, metric.part.parameters, metric_context)});
+    metrics_.push_back({metric.name, run_.registry.make_metric(
+                                         metric.part.type, parameters_of(metric), metric_context)});
     // A metric that judges plans has nothing to read where the vehicle has no planner.
     add_stepped(Stage::kJudge, part, metric.part.type, rate_Hz, *metrics_.back().metric);
   }
@@ -541,22 +657,57 @@ void VehicleRuntime::after_physics(Time now, Duration step) {
                           fmt::format("its speed of {:g} m/s is beyond {:g} m/s",
                                       state.v_WB_B.norm(), kMaxSpeed_mps));
   }
-  // Outside its grid the ground ends; falling for ever would help nobody.
-  const Eigen::Vector3d& p = state.X_WB.p;
-  const bool off_grid = run_.world.terrain && !run_.world.terrain->contains(p.x(), p.y());
-  if (off_grid && !run_.physics.scene().ground_height_m(p.x(), p.y(), p.z())) {
-    throw SimulationError(
-        culprit, now,
-        fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m", p.x(), p.y()));
-  }
+  demand_ground(now, state.X_WB);
   watch_contacts(now);
   watch_crash(now);
 }
 
+void VehicleRuntime::demand_ground(Time now, const Pose& X_WB) const {
+  const Eigen::Vector3d& p = X_WB.p;
+  if (run_.world.terrain && run_.world.terrain->contains(p.x(), p.y())) return;
+  const SceneQuery& scene = run_.physics.scene();
+  if (scene.ground_height_m(p.x(), p.y(), p.z())) return;
+  // A hole in a mesh smaller than the vehicle is no edge.
+  const VehicleDescription& description = vehicle_->description();
+  const Eigen::Vector3d& half = description.collision_half_extents_m;
+  for (const double side : {-1.0, 1.0}) {
+    for (const double end : {-1.0, 1.0}) {
+      const Eigen::Vector3d corner =
+          X_WB * Eigen::Vector3d(description.collision_centre_B +
+                                 Eigen::Vector3d(end * half.x(), side * half.y(), 0.0));
+      if (scene.ground_height_m(corner.x(), corner.y(), corner.z())) return;
+    }
+  }
+  const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
+  const Eigen::AlignedBox2d box = find_ground_extent(run_.world);
+  std::string remedy = "; keep it on the ground, or give the world more of it";
+  constexpr const char* kSurroundings = "surroundings_m";
+  const ParameterSet& world = run_.scenario.world.parameters;
+  for (const ParameterSpec& spec : world.specs()) {
+    if (spec.name != kSurroundings) continue;
+    remedy = fmt::format("; a larger world.{} ({:g} m now) makes more of it", kSurroundings,
+                         world.number(kSurroundings));
+  }
+  throw SimulationError(
+      culprit, now,
+      fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m: the ground of world '{}' "
+                  "lies between x = {:.1f} and {:.1f} m, y = {:.1f} and {:.1f} m{}",
+                  p.x(), p.y(), run_.world.name, box.min().x(), box.max().x(), box.min().y(),
+                  box.max().y(), remedy));
+}
+
 void VehicleRuntime::watch_crash(Time now) {
-  if (crash_ || vehicle_->crash().empty()) return;
-  crash_ = Crash{config_.name, now, std::string(vehicle_->crash())};
-  run_.emit(Event::Level::kError, config_.name, fmt::format("crashed: {}", crash_->text));
+  if (crash_) return;
+  if (!vehicle_->crash().empty()) {
+    crash_ = Crash{config_.name, now, std::string(vehicle_->crash())};
+    run_.emit(Event::Level::kError, config_.name, fmt::format("crashed: {}", crash_->text));
+    return;
+  }
+  for (const MayFail* part : may_fail_) {
+    if (crash_ || !at_work() || part->failure().empty()) continue;
+    crash_ = Crash{config_.name, now, std::string(part->failure()), EndKind::kGaveUp};
+    run_.emit(Event::Level::kError, config_.name, fmt::format("gave up: {}", crash_->text));
+  }
 }
 
 void VehicleRuntime::watch_contacts(Time now) {
@@ -567,7 +718,7 @@ void VehicleRuntime::watch_contacts(Time now) {
       return body.index >= first_body_ && body.index < end_body_;
     };
     if (!is_ours(contact.body) && !is_ours(contact.other)) continue;
-    if (contact.surface != SurfaceClass::kTerrain && contact.depth_m >= 0.0) touched = &contact;
+    if (contact.depth_m >= 0.0 && !is_ground(contact)) touched = &contact;
   }
   const bool was_touching = contacts_.values[1] != 0.0;
   if (!touched && !was_touching) return;
@@ -576,9 +727,12 @@ void VehicleRuntime::watch_contacts(Time now) {
   if (touched) {
     if (now - last_contact_ > kContactGap) {
       contacts_.values[0] += 1.0;
-      run_.emit(Event::Level::kWarning, config_.name,
-                fmt::format("touches a {} at x = {:.2f} m, y = {:.2f} m",
-                            to_string(touched->surface), touched->p_W.x(), touched->p_W.y()));
+      run_.emit(
+          Event::Level::kWarning, config_.name,
+          fmt::format("touches a {} at x = {:.2f} m, y = {:.2f} m",
+                      touched->surface == SurfaceClass::kTerrain ? "wall of the terrain"
+                                                                 : to_string(touched->surface),
+                      touched->p_W.x(), touched->p_W.y()));
     }
     last_contact_ = now;
   }
@@ -588,8 +742,21 @@ void VehicleRuntime::watch_contacts(Time now) {
   }
 }
 
+const char* to_string(EndKind kind) {
+  switch (kind) {
+    case EndKind::kStuck:
+      return "is stuck";
+    case EndKind::kGaveUp:
+      return "gave up";
+    case EndKind::kCrashed:
+      break;
+  }
+  return "crashed";
+}
+
 std::string Crash::sentence() const {
-  return fmt::format("{} crashed at {:.3f} s: {}", vehicle, time.s(), text);
+  return fmt::format("{} {} at {:.3f} s: {}", vehicle, to_string(kind), time.s(),
+                     text);
 }
 
 std::map<std::string, double> VehicleRuntime::metric_results() const {

@@ -18,9 +18,13 @@
 #include "engine/physics/physics_world.h"
 #include "engine/sim/crash.h"
 #include "engine/sim/map_ground.h"
+#include "engine/sim/progress_watch.h"
 #include "engine/sim/scheduler.h"
+#include "engine/sim/spawn.h"
 
 namespace vinerow {
+
+class MayFail;
 
 /// What the vehicle's assembly needs from the run.
 struct RunContext {
@@ -42,9 +46,11 @@ struct PhaseHandover {
 
 class VehicleRuntime {
  public:
-  /// Builds the vehicle and stands it in the physics world; nothing else runs yet. @throws
-  /// ConfigError
-  VehicleRuntime(const io::VehicleConfig& config, const RunContext& run);
+  /// Builds the vehicle and stands it in the physics world; nothing else runs yet.
+  /// @param others  vehicles that stand there already; it is added to them
+  /// @throws ConfigError
+  VehicleRuntime(const io::VehicleConfig& config, const RunContext& run,
+                 std::vector<StartBox>& others);
 
   /// Builds and connects its parts without letting them run, so that faults are found before the
   /// run. @throws ConfigError
@@ -65,6 +71,8 @@ class VehicleRuntime {
   /// Why no plan could be made; empty where one could. Only in missions: elsewhere that is an
   /// error.
   const std::string& plan_failure() const { return plan_failure_; }
+  /// It is to plan and has neither a plan nor a reason why there is none.
+  bool awaits_plan() const { return planner_ && at_work() && !planned_ && plan_failure_.empty(); }
   /// Plans from where it stands with a planner of its own. @param map  null: its own map
   Result<PlannedPath> plan_ahead(std::shared_ptr<const RowMap> map);
 
@@ -76,7 +84,7 @@ class VehicleRuntime {
     return !crash_ && (controller_ == nullptr || (at_work() && controller_->finished()));
   }
   bool has_controller() const { return controller_ != nullptr; }
-  /// How it was wrecked, if it was.
+  /// How it was wrecked, or why its controller gave up, if so.
   const std::optional<Crash>& crash() const { return crash_; }
   io::OnCrash on_crash() const { return config_.on_crash; }
 
@@ -98,6 +106,8 @@ class VehicleRuntime {
   const std::vector<std::pair<std::string, std::unique_ptr<Payload>>>& payloads() const {
     return payloads_;
   }
+  /// Where its sensors sit, of those that sit somewhere; empty where its parts were never built.
+  const std::vector<SensorMounting>& mountings() const { return mountings_; }
   /// What the planner told of its work; empty without planner or report.
   const std::map<std::string, double>& plan_numbers() const { return plan_numbers_; }
   /// Names of the signals that are diagnostics: recorded, but not part of the digest.
@@ -136,11 +146,18 @@ class VehicleRuntime {
   /// @throws ConfigError naming who reads a plan that no planner writes
   void refuse_a_missing_plan() const;
   void add_metrics();
+  void note_if_it_may_fail(const SteppedPart* part);
+  /// A metric's; one that judges pictures is told the vehicle's camera where it has just one.
+  ParameterSet parameters_of(const io::NamedPart& metric) const;
   void publish_diagnostics(Time now);
   void try_to_plan(Time now);
   void actuate(Time now);
   void watch_contacts(Time now);
+  /// Outside the ground a vehicle falls for ever. @throws SimulationError
+  void demand_ground(Time now, const Pose& X_WB) const;
   void watch_crash(Time now);
+  /// Of a vehicle that a controller drives.
+  void watch_progress(Time now);
   double control_rate_Hz() const;
   /// Runs a part's tick; turns what it throws and the NaN it writes into a SimulationError with a
   /// name.
@@ -158,6 +175,7 @@ class VehicleRuntime {
   std::unique_ptr<Planner> planner_;
   std::unique_ptr<Guidance> guidance_;
   std::unique_ptr<Controller> controller_;
+  std::vector<const MayFail*> may_fail_;  ///< of guidance and controller those that can
   std::vector<std::pair<std::string, std::unique_ptr<Payload>>> payloads_;
   std::vector<NamedMetric> metrics_;
   std::vector<SensorMounting> mountings_;
@@ -194,12 +212,9 @@ class VehicleRuntime {
   std::string plan_failure_;
   bool said_finished_ = false;
   std::optional<Crash> crash_;
+  std::optional<ProgressWatch> progress_;
+  Time progress_seen_;
   std::vector<std::string> diagnostic_signals_;
 };
-
-/// Pose of a vehicle at the start, standing on the ground.
-/// @throws ConfigError naming what the world has, if the alley or spawn point is unknown
-Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, const SceneQuery& scene,
-                     const std::string& vehicle, double height_above_ground_m);
 
 }  // namespace vinerow

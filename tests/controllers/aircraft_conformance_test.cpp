@@ -69,6 +69,29 @@ TEST_P(EveryAircraftController, HoldsSteadyFlightExactly) {
   }
 }
 
+TEST_P(EveryAircraftController, FliesEveryPlannedAirspeedAtItsHeight) {
+  // Straight and in a climb, over the range of paper A and beyond; in still air, so that the
+  // reference says all. 0.1 m/s is less than 1 % of the airspeed.
+  for (const double airspeed_mps : {10.0, 11.0, 12.0, 13.3, 14.88, 16.5}) {
+    for (const double climb_rad : {0.0, 0.05}) {
+      AircraftLoopSetup setup = make_setup();
+      setup.reference = [&](double time_s) {
+        AirReference reference = fly_straight(0.3, 120.0)(time_s);
+        reference.airspeed_mps = airspeed_mps;
+        reference.climb_angle_rad = climb_rad;
+        reference.height_m = 120.0 + airspeed_mps * std::sin(climb_rad) * time_s;
+        return reference;
+      };
+      AircraftLoop loop(setup);
+      loop.run_until(40.0);
+      const Odometry truth = loop.sim().truth();
+      EXPECT_NEAR(truth.v_WB_B.norm(), airspeed_mps, 0.1) << climb_rad;
+      EXPECT_NEAR(truth.X_WB.p.z(), loop.reference().height_m, 0.15)
+          << airspeed_mps << " " << climb_rad;
+    }
+  }
+}
+
 TEST_P(EveryAircraftController, ComesBackFromOffsets) {
   const auto fly = [&](auto&& change) {
     AircraftLoopSetup setup = make_setup();

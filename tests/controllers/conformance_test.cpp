@@ -28,7 +28,8 @@ MissionSetup make_small_mission(const std::string& controller, double angle_rad 
     return Eigen::Vector3d(p.x(), p.y(), 0.0);
   };
   MissionSetup setup;
-  setup.map->alleys = {{0, {place(0, 0), place(20, 0)}, 5.0}, {1, {place(0, 5), place(20, 5)}, 5.0}};
+  setup.map->alleys = {{0, {place(0, 0), place(20, 0)}, 5.0},
+                       {1, {place(0, 5), place(20, 5)}, 5.0}};
   setup.map->rows.resize(1);
   setup.map->rows[0].line_W = {place(0, 2.5), place(20, 2.5)};
   const Eigen::Vector3d start = place(-0.5, 0.2);
@@ -52,7 +53,7 @@ TEST_P(EveryController, FinishesNearThePathsEndWithFiniteCommands) {
 
 TEST_P(EveryController, DrivesTheSameBitsTwice) {
   MissionSetup setup = make_small_mission(GetParam());
-  setup.estimator.type = "odometry_filter";
+  setup.estimator = {"odometry_filter", {{"heading", std::string("truth")}}};
   setup.accuracy_m = 0.05;
   const MissionResult a = run_mission(setup), b = run_mission(setup);
   ASSERT_EQ(a.poses.size(), b.poses.size());

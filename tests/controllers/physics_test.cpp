@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "controllers/register.h"
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "engine/math/deviation.h"
 #include "tests/support/paths.h"
 #include "vinerow/testing.h"
 
@@ -35,8 +37,8 @@ void expect_good(const std::vector<std::string>& sets, double leg_rms_m) {
   EXPECT_GT(metrics.at("min_clearance_m"), 0.15);
 }
 
-const std::string kGps = "rover.estimator.type=gps_pose";
-const std::string kFilter = "rover.estimator.type=odometry_filter";
+const std::string kGps = "rover.estimator={type: gps_pose, heading: truth}";
+const std::string kFilter = "rover.estimator={type: odometry_filter, heading: truth}";
 
 TEST(PathFollowerOnThePhysicalRover, KeepsTheLegsWithTruePose) {
   expect_good({}, 0.02);
@@ -147,6 +149,85 @@ TEST(FourWheelSteeringOnTheSlope, StandsWhereItsAuthorityEnds) {
 
 TEST(PathFollowerOnTheSlope, StandsWhereItsAuthorityEnds) {
   expect_halts_on_a_slope("diff_drive_rover", "path_follower", "");
+}
+
+/// A path with corners of 90, 120, 135 and 180 deg beside the block, on flat ground.
+vinerow::testing::TestRun make_corner_run(const std::string& vehicle, const std::string& type,
+                                          const std::string& planner) {
+  return vinerow::testing::SmallWorld()
+      .world("vineyard",
+             "row_count: 2, row_length_m: 10, relief_m: 0, waves_m: 0, "
+             "surroundings_m: 120, row_bearing_deg: 90")
+      .vehicle("rover", vehicle, "spawn: {x_m: -20, y_m: -60, yaw_deg: 0}")
+      .planner("rover", "waypoints", planner)
+      .controller("rover", type)
+      .duration_s(400.0)
+      .build();
+}
+
+const std::vector<Eigen::Vector2d> kCorners = {{-20, -60}, {0, -60},  {0, -40},      {17.32, -50},
+                                               {0, -50},   {20, -50}, {5.86, -64.14}};
+
+double largest_deviation_m(vinerow::testing::TestRun& run) {
+  const PolylineDistance line(kCorners);
+  double largest_m = 0.0;
+  while (!run.finished() && run.time_s() < 399.0) {
+    run.run_for_s(0.1);
+    largest_m = std::max(largest_m, line.nearest(run.truth("rover").X_WB.p.head<2>()).distance_m);
+  }
+  return largest_m;
+}
+
+TEST(Corners, PhysicalVehiclesDriveRoundThem) {
+  const std::string points =
+      "x_m: [-20, 0, 0, 17.32, 0, 20, 5.86], y_m: [-60, -60, -40, -50, -50, -50, -64.14]";
+  for (const auto& [vehicle, type] :
+       {std::pair<std::string, std::string>{"diff_drive_rover", "path_follower"},
+        {"diff_drive_rover", "pure_pursuit"},
+        {"four_wheel_steering_rover", "four_wheel_steering"}}) {
+    auto run = make_corner_run(vehicle, type, points);
+    const double deviation_m = largest_deviation_m(run);
+    EXPECT_TRUE(run.finished()) << type;
+    const Eigen::Vector2d end = run.truth("rover").X_WB.p.head<2>();
+    EXPECT_LT((end - kCorners.back()).norm(), 0.3) << type;
+    // What turns on the spot is at most its braking's error off; the other by its widest loop, two
+    // radii of 1.1 times the rover's least.
+    EXPECT_LT(deviation_m, type == "four_wheel_steering" ? 2.0 * 1.1 * 1.77 : 0.35) << type;
+  }
+}
+
+TEST(Corners, WhoLosesItsPathGivesUpWithASentence) {
+  // A rover that may hardly turn leaves the hairpin between two alleys straight on.
+  auto run = vinerow::testing::SmallWorld()
+                 .world("vineyard", "row_count: 3, row_length_m: 20, relief_m: 0, waves_m: 0")
+                 .vehicle("rover", "diff_drive_rover", "spawn: {alley: 0, offset_m: 1.0}")
+                 .planner("rover", "coverage", "approach: false")
+                 .controller("rover", "path_follower", "yaw_rate_max_radps: 0.02")
+                 .duration_s(200.0)
+                 .build();
+  run.run_to_end();
+  EXPECT_FALSE(run.finished());
+  EXPECT_LT(run.time_s(), 199.0);
+  const auto crashes = run.session().crashes();
+  ASSERT_EQ(crashes.size(), 1u);
+  EXPECT_EQ(crashes[0].vehicle, "rover");
+  EXPECT_TRUE(crashes[0].text.starts_with("lost its path: ")) << crashes[0].text;
+}
+
+TEST(Guidance, IsRefusedWithoutAController) {
+  try {
+    vinerow::testing::SmallWorld()
+        .vehicle("rover", "four_wheel_steering_rover")
+        .planner("rover", "coverage")
+        .guidance("rover", "dwa")
+        .build();
+    FAIL() << "must be refused";
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("rover.guidance (dwa) works for a controller, but the vehicle has none"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

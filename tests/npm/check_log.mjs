@@ -1,7 +1,7 @@
 // node check_log.mjs FILE [--allow-truncated]
 // Opens a log with the official MCAP reader and decodes every message by the definitions inside the
 // log. Prints counts per topic and each topic's last message as JSON; exit status 1 where anything
-// is wrong.
+// is wrong, also where a frame is not reached from "map".
 import { plain, readLog } from "./mcap_log.mjs";
 
 const files = process.argv.slice(2).filter((word) => !word.startsWith("--"));
@@ -12,6 +12,7 @@ if (files.length !== 1) {
 }
 try {
   const log = await readLog(files[0], { allowTruncated });
+  if (log.lostFrames.length > 0) throw new Error(`no transform leads to ${log.lostFrames.join(", ")}`);
   const abridge = (message) => {
     const text = JSON.stringify(message, plain);
     return text.length < 2000 ? JSON.parse(text) : text.slice(0, 200) + " ...";

@@ -4,6 +4,7 @@ import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import rosmsg from "@foxglove/rosmsg";
 import msgsCommon from "@foxglove/rosmsg-msgs-common";
 import rosmsg2 from "@foxglove/rosmsg2-serialization";
+import foxglove from "@foxglove/schemas/internal.js";
 import lz4 from "@foxglove/wasm-lz4";
 import zstd from "@foxglove/wasm-zstd";
 
@@ -25,16 +26,55 @@ const kinds = (definition) =>
     value: field.isConstant ? Number(field.value) : undefined,
   }));
 
-/** Compares a log's definitions of standard types, field by field, with ROS 2's own. */
+/** Foxglove's own messages, as its package for ROS 2 has them, by name. */
+const foxgloveTypes = new Map(
+  Object.values(foxglove.foxgloveMessageSchemas).map((schema) => {
+    const text = foxglove.generateRosMsgMergedSchema(schema, { rosVersion: 2 });
+    return [`foxglove_msgs/${schema.name}`, rosmsg.parse(text, { ros2: true })[0]];
+  }),
+);
+
+/** Compares a log's definitions of standard types, field by field, with ROS 2's and Foxglove's own. */
 function checkStandardTypes(definitions) {
   for (const definition of definitions) {
     const name = definition.name.replace("/msg/", "/");
     if (name.startsWith("vinerow_msgs/")) continue;
     const release = msgsCommon.ros2humble;
-    const standard = release[name] ?? release[name.replace("/", "/msg/")];
-    if (!standard) throw new Error(`${name} is no type of ROS 2 Humble`);
+    const standard = release[name] ?? release[name.replace("/", "/msg/")] ?? foxgloveTypes.get(name);
+    if (!standard) throw new Error(`${name} is no type of ROS 2 Humble or Foxglove`);
     const [ours, theirs] = [definition, standard].map((d) => JSON.stringify(kinds(d)));
-    if (ours !== theirs) throw new Error(`${name} differs from ROS 2:\n${ours}\n${theirs}`);
+    if (ours !== theirs) throw new Error(`${name} differs from its definition:\n${ours}\n${theirs}`);
+  }
+}
+
+/** Collects which frame stands in which, and which frames messages are in. */
+class Frames {
+  #parents = new Map();
+  #used = new Map();
+
+  add(topic, message) {
+    for (const { header, child_frame_id: child } of message.transforms ?? []) {
+      const before = this.#parents.get(child);
+      if (before !== undefined && before !== header.frame_id) {
+        throw new Error(`${topic}: frame ${child} stands in ${before} and in ${header.frame_id}`);
+      }
+      this.#parents.set(child, header.frame_id);
+    }
+    const names = (message.entities ?? []).map((entity) => entity.frame_id);
+    for (const name of [message.header?.frame_id, ...names]) {
+      if (name !== undefined) this.#used.set(name, topic);
+    }
+  }
+
+  /** Frames of messages that no transform leads to from "map": viewers cannot place them. */
+  lost() {
+    const reaches = (frame) => {
+      for (let at = frame; at !== undefined; at = this.#parents.get(at)) {
+        if (at === "map") return true;
+      }
+      return false;
+    };
+    return [...this.#used].filter(([frame]) => !reaches(frame)).map(([frame, topic]) => `${frame} (${topic})`);
   }
 }
 
@@ -46,6 +86,7 @@ class Decoder {
   types = {};
   first = {};
   last = {};
+  frames = new Frames();
 
   addSchema(schema) {
     if (schema.encoding !== "ros2msg") throw new Error(`schema encoding ${schema.encoding}`);
@@ -74,10 +115,15 @@ class Decoder {
     if (Buffer.compare(again, record.data) !== 0) {
       throw new Error(`${channel.topic}: message and definition do not agree`);
     }
-    const stamp = message.header?.stamp ?? message.stamp ?? message.transforms?.[0]?.header.stamp;
+    const stamp =
+      message.header?.stamp ??
+      message.stamp ??
+      message.transforms?.[0]?.header.stamp ??
+      message.entities?.[0]?.timestamp;
     const stampNs = BigInt(stamp.sec) * 1_000_000_000n + BigInt(stamp.nsec ?? stamp.nanosec);
     if (stampNs !== record.publishTime) throw new Error(`${channel.topic}: stamp is not publish time`);
     this.counts[channel.topic]++;
+    this.frames.add(channel.topic, message);
     this.first[channel.topic] ??= message;
     this.last[channel.topic] = message;
   }
@@ -135,7 +181,7 @@ export async function readLog(file, { allowTruncated = false } = {}) {
   const complete = readByStream(bytes, handlers, streamed);
   if (!complete && !allowTruncated) throw new Error("the log is cut off");
   const { counts, types, first, last } = streamed;
-  const result = { complete, counts, types, first, last };
+  const result = { complete, counts, types, first, last, lostFrames: streamed.frames.lost() };
   if (!complete) return result;
   const indexed = new Decoder();
   Object.assign(result, await readByIndex(bytes, handlers, indexed));

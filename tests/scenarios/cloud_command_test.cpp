@@ -64,6 +64,19 @@ TEST(CloudCommand, TakesTheFlownSurveyAndKeepsTheTruth) {
   // Another seed, other bits.
   ASSERT_EQ(run_vinerow(ask + " --seed 5 --out " + again).status, 0);
   EXPECT_NE(read_text(again), read_text(out));
+  // What is set is set over the log's scenario as over the file.
+  const std::string lower = " --set world.canopy_top_m=1.7 --density 50 --log " + run + " --out ";
+  ASSERT_EQ(run_vinerow("cloud" + lower + again).status, 0);
+  const auto volume_m3 = [&](const std::string& file) {
+    return worlds::read_cloud_truth(folder.path() / file).volume_m3;
+  };
+  EXPECT_LT(volume_m3("again.truth.json"), 0.95 * truth.volume_m3);
+  ASSERT_EQ(run_vinerow("cloud " + kSmall + lower + (folder.path() / "named.las").string()).status,
+            0);
+  EXPECT_EQ(volume_m3("again.truth.json"), volume_m3("named.truth.json"));
+  const CommandResult wrong = run_vinerow("cloud" + lower + again + " --set world.canopy_tip_m=1");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.output, HasSubstr("did you mean 'canopy_top_m'?"));
 
   const CommandResult nobody = run_vinerow(ask + " --vehicle kite --out " + again);
   EXPECT_EQ(nobody.status, 2);

@@ -54,6 +54,16 @@ TEST(BadInput, EachIsAnsweredByOneSentence) {
   expect_refused(run_demo("world.survey_file=nowhere.geojson"), {"nowhere.geojson"});
   expect_refused(run_demo("rover.spawn={alley: 12}"), {"alley", "12", "9 alleys (0 to 8)"});
   expect_refused("run " + scenario_file("no_such_file"), {"no_such_file.yaml"});
+  expect_refused("run " + scenario_file("orchard_rover") + " --seed -1",
+                 {"--seed = '-1', must be a whole number from 0 to 9223372036854775807"});
+  expect_refused("validate " + scenario_file("orchard_rover") + " --seed abc",
+                 {"--seed = 'abc', must be a whole number"});
+  expect_refused("runn", {"unknown command 'runn'; did you mean 'run'? (known: "});
+  expect_refused("validate " + scenario_file("vineyard_rover") + " --set world.row_count=1",
+                 {"has 1 row and so no alley between two", "{x_m, y_m}"});
+  expect_refused("validate " + scenario_file("riseholme_rover") +
+                     " --set rover.sensors.sonar_front.position_m=[9.2e18,0,0]",
+                 {"position_m[0] = 9.2e+18 m, must be >= -100 m and <= 100 m"});
 }
 
 TEST(BadInput, AFollowerWithoutAPlannerIsTold) {

@@ -141,7 +141,7 @@ TEST(FixedWingMission, FliesAMissionOfQGroundControlAndLands) {
       "    planner: {type: mission_file, file: '" +
           std::filesystem::absolute(file).string() +
           "'}\n    guidance: {type: waypoint_guidance, land_at_m: [100, -100], land_height_m: 0, "
-          "land_course_deg: 0}\n    controller: {type: trmpc}\n",
+          "land_bearing_deg: 90}\n    controller: {type: trmpc}\n",
       VINEROW_SOURCE_DIR);
   // The file's waypoints from its take-off, at 111.32 km a degree of latitude.
   const std::vector<Eigen::Vector3d> waypoints = {{75.7, 2.3, 50}, {75.2, 58.2, 50}, {0, 58.7, 50}};

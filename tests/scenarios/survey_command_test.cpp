@@ -36,8 +36,10 @@ TEST(SurveyCommand, PlansAPolygonAndWritesMissionsWaypointsAndAPicture) {
                                   " --origin 44.7,8.03,300 --lane_bearing_deg 90 --out " + out);
   ASSERT_EQ(result.status, 0) << result.output;
   EXPECT_EQ(value_in(result.output, "lanes"), "10, 45.0 m apart, bearing 90.0 deg");
-  EXPECT_EQ(value_in(result.output, "GSD"), "104.2 mm (104.2 to 104.2 mm)");
-  EXPECT_EQ(value_in(result.output, "order"), "9 8 7 6 5 4 3 2 1 0");
+  EXPECT_EQ(value_in(result.output, "GSD"),
+            "104.2 mm at 150.0 m; 104.2 to 104.2 mm at the lanes' lowest and highest");
+  EXPECT_EQ(value_in(result.output, "order"),
+            "lanes 9, 8, 7, 6, 5, 4, 3, 2, 1, 0 (numbers as in waypoints.csv)");
 
   const io::MissionFile plan = io::read_mission(out + "/survey.plan");
   const io::MissionFile text = io::read_mission(out + "/survey.waypoints");

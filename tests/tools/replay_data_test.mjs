@@ -61,6 +61,24 @@ close(linkPose(1, 0.25)[0], [0.15, 0, 0], 1e-12);
 close(linkPose(1, 0.25)[1], [0, Math.sin(Math.PI / 8), 0, Math.cos(Math.PI / 8)], 1e-4);
 assert.deepEqual([0.1, 0.6, 1.0].map((t) => linkPose(2, t)[2]), [false, true, false]);
 assert.ok(Math.abs(track.speedAt(track.bracket(0.3)) - 4) < 1e-9);
+// At the end, also where the last instant is there twice, and of a track of one instant alone.
+assert.ok(Math.abs(track.speedAt(track.bracket(9)) - 2) < 1e-9);
+const still = { links: [], plans: [] };
+const twice = new ArrayBuffer(96);
+new Uint32Array(twice, 0, 3).set([0, 500, 500]);
+new Int32Array(twice, 12, 9).set([1000, 0, 0, 3000, 0, 0, 3000, 0, 0]);
+new Int16Array(twice, 48, 12).set([0, 0, 0, 32767, 0, 0, 0, 32767, 0, 0, 0, 32767]);
+for (const [samples, speed] of [[3, 4], [1, 0]]) {
+  const entry = { name: "x", samples, times: 0, positions: 12, rotations: 48, ...still };
+  const [short] = Replay.readTracks({ vehicles: [entry] }, new Uint8Array(twice));
+  assert.equal(short.speedAt(short.bracket(0.5)), speed);
+  assert.equal(short.speedAt(short.bracket(77)), speed);
+}
+new Uint32Array(twice, 0, 3).set([500, 500, 500]);
+const [instant] = Replay.readTracks({
+  vehicles: [{ name: "x", samples: 3, times: 0, positions: 12, rotations: 48, ...still }],
+}, new Uint8Array(twice));
+assert.equal(instant.speedAt(instant.bracket(0.5)), 0);
 assert.ok(Math.abs(track.heightAt(track.bracket(0.25)) - 1) < 1e-6);
 assert.deepEqual([0, 0.25, 9].map((t) => track.planAt(t)), [-1, 0, 0]);
 assert.deepEqual([...track.plans[0].points], [0, 0, 0, 5, 5, 1]);

@@ -1,7 +1,7 @@
+#include "worlds/vineyard/vineyard.h"
 #include "engine/api/height_field.h"
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
-#include "worlds/vineyard/vineyard.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,14 @@
 #include "engine/core/error.h"
 #include "engine/io/geo.h"
 #include "engine/math/angles.h"
+#include "engine/physics/world_scene.h"
 #include "tests/worlds/world_fixture.h"
 #include "worlds/parts/mesh_store.h"
 
 namespace vinerow::worlds::vineyard_test {
 namespace {
+
+using Eigen::Vector3d;
 
 const WorldModel& parcel_f() {
   static const auto world = test::make_world("vineyard", test::world_parameters("vineyard"));
@@ -65,6 +68,32 @@ TEST(Vineyard, BentRowsAreArcsAboutOneCentre) {
                  "row_bend_deg = 180 deg bends rows of 50 m about a centre 15.9 m beside the "
                  "block's middle, and a row 16.2 m beside it does not fit");
   }
+}
+
+// Four wires, evenly from the arms' height to 5 cm below the posts' top, over each row's middle.
+TEST(Vineyard, WiresAreInTheWayOfWhatPassesBetweenRows) {
+  ParameterSet parameters = test::world_parameters("vineyard");
+  parameters.set("row_count", std::int64_t{2}).set("row_length_m", 30.0);
+  parameters.set("relief_m", 0.0).set("row_bearing_deg", 90.0).set("leaf_cards_per_m", 10.0);
+  parameters.set("arm_height_m", 0.8).set("post_height_m", 2.05);
+  const auto world = test::make_world("vineyard", parameters);
+  const physics::WorldScene scene(*world);
+  const Vector3d middle_W =
+      0.5 * (world->rows->rows[0].line_W.front() + world->rows->rows[0].line_W.back());
+  const double ground_m = *scene.ground_height_m(middle_W.x(), middle_W.y(), 1e3);
+  constexpr double kHalf_m = 0.05, kWireRadius_m = 0.0025;
+  for (const double height_m : {0.8, 1.2, 1.6, 2.0}) {
+    const Pose X_WBox{Eigen::Quaterniond::Identity(),
+                      {middle_W.x(), middle_W.y() + 0.4, ground_m + height_m}};
+    // Rows run east. The tube has three sides: it is half as thick across one of them.
+    const double distance_m = scene.distance_to_box_m(X_WBox, Vector3d::Constant(kHalf_m), 3.0,
+                                                      mask_of(SurfaceClass::kWire));
+    EXPECT_NEAR(distance_m, 0.4 - kHalf_m - 0.75 * kWireRadius_m, 0.3 * kWireRadius_m) << height_m;
+  }
+  const Pose between{Eigen::Quaterniond::Identity(), {middle_W.x(), middle_W.y(), ground_m + 1.4}};
+  EXPECT_NEAR(scene.distance_to_box_m(between, Vector3d::Constant(kHalf_m), 3.0,
+                                      mask_of(SurfaceClass::kWire)),
+              0.2 - kHalf_m, 2.0 * kWireRadius_m);
 }
 
 TEST(Vineyard, ReliefUnderTheRowsIsThirtyMetres) {
@@ -235,6 +264,20 @@ TEST(Vineyard, RefusesBadInputInOneSentence) {
   EXPECT_NE(error("soil", std::string("dry_gras")).find("did you mean 'dry_grass'?"),
             std::string::npos);
   EXPECT_NE(error("headland_m", 3.0).find("must be >= 8 m"), std::string::npos);
+  EXPECT_EQ(error("vine_spacing_m", 0.001),
+            "vine_spacing_m = 0.001 m, must be >= 0.1 m and <= 100 m");
+  EXPECT_EQ(error("row_length_m", 1e9),
+            "row_length_m = 1000000000 m, must be >= 1 m and <= 5000 m");
+}
+
+TEST(Vineyard, TooMuchGroundIsRefusedBeforeTheSlopeIsFitted) {
+  ParameterSet parameters = test::world_parameters("vineyard");
+  parameters.set("row_count", std::int64_t{900}).set("row_length_m", 5000.0).set("pitch_m", 2.5);
+  parameters.set("terrain_cell_m", 0.5);
+  const std::string error =
+      test::config_error_of([&] { test::make_world("vineyard", parameters); });
+  EXPECT_EQ(error.find("terrain_cell_m = 0.5 m gives "), 0u) << error;
+  EXPECT_NE(error.find("must be at most 25 million: take cells of "), std::string::npos) << error;
 }
 
 }  // namespace

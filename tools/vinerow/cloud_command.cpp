@@ -91,6 +91,13 @@ void print_cloud(const worlds::WrittenCloud& written, double wall_s, const std::
   }
   fmt::print("noise          {:.1f} mm horizontally, {:.1f} mm in height (rms)\n",
              1e3 * s.horizontal_noise_rms_m, 1e3 * s.height_noise_rms_m);
+  if (s.georeference != "none") {
+    fmt::print(
+        "georeference   {}: {:.1f} mm east, {:.1f} mm north, {:.1f} mm up in the middle, turned by "
+        "{:.4f} deg, tilted by {:.4f} deg\n",
+        s.georeference, 1e3 * s.georeference_east_m, 1e3 * s.georeference_north_m,
+        1e3 * s.georeference_up_m, s.georeference_turn_deg, s.georeference_tilt_deg);
+  }
   fmt::print("truth          {} rows, bearing {:.3f} deg, spacing {:.3f} m, canopy {:.2f} m3\n",
              truth.rows.size(), truth.bearing_deg, truth.spacing_m, truth.volume_m3);
   fmt::print("time           {:.1f} s\n", wall_s);
@@ -109,8 +116,7 @@ void make_cloud(const CloudArguments& arguments) {
   io::Scenario scenario;
   if (arguments.scenario.file.empty()) {
     registry = make_registry(arguments.scenario.plugins);
-    scenario = scenario_of_log(log, registry);
-    scenario.seed = arguments.scenario.overrides.seed.value_or(scenario.seed);
+    scenario = scenario_of_log(log, registry, arguments.scenario.overrides);
   } else {
     scenario = load(arguments.scenario, registry);
   }
@@ -133,8 +139,7 @@ void make_cloud(const CloudArguments& arguments) {
   const Result<worlds::WrittenCloud> written =
       uniform ? worlds::write_uniform_cloud(scene, *world, area,
                                             uniform_of(arguments, scenario.seed), target)
-              : worlds::write_photogrammetry(scene, *world, pictures, area,
-                                             params.options, target);
+              : worlds::write_photogrammetry(scene, *world, pictures, area, params.options, target);
   if (!written) throw ConfigError("cloud: " + written.reason());
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "controllers/planning/survey_plan.h"
 #include "engine/core/error.h"
 #include "engine/record/log_reader.h"
 #include "engine/sim/log_trace.h"
+#include "engine/sim/picture_collector.h"
 #include "engine/sim/pictures.h"
 #include "engine/sim/simulation.h"
 #include "tools/vinerow/survey_task.h"
@@ -36,16 +38,42 @@ std::vector<Camera> find_cameras(const record::LogReader& log) {
   return cameras;
 }
 
-SurveyCamera camera_of(const io::Scenario& scenario, const Camera& camera,
-                       const std::filesystem::path& log) {
+const io::NamedPart& part_of(const io::Scenario& scenario, const Camera& camera,
+                             const std::filesystem::path& log) {
   for (const io::VehicleConfig& vehicle : scenario.vehicles) {
     if (vehicle.name != camera.vehicle) continue;
     for (const io::NamedPart& sensor : vehicle.sensors) {
-      if (sensor.name == camera.sensor) return read_survey_camera(sensor.part.parameters);
+      if (sensor.name == camera.sensor) return sensor;
     }
   }
   throw ConfigError(
       fmt::format("{}: its scenario has no sensor '{}'", log.string(), camera.name()));
+}
+
+/// Where the vehicle thought its camera at these times, by the estimate logged last before each.
+/// @returns none where the log has no estimate that is old enough
+std::vector<Eigen::Vector3d> told_places(const record::LogReader& log, const std::string& topic,
+                                         const std::vector<Time>& times,
+                                         const Eigen::Vector3d& p_BS) {
+  std::vector<Eigen::Vector3d> places;
+  Trace<Odometry> estimates;
+  const auto& channels = log.info().channels;
+  const bool is_logged =
+      std::any_of(channels.begin(), channels.end(), [&](const record::ChannelInfo& channel) {
+        return channel.topic == topic && channel.messages > 0;
+      });
+  if (!is_logged) return places;
+  log.read<Odometry>(topic, [&](Time t, const Odometry& estimate) {
+    estimates.times.push_back(t);
+    estimates.values.push_back(estimate);
+  });
+  for (const Time t : times) {
+    const auto next = std::upper_bound(estimates.times.begin(), estimates.times.end(), t);
+    if (next == estimates.times.begin()) return {};
+    const auto k = static_cast<std::size_t>(next - estimates.times.begin()) - 1;
+    places.push_back(told_place(estimates.values[k], (t - estimates.times[k]).s(), p_BS));
+  }
+  return places;
 }
 
 }  // namespace
@@ -78,10 +106,17 @@ PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& reg
                           log.string(), names));
   }
   PictureSet pictures;
-  pictures.camera = camera_of(scenario_of_log(log, registry), chosen.front(), log);
-  reader.read<CameraShot>(chosen.front().topic, [&](Time, const CameraShot& shot) {
-    if (shot.index >= 0) pictures.X_WS.push_back(shot.X_WS);
+  const io::Scenario scenario = scenario_of_log(log, registry);
+  const io::NamedPart& part = part_of(scenario, chosen.front(), log);
+  pictures.camera = read_survey_camera(part.part.parameters);
+  std::vector<Time> times;
+  reader.read<CameraShot>(chosen.front().topic, [&](Time t, const CameraShot& shot) {
+    if (shot.index < 0) return;
+    pictures.X_WS.push_back(shot.X_WS);
+    times.push_back(t);
   });
+  pictures.told_W = told_places(reader, "/" + chosen.front().vehicle + "/estimate", times,
+                                place_of_sensor(part.part.parameters));
   pictures.source = fmt::format("{} of {}", chosen.front().name(), log.string());
   return pictures;
 }

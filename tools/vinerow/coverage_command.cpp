@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <system_error>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/sim/coverage_log.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/coverage_picture.h"
@@ -36,9 +36,7 @@ void write(const SurveyCoverage& coverage, const std::filesystem::path& picture)
   render::write_png(picture.string(), draw_coverage(coverage));
   std::filesystem::path numbers = picture;
   numbers.replace_extension(".json");
-  std::ofstream out(numbers, std::ios::binary);
-  out << coverage_json(coverage);
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", numbers.string()));
+  write_whole_file(numbers, coverage_json(coverage));
 }
 
 /// Of several cameras each has its name in its file's.

@@ -3,9 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
+#include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
+#include "engine/core/suggest.h"
 #include "engine/sim/summary.h"
 #include "tools/vinerow/commands.h"
 
@@ -14,9 +20,21 @@ namespace {
 constexpr int kBadInput = 2;
 constexpr int kBrokenOff = 3;
 
+/// The parser would say no more of a misspelt command than that one is needed.
+void check_command(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
+  if (word.starts_with('-') || std::find(known.begin(), known.end(), word) != known.end()) return;
+  throw vinerow::ConfigError(fmt::format("unknown command '{}'{} (known: {})", word,
+                                         vinerow::did_you_mean(word, known),
+                                         vinerow::join(known)));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Beyond a limit on the size of files a write shall fail and be told, not end the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"Vinerow: simulation of robots that work in vineyards and orchards"};
   app.set_version_flag("--version", "vinerow " + vinerow::program_version());
   app.require_subcommand(1);
@@ -36,6 +54,7 @@ int main(int argc, char** argv) {
   vinerow::tools::add_replay_command(app, exit_status);
   vinerow::tools::add_report_command(app, exit_status);
   try {
+    if (argc > 1) check_command(app, argv[1]);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
@@ -43,6 +62,9 @@ int main(int argc, char** argv) {
   } catch (const vinerow::ConfigError& error) {
     fmt::print(stderr, "vinerow: {}\n", error.what());
     return kBadInput;
+  } catch (const vinerow::WriteError& error) {
+    fmt::print(stderr, "vinerow: {}\n", error.what());
+    return kBrokenOff;
   } catch (const vinerow::SimulationError& error) {
     fmt::print(stderr, "vinerow: {}\n", error.what());
     return kBrokenOff;

@@ -2,7 +2,6 @@
 #include <sys/resource.h>
 
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/mesh_scene_writer.h"
 #include "engine/io/mesh_writer.h"
 #include "engine/math/angles.h"
@@ -24,6 +24,7 @@
 #include "tools/vinerow/report/map_captions.h"
 #include "tools/vinerow/table_flags.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_gis.h"
 #include "worlds/mapping/cloud/make_cloud_map.h"
 #include "worlds/mapping/cloud/reading/cloud_source.h"
 #include "worlds/mapping/jobs/cloud_map_job_params.h"
@@ -115,12 +116,6 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
-}
-
 /// All row meshes in one file of each kind, for other programs.
 void export_meshes(const std::vector<RowMesh>& meshes, const std::vector<std::string>& kinds,
                    const fs::path& folder) {
@@ -199,6 +194,7 @@ void make_map(const MapArguments& arguments) {
 
   worlds::CloudReadReport read;
   worlds::ParcelCloud cloud = worlds::read_parcel_cloud(arguments.cloud, read_options, read);
+  if (!read.crs_warning.empty()) fmt::print(stderr, "vinerow: warning: {}\n", read.crs_warning);
   watch.end_phase("read");
   if (!arguments.boundary.empty()) {
     options.boundary_W = read_boundary(arguments.boundary, read.origin, read.has_origin);
@@ -207,6 +203,7 @@ void make_map(const MapArguments& arguments) {
       cloud, options, [&](const std::string& phase) { watch.end_phase(phase); });
   worlds::add_source(read, map);
   worlds::save_map(map, arguments.out);
+  worlds::save_gis(map, cloud, arguments.out);
   export_meshes(map.map.meshes, arguments.exports, arguments.out);
   watch.end_phase("files");
 
@@ -217,8 +214,8 @@ void make_map(const MapArguments& arguments) {
     pictures = write_pictures(map, cloud, options.occupancy, arguments.out, title);
     watch.end_phase("pictures");
   }
-  write_text(arguments.out / "report.html", map_report_html(map, pictures, title));
-  write_text(arguments.out / "timing.json", timing_json(watch.phases()));
+  write_whole_file(arguments.out / "report.html", map_report_html(map, pictures, title));
+  write_whole_file(arguments.out / "timing.json", timing_json(watch.phases()));
   fmt::print("{}", map_report_text(map));
   if (truth)
     fmt::print("{}", comparison_text(worlds::compare_with_truth(map, *truth), map, *truth));

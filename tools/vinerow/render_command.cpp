@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/sim/pictures.h"
 #include "tools/vinerow/commands.h"
 
@@ -44,7 +45,12 @@ void add_render_command(CLI::App& app, int& exit_status) {
     const std::filesystem::path out =
         arguments->out.empty() ? arguments->log.parent_path() / "frames" : arguments->out;
     const PictureReport report = render_log(arguments->log, out, registry, arguments->options);
+    if (!report.write_failure.empty()) throw WriteError(report.write_failure);
     if (!report.note.empty()) throw ConfigError("no pictures: " + report.note);
+    if (report.files.empty()) {
+      throw ConfigError(
+          fmt::format("no frame: none of the times lies within {}", arguments->log.string()));
+    }
     for (std::size_t i = 0; i < report.files.size(); ++i) {
       fmt::print("{}  {}\n", report.digests[i], report.files[i].string());
     }

@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/report/replay_run.h"
 
@@ -31,10 +30,7 @@ void add_replay_command(CLI::App& app, int& exit_status) {
     const std::filesystem::path out =
         arguments->out.empty() ? folder / "replay.html" : arguments->out;
     if (!out.parent_path().empty()) std::filesystem::create_directories(out.parent_path());
-    std::ofstream stream(out, std::ios::binary | std::ios::trunc);
-    stream << page;
-    stream.close();
-    if (!stream) throw ConfigError(fmt::format("'{}' cannot be written", out.string()));
+    write_whole_file(out, page);
     fmt::print("{}  {:.1f} MB\n", out.string(), 1e-6 * static_cast<double>(page.size()));
     exit_status = 0;
   });

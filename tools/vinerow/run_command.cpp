@@ -1,14 +1,16 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
+#include "engine/sim/judge.h"
 #include "engine/sim/run.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/map_picture_files.h"
+#include "tools/vinerow/progress_line.h"
 #include "tools/vinerow/report/report.h"
 
 namespace vinerow::tools {
@@ -23,41 +25,17 @@ void note_interrupt(int) {
   std::signal(SIGINT, SIG_DFL);
 }
 
-/// A bar that redraws itself on a terminal; a line per 10 % elsewhere.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+/// Thrown out of work that Ctrl-C ends.
+struct Interrupted {};
 
-  void show(const Progress& progress) {
-    if (quiet_) return;
-    const double share =
-        progress.duration_s > 0.0 ? progress.simulated_s / progress.duration_s : 1.0;
-    const double factor = progress.wall_s > 0.0 ? progress.simulated_s / progress.wall_s : 0.0;
-    const double left_s =
-        factor > 0.0 ? (progress.duration_s - progress.simulated_s) / factor : 0.0;
-    if (terminal_) {
-      constexpr int kWidth = 30;
-      const int filled = static_cast<int>(share * kWidth);
-      fmt::print(stderr,
-                 "\r[{:=<{}}{: <{}}] {:8.1f} s  {:6.0f} x real time  at most {:4.0f} s left ", "",
-                 filled, "", kWidth - filled, progress.simulated_s, factor, left_s);
-      std::fflush(stderr);
-    } else if (share >= next_share_) {
-      fmt::print(stderr, "{:3.0f} %  {:.1f} s simulated, {:.0f} x real time\n", 100.0 * share,
-                 progress.simulated_s, factor);
-      while (next_share_ <= share) next_share_ += 0.1;
-    }
-  }
-
-  void end() const {
-    if (!quiet_ && terminal_) fmt::print(stderr, "\n");
-  }
-
- private:
-  bool quiet_;
-  bool terminal_;
-  double next_share_ = 0.1;
-};
+void show_simulation(ProgressLine& line, const Progress& progress) {
+  const double share = progress.duration_s > 0.0 ? progress.simulated_s / progress.duration_s : 1.0;
+  const double factor = progress.wall_s > 0.0 ? progress.simulated_s / progress.wall_s : 0.0;
+  const double left_s = factor > 0.0 ? (progress.duration_s - progress.simulated_s) / factor : 0.0;
+  line.show("simulating", share,
+            fmt::format("{:.1f} s, {:.0f} x real time, at most {:.0f} s left", progress.simulated_s,
+                        factor, left_s));
+}
 
 /// "succeeded  survey        0.0 to 288.9 s", and why where it did not.
 void print_phase(const PhaseReport& phase) {
@@ -75,11 +53,10 @@ void print_phase(const PhaseReport& phase) {
   }
 }
 
-void print_result(const RunResult& result, const std::filesystem::path& out, bool with_log) {
+void print_verdict(const RunResult& result, const std::filesystem::path& out, bool with_log) {
   for (const PhaseReport& phase : result.phases) print_phase(phase);
   for (const CriterionResult& c : result.criteria) {
-    fmt::print("{}  {} = {:.6g} ({} {:g})\n", c.met ? "met   " : "FAILED", c.metric, c.value,
-               c.kind == "max" ? "at most" : "at least", c.limit);
+    fmt::print("{}  {}\n", c.met ? "met   " : "FAILED", sentence_of(c));
   }
   fmt::print("simulated {:.3f} s in {:.2f} s ({:.0f} x real time), mission {}\n",
              result.simulated_s, result.wall_s, result.real_time_factor(),
@@ -87,26 +64,49 @@ void print_result(const RunResult& result, const std::filesystem::path& out, boo
   fmt::print("digest   {}\n", result.digest);
   fmt::print("summary  {}\n", (out / "summary.json").string());
   if (with_log) fmt::print("log      {}\n", (out / "log.mcap").string());
+  if (!result.error.empty()) {
+    const bool broke_off = result.status == RunStatus::kBrokenOff;
+    fmt::print(stderr, "vinerow: {}{}\n", broke_off ? "the run broke off: " : "", result.error);
+  }
+  // Whoever reads this through a pipe wants it now, not behind the pictures.
+  std::fflush(stdout);
+}
+
+void print_pictures(const RunResult& result, const std::filesystem::path& out) {
   if (!result.pictures.empty()) {
     fmt::print("pictures {} in {}, the last is {}\n", result.pictures.size(),
                (out / "frames").string(), result.pictures.back().string());
   }
-  if (!result.picture_note.empty()) fmt::print("pictures none: {}\n", result.picture_note);
-  if (result.error.empty()) return;
-  const bool broke_off = result.status == RunStatus::kBrokenOff;
-  fmt::print(stderr, "vinerow: {}{}\n", broke_off ? "the run broke off: " : "", result.error);
-}
-
-/// What is drawn and told of a run that is over: where that cannot be written it takes nothing from
-/// the run's verdict. @param what  for people: "report"
-template <class F>
-void try_to_write(const char* what, F&& write) {
-  try {
-    write();
-  } catch (const ConfigError& error) {
-    fmt::print(stderr, "vinerow: no {}: {}\n", what, error.what());
+  if (!result.picture_note.empty()) {
+    fmt::print("pictures {}: {}\n", result.pictures.empty() ? "none" : "not all",
+               result.picture_note);
   }
 }
+
+/// Tells what could not be stored. Takes nothing from the run's verdict; the exit status is 3.
+class Unwritten {
+ public:
+  bool any() const { return any_; }
+  void tell(const std::string& sentence) {
+    if (sentence.empty()) return;
+    any_ = true;
+    fmt::print(stderr, "vinerow: {}\n", sentence);
+  }
+  /// Draws or tells more of a run that is over. @param what  for people: "report"
+  template <class F>
+  void try_to_write(const char* what, F&& write) {
+    try {
+      write();
+    } catch (const WriteError& error) {
+      tell(fmt::format("no {}: {}", what, error.what()));
+    } catch (const ConfigError& error) {
+      fmt::print(stderr, "vinerow: no {}: {}\n", what, error.what());
+    }
+  }
+
+ private:
+  bool any_ = false;
+};
 
 void print_files(const char* what, const std::vector<std::filesystem::path>& files) {
   for (const std::filesystem::path& file : files) fmt::print("{:8} {}\n", what, file.string());
@@ -139,30 +139,57 @@ void add_run_command(CLI::App& app, int& exit_status) {
     options.log = !arguments->no_log;
     options.pictures = !arguments->no_pictures;
     ProgressLine line(arguments->quiet);
-    options.progress = [&line](const Progress& progress) { line.show(progress); };
     std::signal(SIGINT, note_interrupt);
+    const bool with_log = options.log && scenario.record.enabled;
+    options.progress = [&line](const Progress& progress) { show_simulation(line, progress); };
+    options.picture_progress = [&line](int done, int total) {
+      line.count("drawing pictures", done, total);
+    };
     options.interrupted = [] { return interrupt_seen != 0; };
+    options.judged = [&](const RunResult& result) {
+      line.end();
+      print_verdict(result, options.out, with_log);
+    };
     const RunResult result = run_scenario(scenario, registry, options);
     line.end();
-    const bool with_log = options.log && scenario.record.enabled;
-    print_result(result, options.out, with_log);
-    if (with_log && options.pictures) {
-      // Where the vehicles took pictures of the ground, and the maps that jobs made.
-      try_to_write("coverage", [&] {
-        print_files("coverage", write_coverage(options.out / "log.mcap", registry, {},
-                                               options.out / "coverage.png"));
-      });
-      try_to_write("pictures of maps",
-                   [&] { print_files("map", write_job_pictures(scenario, result)); });
-    }
-    if (!arguments->no_report) {
-      try_to_write("report", [&] {
-        const std::filesystem::path report = options.out / "report.html";
-        write_report(options.out, registry, report);
-        print_files("report", {report});
-      });
-    }
+    print_pictures(result, options.out);
+    Unwritten unwritten;
+    unwritten.tell(result.write_failure);
     exit_status = static_cast<int>(result.status);
+    const bool broke_off = result.status == RunStatus::kBrokenOff;
+    const bool drawing_interrupted = interrupt_seen != 0 && !broke_off;
+    try {
+      if (drawing_interrupted) throw Interrupted();
+      if (with_log && options.pictures) {
+        // Where the vehicles took pictures of the ground, and the maps that jobs made.
+        unwritten.try_to_write("coverage", [&] {
+          print_files("coverage", write_coverage(options.out / "log.mcap", registry, {},
+                                                 options.out / "coverage.png"));
+        });
+        unwritten.try_to_write("pictures of maps",
+                               [&] { print_files("map", write_job_pictures(scenario, result)); });
+      }
+      if (!arguments->no_report) {
+        unwritten.try_to_write("report", [&] {
+          const std::filesystem::path report = options.out / "report.html";
+          write_report(options.out, registry, report, [&](int done, int total) {
+            // After Ctrl-C in the simulation the report is still wanted.
+            if (interrupt_seen != 0 && !broke_off) throw Interrupted();
+            line.count("writing the report", done, total);
+          });
+          line.end();
+          print_files("report", {report});
+        });
+      }
+    } catch (const Interrupted&) {
+      line.end();
+      const std::string out = options.out.string();
+      fmt::print(stderr,
+                 "vinerow: interrupted: verdict, log and the pictures so far are kept; 'vinerow "
+                 "render {}/log.mcap' draws the pictures, 'vinerow report {}' writes the report\n",
+                 out, out);
+    }
+    if (unwritten.any()) exit_status = static_cast<int>(RunStatus::kBrokenOff);
   });
 }
 

@@ -1,15 +1,38 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+
+#include "engine/core/error.h"
 #include "engine/sim/plugin_loader.h"
 #include "tools/parts/register_all.h"
 #include "tools/vinerow/commands.h"
 
 namespace vinerow::tools {
+namespace {
+
+std::uint64_t read_seed(const std::string& text) {
+  constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();  // of a scenario's
+  std::int64_t seed = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || end != text.data() + text.size() || seed < 0) {
+    throw ConfigError(
+        fmt::format("--seed = '{}', must be a whole number from 0 to {}", text, kLargest));
+  }
+  return static_cast<std::uint64_t>(seed);
+}
+
+}  // namespace
 
 void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments) {
   command.add_option("scenario", arguments.file, "scenario file (YAML)")->required();
   command.add_option(
       "--set", arguments.overrides.sets,
       "override a value, e.g. --set rover.controller.lookahead_m=0.5 (may be given several times)");
-  command.add_option("--seed", arguments.overrides.seed, "seed of all random streams");
+  command.add_option_function<std::string>(
+      "--seed",
+      [&arguments](const std::string& text) { arguments.overrides.seed = read_seed(text); },
+      "seed of all random streams, a whole number from 0");
   command
       .add_option("--plugin", arguments.plugins, "load a plug-in beside those the scenario names")
       ->allow_extra_args(false);

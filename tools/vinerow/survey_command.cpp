@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <system_error>
 
@@ -9,6 +8,7 @@
 #include "controllers/planning/survey_mission.h"
 #include "controllers/planning/survey_plan.h"
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/qgc_plan.h"
 #include "engine/io/qgc_wpl.h"
 #include "engine/math/angles.h"
@@ -23,20 +23,20 @@ void write_waypoints(const SurveyPlan& plan, const SurveyTask& task,
                      const std::filesystem::path& file) {
   const char* const kKinds[] = {"lane", "turn", "transit", "vertical", "return"};
   const io::LocalFrame frame(task.origin);
-  std::ofstream out(file, std::ios::binary);
-  out << "waypoint,kind,lane,x_m,y_m,z_m,above_ground_m,latitude_deg,longitude_deg\n";
+  std::string out;
+  out += "waypoint,kind,lane,x_m,y_m,z_m,above_ground_m,latitude_deg,longitude_deg\n";
   int number = 0;
   for (const PathPoint& point : plan.path.points) {
     const Eigen::Vector3d& p = point.p_W;
     const io::Geodetic place = frame.to_geodetic(p);
     const auto ground_m = task.ground(p.head<2>());
-    out << fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{:.9f},{:.9f}\n", number++,
+    out += fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{:.9f},{:.9f}\n", number++,
                        kKinds[static_cast<int>(point.kind)],
                        point.alley >= 0 ? std::to_string(point.alley) : "", p.x(), p.y(), p.z(),
                        ground_m ? fmt::format("{:.3f}", p.z() - *ground_m) : "",
                        deg_from_rad(place.latitude_rad), deg_from_rad(place.longitude_rad));
   }
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
+  write_whole_file(file, out);
 }
 
 void print_survey(const SurveyTask& task, const SurveyPlan& plan) {
@@ -51,8 +51,10 @@ void print_survey(const SurveyTask& task, const SurveyPlan& plan) {
              n("footprint_width_m"), n("footprint_length_m"));
   fmt::print("height           {:.1f} m above the ground ({:.1f} to {:.1f} m on lanes)\n",
              n("height_m"), n("height_above_ground_min_m"), n("height_above_ground_max_m"));
-  fmt::print("GSD              {:.1f} mm ({:.1f} to {:.1f} mm)\n", n("gsd_mm"), n("gsd_min_mm"),
-             n("gsd_max_mm"));
+  fmt::print(
+      "GSD              {:.1f} mm at {:.1f} m; {:.1f} to {:.1f} mm at the lanes' lowest and "
+      "highest\n",
+      n("gsd_mm"), n("height_m"), n("gsd_min_mm"), n("gsd_max_mm"));
   fmt::print(
       "overlap          {:.1f} % ahead, {:.1f} % aside ({:.1f} %, {:.1f} % where the flight is "
       "lowest)\n",
@@ -64,22 +66,35 @@ void print_survey(const SurveyTask& task, const SurveyPlan& plan) {
   fmt::print("lanes            {:.0f}, {:.1f} m apart, bearing {:.1f} deg\n", n("lanes"),
              n("lane_spacing_m"), n("lane_bearing_deg"));
   std::string order;
-  for (const int lane : plan.order) order += fmt::format(" {}", lane);
-  fmt::print("order           {}\n", order);
-  fmt::print("turns            radius {:.1f} m, {:.0f} skip lanes, {:.0f} swing out\n",
-             n("turn_radius_m"), n("skipping_turns"), n("wide_turns"));
+  for (const int lane : plan.order) {
+    order += fmt::format("{}{}", order.empty() ? "" : ", ", lane);
+  }
+  fmt::print("order            lanes {} (numbers as in waypoints.csv)\n", order);
+  if (plan.rotorcraft) {
+    fmt::print("turns            on the spot; {:.1f} m beyond the pictures to slow down\n",
+               n("run_out_m"));
+  } else {
+    fmt::print("turns            {:.1f} m radius; {:.0f} pass over lanes, {:.0f} swing wide\n",
+               n("turn_radius_m"), n("skipping_turns"), n("wide_turns"));
+  }
   fmt::print(
       "waypoints        {:.0f}, of them {:.0f} corners of lanes and {:.0f} for the terrain\n",
       n("waypoints"), n("corners"), n("ramp_points"));
   fmt::print("ramps            {:.2f} m off the wanted height at most, slope up to {:.1f} %\n",
              n("ramp_error_m"), 100.0 * n("slope_max"));
-  fmt::print("climb            {:.0f} m of way to the first height\n", n("climb_way_m"));
-  fmt::print("way              {:.0f} m, {:.0f} s; lanes {:.0f} m, turns {:.0f} m\n", n("length_m"),
+  if (plan.rotorcraft) {
+    fmt::print("climb            straight up above the start\n");
+  } else {
+    fmt::print("climb            {:.0f} m of flight to the first height\n", n("climb_way_m"));
+  }
+  fmt::print("flight           {:.0f} m, {:.0f} s; lanes {:.0f} m, turns {:.0f} m\n", n("length_m"),
              n("flight_time_s"), n("lane_way_m"), n("turn_way_m"));
   if (n("steep_terrain_extra_m") > task.request.ramp_error_m) {
     fmt::print(
-        "note: up to {:.1f} m higher than wanted, where the terrain is steeper than {:.0f} %\n",
-        n("steep_terrain_extra_m"), 100.0 * task.request.max_slope);
+        "note: up to {:.1f} m higher than wanted, where the terrain is steeper than {:.0f} %; {} "
+        "keeps the height\n",
+        n("steep_terrain_extra_m"), 100.0 * task.request.max_slope,
+        plan.rotorcraft ? "a slower flight, or a larger --max_slope," : "a larger --max_slope");
   }
   if (n("samples_beyond_terrain") > 0.0) {
     fmt::print("note: turns leave the terrain; its height at the edge goes on there\n");
@@ -146,6 +161,11 @@ void add_survey_command(CLI::App& app, int& exit_status) {
                       "(default: surveys/<name>)");
   for (const ParameterSpec& spec : survey_spec().parameters) {
     if (spec.kind == ParameterKind::kNumberList || spec.kind == ParameterKind::kPath) continue;
+    if (spec.name == "rotorcraft") {
+      command->add_flag("--rotorcraft{true}", arguments->values[spec.name], spec.description)
+          ->group("Survey");
+      continue;
+    }
     command->add_option("--" + spec.name, arguments->values[spec.name], spec.description)
         ->group("Survey");
   }

@@ -9,7 +9,7 @@
 #include "controllers/planning/survey_params.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "engine/io/geojson.h"
+#include "engine/io/geo_features.h"
 #include "engine/io/raster.h"
 #include "engine/math/angles.h"
 #include "engine/sim/vehicle_runtime.h"
@@ -70,7 +70,7 @@ GeoOrigin find_survey_origin(const SurveyArguments& arguments) {
         fmt::format("'{}' is in metres: --origin latitude,longitude must say where its (0, 0) is",
                     arguments.polygon.string()));
   }
-  for (const io::GeoFeature& feature : io::read_geojson(arguments.polygon)) {
+  for (const io::GeoFeature& feature : io::read_features(arguments.polygon)) {
     if (feature.kind != io::GeometryKind::kPolygon) continue;
     origin.latitude_rad = feature.points.front().latitude_rad;
     origin.longitude_rad = feature.points.front().longitude_rad;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include "engine/api/world_model.h"
-#include "engine/sim/simulation.h"
+#include "engine/sim/run.h"
 #include "tools/vinerow/commands.h"
 
 namespace vinerow::tools {
@@ -12,17 +11,19 @@ void add_validate_command(CLI::App& app, int& exit_status) {
     bool files_only = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("validate", "check a scenario: files, values, wiring; nothing is run");
+  CLI::App* command = app.add_subcommand("validate",
+                                         "check a scenario as a run does before its first step: "
+                                         "files, values, wiring, metrics, plans");
   add_scenario_arguments(*command, arguments->scenario);
   command->add_flag("--files-only", arguments->files_only,
-                    "do not build the world and the vehicles");
+                    "do not build the world and the vehicles, and so make no plans");
   command->callback([arguments, &exit_status] {
     Registry registry;
     const io::Scenario scenario = load(arguments->scenario, registry);
     if (!arguments->files_only) {
-      const Simulation simulation(scenario, registry);
-      for (const std::string& note : simulation.world().notes) fmt::print("note: {}\n", note);
+      for (const std::string& note : rehearse_run(scenario, registry)) {
+        fmt::print("note: {}\n", note);
+      }
     }
     fmt::print("{}: valid ({} vehicle{}, world '{}', {:g} s)\n", arguments->scenario.file.string(),
                scenario.vehicles.size(), scenario.vehicles.size() == 1 ? "" : "s",

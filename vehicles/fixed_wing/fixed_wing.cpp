@@ -12,6 +12,7 @@
 #include "vehicles/fixed_wing/fixed_wing_mesh.h"
 #include "vehicles/fixed_wing/fixed_wing_shapes.h"
 #include "vehicles/parts/steering_servo.h"
+#include "vehicles/parts/step_validity.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -45,6 +46,7 @@ FixedWing::FixedWing(const FixedWingParams& params, const VehicleContext& contex
 }
 
 void FixedWing::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
+  demand_step(world.settings().step, kMostFlightStep, params_.name, "its wings");
   world_ = &world;
   const Vector3d ground_W = X_WB.p - params_.shape.belly_m * (X_WB.q * Vector3d::UnitZ());
   launcher_.hold(params_.launch, ground_W, yaw_from_quaternion(X_WB.q));
@@ -59,6 +61,7 @@ void FixedWing::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   spec.force_sampling = physics::ForceSampling::kHeld;
   body_id_ = world.add_body(spec);
   probe_.emplace(world.world_model(), world.scene(), random_);
+  describe_air(calc_air_density_kgm3(world.world_model(), X_WB.p.z()));
   foliage_.start(world.world_model());
   if (params_.launch.mode == LaunchMode::kAir) {
     start_in_air(X_WB, ground_W);

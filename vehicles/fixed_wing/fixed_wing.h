@@ -73,6 +73,8 @@ class FixedWing final : public Vehicle {
 
  private:
   void describe();
+  /// The air where it starts, which its numbers hold for.
+  void describe_air(double density_kgm3);
   void make_links();
   void start_in_air(const Pose& X_WB, const Eigen::Vector3d& ground_W);
   void meet_faults(Time now);

@@ -36,6 +36,14 @@ void FixedWing::describe() {
       p.launch.mode == LaunchMode::kAir ? p.launch.start_height_m : p.launch.height_m;
 }
 
+void FixedWing::describe_air(double density_kgm3) {
+  FixedWingAircraft& aircraft = *description_.fixed_wing;
+  // Lift goes with density times speed squared.
+  const double ratio = aircraft.air_density_kgm3 / density_kgm3;
+  if (ratio != 1.0) aircraft.stall_speed_mps *= std::sqrt(ratio);
+  aircraft.air_density_kgm3 = density_kgm3;
+}
+
 void FixedWing::make_links() {
   Material material;
   material.name = "fixed_wing";

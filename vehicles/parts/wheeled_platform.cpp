@@ -10,6 +10,8 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/math/decomposition.h"
+#include "vehicles/parts/static_rest.h"
+#include "vehicles/parts/step_validity.h"
 
 namespace vinerow::vehicles {
 namespace {
@@ -65,6 +67,7 @@ WheeledPlatform::WheeledPlatform(WheeledPlatformParams params) : params_(std::mo
 }
 
 void WheeledPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
+  demand_step(world.settings().step, kMostWheelStep, params_.name, "its wheels");
   world_ = &world;
   physics::BodySpec spec;
   spec.name = params_.name;
@@ -74,14 +77,31 @@ void WheeledPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   spec.shapes = params_.shapes;
   body_ = world.add_body(spec);
   state_.body = world.state(body_);
-  state_.specific_force_B =
-      X_WB.q.conjugate() * Eigen::Vector3d(0.0, 0.0, world.settings().gravity_mps2);
   if (wind_random_ && !params_.air.none() && !world.world_model().wind.calm()) {
     wind_.emplace(world.world_model(), world.scene(), *wind_random_);
   }
   // It was parked there.
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     state_.wheels[i].motor.braked = params_.wheels[i].motor.brake_torque_Nm > 0.0;
+  }
+  come_to_rest();
+  state_.specific_force_B =
+      state_.body.X_WB.q.conjugate() * Eigen::Vector3d(0.0, 0.0, world.settings().gravity_mps2);
+}
+
+void WheeledPlatform::come_to_rest() {
+  const auto probe = [this](const Eigen::Vector3d& p, const Eigen::Vector3d& dir, double reach) {
+    return world_->probe_ground(p, dir, reach);
+  };
+  const std::optional<StaticRest> rest =
+      find_static_rest(wheels_, state_.wheels, params_.mass_kg * world_->settings().gravity_mps2,
+                       state_.body.X_WB, world_->world_model().soil, probe);
+  if (!rest) return;
+  state_.body.X_WB = rest->X_WB;
+  world_->set_state(body_, state_.body);
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    state_.wheels[i].travel_m = rest->travel_m[i];
+    state_.wheels[i].tyre.xi = rest->xi[i];
   }
 }
 

@@ -52,6 +52,7 @@ class WheeledPlatform {
   /// Lets the wind push, if the params have a drag area and the world is not calm. Before spawn().
   /// @param random  the vehicle's own stream for turbulence
   void feel_wind(RandomStream random) { wind_random_ = random; }
+  /// Sets it down parked: it rests there, struts and tyres loaded (static_rest.h).
   /// @throws ConfigError as validate(Wind)
   void spawn(physics::PhysicsWorld& world, const Pose& X_WB);
   /// Rolling without slip at this forward speed, from the next step on: a start in motion.
@@ -82,6 +83,8 @@ class WheeledPlatform {
   physics::BodyId body() const { return body_; }
 
  private:
+  void come_to_rest();
+
   WheeledPlatformParams params_;
   std::vector<Wheel> wheels_;
   WheeledPlatformState state_;

@@ -28,12 +28,21 @@ double turbulence_wind_mps(const Wind& wind) {
                                   : std::abs(mean_wind_mps(wind, kTwentyFeet_m));
 }
 
+double calc_air_density_kgm3(const WorldModel& world, double z_m) {
+  const double altitude_m = world.origin.altitude_m;
+  if (world.wind.atmosphere == Atmosphere::kStandard76) {
+    return calc_standard_density_kgm3(altitude_m + z_m);
+  }
+  if (world.wind.air_density_kgm3) return *world.wind.air_density_kgm3;
+  // The standard's own number, which its formula meets to rounding.
+  constexpr double kSeaLevelDensity_kgm3 = 1.225;
+  return altitude_m == 0.0 ? kSeaLevelDensity_kgm3 : calc_standard_density_kgm3(altitude_m);
+}
+
 WindProbe::WindProbe(const WorldModel& world, const SceneQuery& scene, RandomStream random)
     : wind_(checked(world.wind)),
       origin_altitude_m_(world.origin.altitude_m),
-      density_kgm3_(wind_->atmosphere == Atmosphere::kStandard76
-                        ? calc_standard_density_kgm3(origin_altitude_m_)
-                        : wind_->air_density_kgm3),
+      density_kgm3_(calc_air_density_kgm3(world, 0.0)),
       terrain_(world.terrain ? &*world.terrain : nullptr),
       scene_(&scene),
       calm_(wind_->calm()),

@@ -30,6 +30,10 @@ namespace vinerow::vehicles {
 /// Wind at 20 ft that sets the turbulence: the given one, else the mean wind there.
 double turbulence_wind_mps(const Wind& wind);
 
+/// Density where nothing has been sampled: of a constant atmosphere everywhere, of the standard one
+/// at a height of W, kg/m3.
+double calc_air_density_kgm3(const WorldModel& world, double z_m);
+
 class WindProbe {
  public:
   /// Knots of the turbulence, between which it runs straight: the same for every physics step.

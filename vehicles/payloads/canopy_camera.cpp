@@ -48,7 +48,7 @@ const ParameterTable<CanopyCameraParams>& canopy_camera_table() {
   constexpr double kMostPixels = 100'000.0;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .numbers("position_m", "m", &P::p_BS, kAnyNumber,
+          .numbers("position_m", "m", &P::p_BS, between(-100.0, 100.0),
                    "place of the cameras in the body frame (x forward, y left, z up)")
           .numbers("yaws_deg", "deg", &P::yaws_rad, kAnyNumber,
                    "heading of each camera against the vehicle's, positive to the left", 0,

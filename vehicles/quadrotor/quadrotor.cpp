@@ -8,6 +8,7 @@
 #include "engine/api/height_field.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
+#include "vehicles/parts/step_validity.h"
 #include "vehicles/quadrotor/crash_watch.h"
 #include "vehicles/quadrotor/quadrotor_shapes.h"
 
@@ -60,6 +61,7 @@ Quadrotor::Quadrotor(const QuadrotorParams& params, const VehicleContext& contex
 }
 
 void Quadrotor::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
+  demand_step(world.settings().step, kMostFlightStep, params_.name, "its rotors");
   world_ = &world;
   physics::BodySpec spec;
   spec.name = params_.name;
@@ -74,6 +76,7 @@ void Quadrotor::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   motion_.reset(world.state(body_id_));
   specific_force_B_ = X_WB.q.conjugate() * Vector3d(0.0, 0.0, world.settings().gravity_mps2);
   probe_.emplace(world.world_model(), world.scene(), random_);
+  describe_air(calc_air_density_kgm3(world.world_model(), X_WB.p.z()) / kRatedDensity_kgm3);
   foliage_.start(world.world_model());
 }
 

@@ -82,6 +82,8 @@ class Quadrotor final : public Vehicle {
     double shaft_W = 0.0;
   };
   void describe();
+  /// Thrust and drag of the rotors go with the density where it starts, over the rated one.
+  void describe_air(double density_ratio);
   void make_links();
   void meet_faults(Time now);
   void feel_wind(Time now, Duration dt);

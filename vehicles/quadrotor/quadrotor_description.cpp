@@ -34,6 +34,12 @@ void Quadrotor::describe() {
   }
 }
 
+void Quadrotor::describe_air(double density_ratio) {
+  Rotorcraft& craft = *description_.rotorcraft;
+  craft.thrust_coefficient_Ns2 = density_ratio * params_.rotor.thrust_coefficient_Ns2;
+  craft.torque_coefficient_Nms2 = density_ratio * params_.rotor.torque_coefficient_Nms2;
+}
+
 void Quadrotor::make_links() {
   Material material;
   material.name = "quadrotor";

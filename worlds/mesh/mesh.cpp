@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "engine/api/map.h"
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/io/mesh_file.h"
+#include "engine/physics/check_world.h"
+#include "engine/physics/world_scene.h"
+#include "worlds/mesh/ground_meshes.h"
 #include "worlds/mesh/mesh_params.h"
 #include "worlds/mesh/sdf_rows.h"
 #include "worlds/parts/row_map.h"
@@ -45,8 +49,9 @@ class MeshLibrary {
     return loaded;
   }
 
-  void place(const std::string& name, const io::MeshFile& file, const Pose& X_WM,
-             SurfaceClass surface, bool collides, bool visible) {
+  MeshObject place(const std::string& name, const io::MeshFile& file, const Pose& X_WM,
+                   SurfaceClass surface, bool collides, bool visible) {
+    const std::size_t begin = world_.meshes.size();
     for (std::size_t i = 0; i < file.parts.size(); ++i) {
       const io::MeshPart& part = file.parts[i];
       MeshInstance instance;
@@ -59,6 +64,7 @@ class MeshLibrary {
       instance.visible = visible;
       world_.meshes.push_back(std::move(instance));
     }
+    return {begin, world_.meshes.size()};
   }
 
  private:
@@ -66,7 +72,7 @@ class MeshLibrary {
   std::map<std::string, io::MeshFile> files_;
 };
 
-void place_item(const MeshItem& item, MeshLibrary& library) {
+MeshObject place_item(const MeshItem& item, MeshLibrary& library) {
   io::MeshFileOptions options;
   options.scale = Eigen::Vector3d::Constant(item.scale);
   options.up_axis = item.up_axis;
@@ -76,7 +82,8 @@ void place_item(const MeshItem& item, MeshLibrary& library) {
   X_WM.p = item.p_WM;
   X_WM.q = quaternion_from_rpy(item.rpy);
   const std::string name = item.name.empty() ? item.file.stem().string() : item.name;
-  library.place(name, loaded, X_WM, item.surface, item.collides, item.visible);
+  return library.place(name, loaded, X_WM, item.surface.value_or(SurfaceClass::kObstacle),
+                       item.collides, item.visible);
 }
 
 std::vector<std::filesystem::path> model_folders(const MeshWorldParams& params) {
@@ -87,39 +94,123 @@ std::vector<std::filesystem::path> model_folders(const MeshWorldParams& params) 
   return folders;
 }
 
-/// Places the models that are there; tells those that are not, with what stands in for them.
-void place_includes(const std::vector<io::SdfInclude>& includes, const MeshWorldParams& params,
-                    MeshLibrary& library, WorldModel& world) {
-  const std::string& vine_model = params.vine_model;
-  std::map<std::string, int> missing;
-  for (const io::SdfInclude& include : includes) {
-    const bool is_light = include.model == "sun";
-    if (is_light) continue;
-    const auto folder = io::find_sdf_model(include.model, model_folders(params));
-    if (!folder) {
-      ++missing[include.model];
-      continue;
+/// "box, cylinder": each once.
+std::string words_once(std::vector<std::string> words) {
+  std::sort(words.begin(), words.end());
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Places an SDF world's models.
+class SdfModels {
+ public:
+  SdfModels(const MeshWorldParams& params, MeshLibrary& library, WorldModel& world)
+      : params_(params), folders_(model_folders(params)), library_(library), world_(world) {}
+
+  /// Those that are there; of those that are not it tells what stands in for them.
+  void place(const std::vector<io::SdfInclude>& includes) {
+    for (const io::SdfInclude& include : includes) place(include);
+    for (const auto& [model, count] : missing_) {
+      const char* stand_in =
+          is_vine(model) ? "a trellis row of our own stands in" : "it is left out";
+      world_.notes.push_back(fmt::format("{}: model '{}' (included {} times) is missing; {}",
+                                         params_.sdf_file.string(), model, count, stand_in));
     }
-    for (const io::SdfMesh& mesh : io::read_sdf_meshes(*folder)) {
+  }
+
+  bool is_vine(const std::string& model) const {
+    return !params_.vine_model.empty() && model.rfind(params_.vine_model, 0) == 0;
+  }
+  /// Pieces of vine rows show themselves: nothing need stand in for them.
+  bool has_vine_meshes() const { return has_vine_meshes_; }
+  const std::vector<MeshObject>& objects() const { return objects_; }
+  /// The first thing that was looked for in vain: "model 'a' is in none of ..."; empty: all found.
+  const std::string& first_miss() const { return first_miss_; }
+
+ private:
+  void place(const io::SdfInclude& include) {
+    // Light, and the plane that Gazebo has of itself: `ground` lays one.
+    if (include.model == "sun" || include.model == "ground_plane") return;
+    if (include.written_out) {
+      place(include, *include.written_out);
+      return;
+    }
+    const std::filesystem::path beside = params_.sdf_file.parent_path();
+    const auto folder = io::find_sdf_model(include, beside, folders_);
+    if (folder) {
+      place(include, io::read_sdf_model(*folder, folders_));
+      return;
+    }
+    ++missing_[include.model];
+    std::vector<std::string> looked_in;
+    for (const auto& path : folders_) looked_in.push_back(path.lexically_normal().string());
+    miss(include, fmt::format("model '{}' has no model.sdf in a folder '{}' of {}", include.model,
+                              include.model, fmt::join(looked_in, " or ")));
+  }
+
+  void place(const io::SdfInclude& include, const io::SdfModel& model) {
+    MeshObject object{world_.meshes.size(), world_.meshes.size()};
+    for (const io::SdfMesh& mesh : model.meshes) {
       std::error_code error;
       if (!std::filesystem::is_regular_file(mesh.file, error)) {
-        world.notes.push_back(
-            fmt::format("model '{}': mesh '{}' is missing", include.model, mesh.uri));
+        tell(fmt::format("model '{}': mesh '{}' is missing", include.model, mesh.uri));
+        miss(include, fmt::format("model '{}': mesh '{}' is not at '{}'", include.model, mesh.uri,
+                                  mesh.file.lexically_normal().string()));
         continue;
       }
       io::MeshFileOptions options;
       options.scale = mesh.scale;
       options.up_axis = io::UpAxis::kAuto;
-      library.place(include.name, library.load(mesh.file.string(), options),
-                    include.X_WM * mesh.X_MG, SurfaceClass::kObstacle, true, true);
+      object.end = library_
+                       .place(include.name, library_.load(mesh.file.string(), options),
+                              include.X_WM * mesh.X_MG, SurfaceClass::kObstacle, true, true)
+                       .end;
+    }
+    std::vector<std::string> left_out = model.other_shapes;
+    std::erase(left_out, "plane");  // `ground` lays one
+    if (!left_out.empty()) {
+      tell(fmt::format("model '{}': {} left out, only meshes are read", include.model,
+                       words_once(std::move(left_out))));
+    }
+    if (object.begin == object.end) return;
+    objects_.push_back(object);
+    has_vine_meshes_ = has_vine_meshes_ || is_vine(include.model);
+  }
+
+  void miss(const io::SdfInclude& include, const std::string& sentence) {
+    if (!first_miss_.empty()) return;
+    first_miss_ = fmt::format("{}:{}: {}", params_.sdf_file.string(), include.line, sentence);
+  }
+  void tell(const std::string& note) {
+    const auto known = std::find(world_.notes.begin(), world_.notes.end(), note);
+    if (known == world_.notes.end()) world_.notes.push_back(note);
+  }
+
+  const MeshWorldParams& params_;
+  std::vector<std::filesystem::path> folders_;
+  MeshLibrary& library_;
+  WorldModel& world_;
+  std::map<std::string, int> missing_;
+  std::vector<MeshObject> objects_;
+  bool has_vine_meshes_ = false;
+  std::string first_miss_;
+};
+
+/// Of the objects that nobody gave a class: those that are the world's ground become terrain.
+/// @returns whether there are such
+bool mark_ground(const std::vector<MeshObject>& objects, WorldModel& world) {
+  const std::vector<std::size_t> ground = find_ground(objects, world);
+  for (const std::size_t i : ground) {
+    for (std::size_t m = objects[i].begin; m < objects[i].end; ++m) {
+      world.meshes[m].surface = SurfaceClass::kTerrain;
     }
   }
-  for (const auto& [model, count] : missing) {
-    const bool vine = !vine_model.empty() && model.rfind(vine_model, 0) == 0;
-    world.notes.push_back(
-        fmt::format("{}: model '{}' (included {} times) is missing; {}", params.sdf_file.string(),
-                    model, count, vine ? "a trellis row of our own stands in" : "it is left out"));
+  if (!ground.empty()) {
+    world.notes.push_back(fmt::format(
+        "mesh '{}' lies under the whole world and is taken for its ground; no plane is laid",
+        world.meshes[objects[ground.front()].begin].name));
   }
+  return !ground.empty();
 }
 
 /// The box around every placed mesh and row, in the plane.
@@ -138,11 +229,8 @@ Eigen::AlignedBox2d extent_of(const WorldModel& world, const std::vector<RowCurv
 }
 
 void plant_stand_ins(WorldModel& world, const std::vector<RowCurve>& rows,
-                     const MeshWorldParams& params) {
+                     const GroundHeight& ground, const MeshWorldParams& params) {
   const VinePlanting& planting = params.planting;
-  const GroundHeight ground = [&world](double x, double y) {
-    return world.terrain ? world.terrain->height_m(x, y) : 0.0;
-  };
   const double spacing_m = params.vine_spacing_m;
   std::vector<VineRow> vine_rows;
   for (const RowCurve& row : rows) {
@@ -156,7 +244,26 @@ void plant_stand_ins(WorldModel& world, const std::vector<RowCurve>& rows,
   }
   MemoryMeshStore store;
   plant_vine_rows(world, vine_rows, ground, planting, store);
-  world.rows = make_row_map(rows, ground, planting.canopy, parcel_boundary(rows, 8.0, 3.0));
+}
+
+/// Plants the rows, unless their pieces have meshes, and tells where they are.
+void add_rows(WorldModel& world, const std::vector<RowCurve>& rows, bool have_meshes,
+              const MeshWorldParams& params) {
+  // The ground as it is before plants stand on it; their meshes move the list.
+  const WorldModel bare = world;
+  std::optional<physics::WorldScene> scene;
+  if (!bare.terrain) {
+    physics::check_world(bare);
+    scene.emplace(bare);
+  }
+  constexpr double kFromAbove_m = 1e4;
+  const GroundHeight ground = [&](double x, double y) {
+    if (!scene) return bare.terrain->height_m(x, y);
+    return scene->ground_height_m(x, y, kFromAbove_m).value_or(0.0);
+  };
+  RowMap map = make_row_map(rows, ground, params.planting.canopy, parcel_boundary(rows, 8.0, 3.0));
+  if (!have_meshes) plant_stand_ins(world, rows, ground, params);
+  world.rows = std::move(map);
   add_alley_spawn_points(world);
 }
 
@@ -174,17 +281,35 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
 
   MeshLibrary library(*world);
   bool has_ground = false;
+  std::vector<MeshObject> unnamed;  // nobody said what they are
   for (const MeshItem& item : params.items) {
-    place_item(item, library);
+    const MeshObject object = place_item(item, library);
     has_ground = has_ground || item.surface == SurfaceClass::kTerrain;
+    if (!item.surface && item.collides) unnamed.push_back(object);
   }
   std::vector<RowCurve> rows;
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+  SdfModels models(params, library, *world);
   if (!params.sdf_file.empty()) {
-    const std::vector<io::SdfInclude> includes = io::read_sdf_includes(params.sdf_file);
-    place_includes(includes, params, library, *world);
+    const io::SdfWorld sdf = io::read_sdf_world(params.sdf_file, model_folders(params));
+    const std::vector<io::SdfInclude>& includes = sdf.includes;
+    models.place(includes);
+    unnamed.insert(unnamed.end(), models.objects().begin(), models.objects().end());
     rows = find_sdf_rows(includes, params.vine_model, params.vine_piece_length_m);
     plane = fit_ground_plane(includes, params.vine_model);
+    const bool says_none = params.origin.latitude_rad == 0.0 && params.origin.longitude_rad == 0.0;
+    if (sdf.origin && says_none) {
+      world->origin = {sdf.origin->latitude_rad, sdf.origin->longitude_rad, sdf.origin->altitude_m};
+    }
+  }
+  if (world->meshes.empty() && rows.empty() && !models.first_miss().empty()) {
+    throw ConfigError(fmt::format(
+        "{}; the world has no mesh that could be loaded: put the files there or name their folders "
+        "with model_folders",
+        models.first_miss()));
+  }
+  if (!has_ground && params.ground != MeshGround::kFlat) {
+    has_ground = mark_ground(unnamed, *world);
   }
 
   Eigen::AlignedBox2d box = extent_of(*world, rows);
@@ -200,7 +325,7 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
     world->terrain =
         build_terrain(params.terrain, params.planting.seed, world->origin, shape, ground_box);
   }
-  if (!rows.empty()) plant_stand_ins(*world, rows, params);
+  if (!rows.empty()) add_rows(*world, rows, models.has_vine_meshes(), params);
   fill_occupancy(params.map, *world, {}, row_end_margin_m(params.planting));
   world->spawn_points.push_back({"centre", box.center(), 0.0});
   return world;

@@ -27,20 +27,21 @@ const ParameterTable<MeshItem>& mesh_item_table() {
                    "turn about y, second")
           .degrees("yaw_deg", inside(&P::rpy, &RollPitchYaw::yaw_rad), between(-360.0, 360.0),
                    "turn about z, third")
-          .number("scale", "", &P::scale, kPositive, "factor on all axes")
+          .number("scale", "", &P::scale, between(1e-6, 1e6), "factor on all axes")
           .choice("up_axis", &P::up_axis,
                   {{"auto", io::UpAxis::kAuto}, {"y", io::UpAxis::kY}, {"z", io::UpAxis::kZ}},
                   "axis of the file that points up; auto: what the file says, else z")
-          .number("unit_m", "m", &P::unit_m, kPositive,
+          .number("unit_m", "m", &P::unit_m, between(1e-6, 1e6),
                   "metres per unit of the file; default: what the file says, else 1")
-          .choice("surface", &P::surface,
-                  {{"terrain", SurfaceClass::kTerrain},
-                   {"canopy", SurfaceClass::kCanopy},
-                   {"post", SurfaceClass::kPost},
-                   {"trunk", SurfaceClass::kTrunk},
-                   {"wire", SurfaceClass::kWire},
-                   {"obstacle", SurfaceClass::kObstacle}},
-                  "what the object is")
+          .choice(
+              "surface", &P::surface,
+              {{"terrain", SurfaceClass::kTerrain},
+               {"canopy", SurfaceClass::kCanopy},
+               {"post", SurfaceClass::kPost},
+               {"trunk", SurfaceClass::kTrunk},
+               {"wire", SurfaceClass::kWire},
+               {"obstacle", SurfaceClass::kObstacle}},
+              "what the object is; absent: terrain if it lies under the whole world, else obstacle")
           .boolean("collides", &P::collides, "whether vehicles and rays meet it")
           .boolean("visible", &P::visible, "whether pictures show it");
   return table;
@@ -58,20 +59,23 @@ const ParameterTable<MeshWorldParams>& mesh_world_table() {
                  "folders with SDF models, absolute or beside sdf_file; default: ../models of "
                  "sdf_file")
           .text("vine_model", &P::vine_model, "models whose names begin so are pieces of vine rows")
-          .number("vine_piece_length_m", "m", &P::vine_piece_length_m, kPositive,
+          .number("vine_piece_length_m", "m", &P::vine_piece_length_m, between(0.1, 5000.0),
                   "length of one such piece along its x axis")
           .choice("ground", &P::ground,
                   {{"auto", MeshGround::kAuto},
                    {"none", MeshGround::kNone},
                    {"flat", MeshGround::kFlat}},
-                  "flat height field under everything; auto: if no item is terrain")
+                  "flat height field under everything; auto: if no mesh is terrain")
           .number("ground_margin_m", "m", &P::ground_margin_m, between(0.0, 500.0),
                   "of the flat ground beyond the objects")
-          .number("vine_spacing_m", "m", &P::vine_spacing_m, kPositive,
+          .number("vine_spacing_m", "m", &P::vine_spacing_m, between(0.1, 100.0),
                   "between vines of a stand-in row")
           .include(&P::terrain, terrain_table())
           .include(&P::planting, planting_table())
           .include(&P::origin, origin_table())
+          .reword("origin_latitude_deg",
+                  "WGS84 latitude of the world's origin; latitude and longitude 0: what sdf_file "
+                  "says in <spherical_coordinates>")
           .include(&P::surroundings, surroundings_table())
           .include(&P::map, map_table());
   return table;

@@ -27,13 +27,14 @@ struct MeshItem {
   double scale = 1.0;
   io::UpAxis up_axis = io::UpAxis::kAuto;
   std::optional<double> unit_m;
-  SurfaceClass surface = SurfaceClass::kObstacle;
+  /// Absent: terrain where it lies under the whole world (ground_meshes.h), else an obstacle.
+  std::optional<SurfaceClass> surface;
   bool collides = true;
   bool visible = true;
 };
 
 enum class MeshGround {
-  kAuto,  ///< flat if no item is terrain
+  kAuto,  ///< flat if no mesh is terrain
   kNone,
   kFlat
 };
@@ -49,7 +50,7 @@ struct MeshWorldParams {
   double vine_spacing_m = 1.0;  ///< of a stand-in row
   TerrainParams terrain;
   VinePlanting planting;
-  GeoOrigin origin;
+  GeoOrigin origin;  ///< latitude and longitude 0: the SDF world's, if it has one
   Surroundings surroundings;
   MapParams map;
 };

@@ -121,17 +121,23 @@ Eigen::Vector2d bearing_direction(double bearing_rad) {
   return {std::sin(bearing_rad), std::cos(bearing_rad)};
 }
 
+void check_terrain_size(const TerrainParams& params, const Eigen::AlignedBox2d& box_W) {
+  const double width_m = box_W.sizes().x(), depth_m = box_W.sizes().y(), cell_m = params.cell_m;
+  const double samples = (width_m / cell_m + 1) * (depth_m / cell_m + 1);
+  constexpr double kMostSamples = 25e6;
+  if (samples <= kMostSamples) return;
+  throw ConfigError(
+      fmt::format("terrain_cell_m = {} m gives {:.3g} million samples over {:.0f} m x {:.0f} m, "
+                  "must be at most "
+                  "25 million: take cells of {:.2f} m or a smaller parcel",
+                  cell_m, samples / 1e6, width_m, depth_m,
+                  std::ceil(100.0 * std::sqrt(width_m * depth_m / kMostSamples)) / 100.0 + 0.01));
+}
+
 HeightField build_terrain(const TerrainParams& params, std::uint64_t seed, const GeoOrigin& origin,
                           const TerrainShape& shape, const Eigen::AlignedBox2d& box_W) {
+  check_terrain_size(params, box_W);
   const double cell_m = params.cell_m;
-  const double samples = (box_W.sizes().x() / cell_m + 1) * (box_W.sizes().y() / cell_m + 1);
-  constexpr double kMostSamples = 25e6;
-  if (samples > kMostSamples) {
-    throw ConfigError(
-        fmt::format("terrain_cell_m = {} m gives {:.0f} million samples over {:.0f} m x {:.0f} m, "
-                    "must be at most 25 million",
-                    cell_m, samples / 1e6, box_W.sizes().x(), box_W.sizes().y()));
-  }
   if (!params.dem_file.empty()) {
     const io::ElevationRaster raster = io::read_elevation(params.dem_file, params.crs.value_or(""));
     return io::resample_elevation(raster, origin,

@@ -80,6 +80,10 @@ RandomStream terrain_random(std::uint64_t seed, const std::string& what);
 /// Unit vector of a bearing (from north, clockwise).
 Eigen::Vector2d bearing_direction(double bearing_rad);
 
+/// Before any work is done on the ground of a box.
+/// @throws ConfigError where it takes more than 25 million samples, with cells that would do
+void check_terrain_size(const TerrainParams& params, const Eigen::AlignedBox2d& box_W);
+
 /// The height field over a box from parameters and a gradient; a `dem_file` replaces both.
 /// @throws ConfigError as io::read_elevation and io::resample_elevation; with more than 25 million
 /// samples

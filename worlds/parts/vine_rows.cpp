@@ -156,7 +156,6 @@ class Planter {
     const std::vector<double> between(row.post_s_m.begin() + 1, row.post_s_m.end() - 1);
     const auto add = [&](const std::string& name, SurfaceClass surface, auto make) {
       world_.meshes.push_back(make_instance(name, store_.get(name, make), surface));
-      world_.meshes.back().collides = surface != SurfaceClass::kWire;
     };
     const TrellisParams& trellis = planting_.trellis;
     add("end_post/" + row_name, SurfaceClass::kPost,

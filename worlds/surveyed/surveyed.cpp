@@ -12,7 +12,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "engine/io/geojson.h"
+#include "engine/io/geo_features.h"
 #include "engine/math/angles.h"
 #include "worlds/mapping/map_parameters.h"
 #include "worlds/parts/common.h"
@@ -45,13 +45,14 @@ const ParameterTable<SurveyedParams>& surveyed_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .path("survey_file", &P::survey_file,
-                "GeoJSON with one LineString per row, and poles and vines as points")
+                "GeoJSON, KML, shapefile or GeoPackage with one line per row, or its end poles as "
+                "points with the row's number (property row); poles and vines as points")
           .required()
-          .path("vines_file", &P::vines_file, "further GeoJSON whose points are vines")
-          .path("poles_file", &P::poles_file, "further GeoJSON whose points are poles")
+          .path("vines_file", &P::vines_file, "a further file whose points are vines")
+          .path("poles_file", &P::poles_file, "a further file whose points are poles")
           .text("row_type", &P::row_type,
                 "property `type` of the LineStrings that are rows; empty: found out")
-          .number("vine_spacing_m", "m", &P::vine_spacing_m, kPositive,
+          .number("vine_spacing_m", "m", &P::vine_spacing_m, between(0.1, 100.0),
                   "between vines where the survey has none")
           .number("headland_m", "m", &P::headland_m, between(8.0, 200.0),
                   "free ground beyond the row ends")
@@ -75,7 +76,8 @@ const ParameterTable<SurveyedParams>& surveyed_table() {
 PartSpec surveyed_spec() {
   PartSpec spec;
   spec.name = "surveyed";
-  spec.description = "vineyard from surveyed rows, poles and vines (GeoJSON, WGS84)";
+  spec.description =
+      "vineyard from surveyed rows, poles and vines (GeoJSON, KML, shapefile, GeoPackage)";
   spec.parameters = surveyed_table().specs();
   return spec;
 }
@@ -184,7 +186,7 @@ double smallest_pitch_m(const RowMap& map) {
 
 void append_points(const std::filesystem::path& file, std::vector<io::GeoFeature>& points) {
   if (file.empty()) return;
-  for (io::GeoFeature& feature : io::read_geojson(file)) {
+  for (io::GeoFeature& feature : io::read_features(file)) {
     if (feature.kind == io::GeometryKind::kPoint) points.push_back(std::move(feature));
   }
 }

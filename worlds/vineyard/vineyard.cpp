@@ -145,6 +145,7 @@ HeightField make_ground(const VineyardParams& params, const std::vector<RowCurve
                         const std::vector<Eigen::Vector2d>& boundary_W) {
   const Eigen::AlignedBox2d parcel = box_around(boundary_W);
   const Eigen::AlignedBox2d box = widened(parcel, params.surroundings_m);
+  check_terrain_size(params.terrain, box);  // finding the slope takes its time, too
   TerrainShape shape;
   TerrainParams fitted = params.terrain;
   if (fitted.dem_file.empty()) {

@@ -9,9 +9,10 @@ const ParameterTable<VineyardParams>& vineyard_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .integer("row_count", &P::row_count, between(1, 1000), "number of rows")
-          .number("row_length_m", "m", &P::row_length_m, kPositive, "length of each row")
-          .number("pitch_m", "m", &P::pitch_m, kPositive, "distance between rows")
-          .number("vine_spacing_m", "m", &P::vine_spacing_m, kPositive, "between vines of a row")
+          .number("row_length_m", "m", &P::row_length_m, between(1.0, 5000.0), "length of each row")
+          .number("pitch_m", "m", &P::pitch_m, between(0.3, 100.0), "distance between rows")
+          .number("vine_spacing_m", "m", &P::vine_spacing_m, between(0.1, 100.0),
+                  "between vines of a row")
           .number("missing_vine_share", "", &P::missing_vine_share, between(0.0, 0.9),
                   "share of vines that are missing")
           .degrees("row_bearing_deg", &P::row_bearing_rad, between(-360.0, 360.0),
@@ -34,7 +35,7 @@ const ParameterTable<VineyardParams>& vineyard_table() {
                    "direction in which the ground rises, from north clockwise")
           .number("surroundings_m", "m", &P::surroundings_m, between(0.0, 5000.0),
                   "ground beyond the parcel's box, for what flies over it")
-          .number("slope_fade_m", "m", &P::slope_fade_m, kPositive,
+          .number("slope_fade_m", "m", &P::slope_fade_m, between(0.1, 1e5),
                   "beyond the parcel the slope fades out over this way, to a ridge above "
                   "and a valley below")
           .path("mesh_folder", &P::mesh_folder,

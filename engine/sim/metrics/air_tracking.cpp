@@ -33,6 +33,7 @@ class AirTracking final : public Metric {
     truth_ = ports.read<Odometry>("truth");
     reference_ = ports.read_optional<AirReference>("reference");
     deviation_ = ports.read_optional<NamedValues>("deviation");
+    landing_ = ports.read_optional<NamedValues>("landing");
     plan_.connect(ports);
   }
 
@@ -41,6 +42,10 @@ class AirTracking final : public Metric {
     plan_.take_over();
     if (!reference_.has_value()) return;
     const AirReference& wanted = reference_.value();
+    if (wanted.phase == AirReference::Phase::kDone && !wanted.power && landing_.has_value()) {
+      const Eigen::Vector2d wanted_W(landing_.value().values[0], landing_.value().values[1]);
+      landing_m_ = (truth_.value().X_WB.p.head<2>() - wanted_W).norm();
+    }
     const bool is_straight = wanted.phase == AirReference::Phase::kStraight;
     if (!is_straight && wanted.phase != AirReference::Phase::kTurn) return;
     const Pose& X_WB = truth_.value().X_WB;
@@ -72,7 +77,8 @@ class AirTracking final : public Metric {
         {"airspeed_error_rms_mps", airspeed_mps_.rms()},
         {"bank_max_deg", deg_from_rad(bank_rad_.max_or_nan())},
         {"load_factor_max", airspeed_mps_.count > 0 ? load_factor_ : kNotMeasured},
-        {"limit_share_max", limit_share_.max_or_nan()}};
+        {"limit_share_max", limit_share_.max_or_nan()},
+        {"landing_distance_m", landing_m_}};
     for (std::size_t i = 0; i < kLimitSteps.size(); ++i) {
       results[kLimitSteps[i]] =
           limit_share_.count > 0 ? static_cast<double>(limit_steps_[i]) : kNotMeasured;
@@ -111,6 +117,8 @@ class AirTracking final : public Metric {
     return share_at_ >= 0;
   }
 
+  SignalReader<NamedValues> landing_;
+  double landing_m_ = kNotMeasured;  // true distance of where it lies from where it should
   const Vehicle* vehicle_;
   double gravity_mps2_;
   bool has_wings_;
@@ -135,7 +143,8 @@ PartSpec air_tracking_spec() {
   spec.description =
       "Of vehicles with wings: errors of height, heading, cross-track and airspeed in the survey, "
       "bank, load factor, and ticks outside the controller's limits (paper A, figures 9 to 11)";
-  spec.reads = {"truth", "reference (optional)", "deviation (optional)", "plan (optional)"};
+  spec.reads = {"truth", "reference (optional)", "deviation (optional)", "landing (optional)",
+                "plan (optional)"};
   spec.writes = {"height_error_rms_m",
                  "height_error_max_m",
                  "heading_error_rms_deg",
@@ -145,7 +154,8 @@ PartSpec air_tracking_spec() {
                  "airspeed_error_rms_mps",
                  "bank_max_deg",
                  "load_factor_max",
-                 "limit_share_max"};
+                 "limit_share_max",
+                 "landing_distance_m"};
   spec.writes.insert(spec.writes.end(), kLimitSteps.begin(), kLimitSteps.end());
   return spec;
 }

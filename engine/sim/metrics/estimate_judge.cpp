@@ -10,6 +10,8 @@ namespace vinerow {
 namespace {
 
 constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 ln 0.05
+/// Ten sigma: beyond, a filter is lost, and by how much says nothing. A mean of millions would.
+constexpr double kLost = 100.0;
 constexpr double kNormal95 = 1.959963984540054;  // two-sided
 
 template <int N>
@@ -74,8 +76,9 @@ void EstimateJudge::judge(const Odometry& truth, const Odometry& estimate, doubl
   const Eigen::LLT<Eigen::Matrix2d> factor(P);
   // A covariance that is none contains nothing.
   const bool is_covariance = factor.info() == Eigen::Success;
-  const double nees = is_covariance ? e_W.head<2>().dot(factor.solve(e_W.head<2>()))
-                                    : std::numeric_limits<double>::infinity();
+  const double nees = is_covariance
+                          ? std::min(kLost, e_W.head<2>().dot(factor.solve(e_W.head<2>())))
+                          : std::numeric_limits<double>::infinity();
   nees_.add(nees);
   inside_.add(nees <= kInside95);
 }

@@ -9,6 +9,7 @@
 #include "engine/api/messages/flight.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/math/angles.h"
+#include "engine/sim/metrics/extremes.h"
 #include "engine/sim/metrics/spread.h"
 
 namespace vinerow {
@@ -25,19 +26,6 @@ constexpr double kLookFrom_m = 0.5;
 constexpr double kFarthestBelow_m = 1000.0;
 /// A command this near to a limit, as a share of its range, sits at it.
 constexpr double kAtLimit = 1e-6;
-
-/// Smallest and largest of the numbers seen.
-struct Extremes {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
-
-  void add(double value) {
-    min = std::min(min, value);
-    max = std::max(max, value);
-  }
-  double min_or_nan() const { return min <= max ? min : kNotMeasured; }
-  double max_or_nan() const { return min <= max ? max : kNotMeasured; }
-};
 
 class Flight final : public Metric {
  public:

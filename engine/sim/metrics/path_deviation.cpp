@@ -4,10 +4,11 @@
 #include <optional>
 #include <set>
 
+#include "engine/api/plan_stretch.h"
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
-#include "engine/api/plan_stretch.h"
 #include "engine/sim/metrics/spread.h"
+#include "engine/sim/metrics/tenths.h"
 
 namespace vinerow {
 namespace {
@@ -23,9 +24,12 @@ class PathDeviation final : public Metric {
     if (plan_.take_over()) take_over_plan();
     if (!meter_) return;
     const Odometry& truth = truth_.value();
+    const double moved_m = before_ ? (truth.X_WB.p - *before_).norm() : 0.0;
+    before_ = truth.X_WB.p;
     const PlanStretch::Place nearest = plan_.find(truth.X_WB.p);
     meter_->add(nearest.distance_m);
     if (!plan_.is_leg(nearest.segment)) {
+      leave_leg();
       if (plan_.is_turn(nearest.segment)) {
         turns_.add(plan_.curve_distance_m(nearest, truth.X_WB.p.head<2>()));
       }
@@ -33,8 +37,7 @@ class PathDeviation final : public Metric {
     }
     legs_.add(nearest.lateral_m);
     headings_.add(wrap_angle(yaw_from_quaternion(truth.X_WB.q) - segment_yaw_[nearest.segment]));
-    const int alley = plan_.points()[nearest.segment].alley;
-    if (alley >= 0 && leg_share_[nearest.segment] > 0.9) alleys_.insert(alley);
+    pass_leg(nearest, moved_m);
   }
 
   std::map<std::string, double> results() const override {
@@ -55,7 +58,6 @@ class PathDeviation final : public Metric {
 
  private:
   void take_over_plan() {
-    const std::vector<PathPoint>& points = plan_.points();
     const std::vector<Eigen::Vector2d>& line = plan_.line().points();
     segment_yaw_.clear();
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -63,24 +65,63 @@ class PathDeviation final : public Metric {
       segment_yaw_.push_back(std::atan2(along.y(), along.x()));
     }
     segment_yaw_.push_back(segment_yaw_.back());
-    // How far each point lies along its own alley, 0 to 1.
-    leg_share_.assign(points.size(), 0.0);
-    for (std::size_t begin = 0; begin < points.size();) {
-      std::size_t end = begin;
-      while (end < points.size() && points[end].alley == points[begin].alley) ++end;
-      for (std::size_t i = begin; i < end; ++i) {
-        leg_share_[i] = static_cast<double>(i - begin + 1) / static_cast<double>(end - begin);
-      }
-      begin = end;
-    }
+    find_legs();
     meter_.emplace();
   }
+
+  /// Legs as they follow each other: segments of kind leg in one alley.
+  void find_legs() {
+    const std::vector<PathPoint>& points = plan_.points();
+    const std::vector<Eigen::Vector2d>& line = plan_.line().points();
+    legs_of_plan_.clear();
+    leg_of_segment_.assign(points.size(), -1);
+    at_leg_ = -1;
+    s_m_.assign(1, 0.0);
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      s_m_.push_back(s_m_.back() + (line[i + 1] - line[i]).norm());
+      const int alley = points[i].alley;
+      if (!plan_.is_leg(static_cast<int>(i)) || alley < 0) continue;
+      const bool goes_on = i > 0 && leg_of_segment_[i - 1] >= 0 && points[i - 1].alley == alley;
+      if (!goes_on) legs_of_plan_.push_back({alley, s_m_[i], s_m_[i], {}});
+      legs_of_plan_.back().end_m = s_m_.back();
+      leg_of_segment_[i] = static_cast<int>(legs_of_plan_.size()) - 1;
+    }
+  }
+
+  void pass_leg(const PlanStretch::Place& at, double moved_m) {
+    const auto i = static_cast<std::size_t>(at.segment);
+    const int index = leg_of_segment_[i];
+    if (index != at_leg_) leave_leg();
+    at_leg_ = index;
+    if (index < 0) return;
+    Leg& leg = legs_of_plan_[static_cast<std::size_t>(index)];
+    const double length_m = leg.end_m - leg.begin_m;
+    if (!(length_m > 0.0)) return;
+    const double s_m = s_m_[i] + at.fraction * (s_m_[i + 1] - s_m_[i]);
+    leg.passed.look((s_m - leg.begin_m) / length_m, moved_m / length_m);
+    if (leg.passed.all()) alleys_.insert(leg.alley);
+  }
+
+  void leave_leg() {
+    if (at_leg_ >= 0) legs_of_plan_[static_cast<std::size_t>(at_leg_)].passed.leave();
+    at_leg_ = -1;
+  }
+
+  struct Leg {
+    int alley;
+    double begin_m, end_m;
+    Tenths passed;
+  };
 
   SignalReader<Odometry> truth_;
   PlanStretch plan_;
   std::optional<DeviationStatistics> meter_;
   std::vector<double> segment_yaw_;
-  std::vector<double> leg_share_;
+  std::vector<double> s_m_;  ///< of the plan's points
+  std::vector<Leg> legs_of_plan_;
+  std::vector<int> leg_of_segment_;  ///< -1: none
+  int at_leg_ = -1;
+  std::optional<Eigen::Vector3d> before_;  ///< at the last tick
   Spread legs_, turns_, headings_;
   std::set<int> alleys_;
 };

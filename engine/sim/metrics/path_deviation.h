@@ -10,7 +10,8 @@
 ///   cross_track_rms_m, cross_track_max_m, heading_error_rms_rad, leg_samples
 /// and in the turns, from the plan's arcs (PlanStretch::curve_distance_m):
 ///   turn_deviation_rms_m, turn_deviation_max_m.
-/// Also planned_length_m and alleys_driven (legs seen to their last tenth).
+/// Also planned_length_m and alleys_driven: of those in which the plan has a leg, how many were
+/// passed from the leg's begin to its end (tenths.h).
 
 #include <memory>
 

@@ -1,6 +1,7 @@
 #include "engine/sim/metrics/register.h"
 
 #include "engine/sim/metrics/air_tracking.h"
+#include "engine/sim/metrics/alley_place.h"
 #include "engine/sim/metrics/clearance.h"
 #include "engine/sim/metrics/estimation.h"
 #include "engine/sim/metrics/flight.h"
@@ -15,6 +16,7 @@ namespace vinerow {
 void register_metrics(Registry& registry) {
   registry.add_metric(path_deviation_spec(), make_path_deviation);
   registry.add_metric(clearance_spec(), make_clearance);
+  registry.add_metric(alley_place_spec(), make_alley_place);
   registry.add_metric(travel_spec(), make_travel);
   registry.add_metric(wheel_slip_spec(), make_wheel_slip);
   registry.add_metric(flight_spec(), make_flight);

@@ -18,7 +18,8 @@ struct Spread {
 
   void add(double value) {
     sum_squares += value * value;
-    max = std::max(max, std::abs(value));
+    // A NaN stays: a comparison with it is false, whichever way round.
+    if (!(std::abs(value) <= max)) max = std::isnan(max) ? max : std::abs(value);
     ++count;
   }
   double rms() const {

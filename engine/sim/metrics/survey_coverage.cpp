@@ -39,7 +39,8 @@ const ParameterTable<SurveyMetricParams>& survey_metric_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("camera", &P::camera,
-                "sensor that takes the pictures; default: 'camera' of vehicles with wings")
+                "sensor that takes the pictures; default: the vehicle's survey camera where it has "
+                "one alone, else 'camera' of vehicles with wings")
           .numbers("polygon_x_m", "m", &P::polygon_x_m, kAnyNumber,
                    "east of the parcel's corners; default: the parcel of the world")
           .numbers("polygon_y_m", "m", &P::polygon_y_m, kAnyNumber, "north of the parcel's corners")
@@ -117,7 +118,8 @@ PartSpec survey_coverage_spec() {
   PartSpec spec;
   spec.name = "survey";
   spec.description =
-      "Of vehicles with wings: how much of the parcel their pictures cover, with what overlap and "
+      "Of vehicles with a survey camera: how much of the parcel their pictures cover, with what "
+      "overlap and "
       "ground sampling distance (paper A, section 2)";
   spec.parameters = survey_metric_table().specs();
   spec.reads = {"truth", "<camera> (optional)", "plan (optional)"};

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <array>
+#include <cstdio>
 #include <string>
 
 #include "controllers/estimation/error_state_kalman.h"
@@ -61,8 +62,13 @@ struct Flight {
   int fixes = 0;
 };
 
+/// Noise of the world as a share of what the filter is told.
+struct NoiseShare {
+  double fixes = 1.0, imu = 1.0;
+};
+
 /// Fixes 5 Hz, white 0.3 m and 0.1 m/s, antenna off the unit.
-Flight run_once(const Unit& unit, int seed, double told_factor = 1.0) {
+Flight run_once(const Unit& unit, int seed, double told_factor = 1.0, NoiseShare share = {}) {
   const ImuCourse course = lively_course();
   RandomStream random(seed, "test", unit.name);
   const Vector3d arm_B(0.3, -0.2, 0.4);
@@ -83,22 +89,24 @@ Flight run_once(const Unit& unit, int seed, double told_factor = 1.0) {
   for (int i = 0; i <= kTicks; ++i) {
     const Time now = tick_at(i, kPeriod_ns);
     const CoursePoint point = course.at(now.s());
-    gyro_bias += unit.noise.gyro_walk_radps2_rtHz * root * normal3(random);
-    accel_bias += unit.noise.accel_walk_mps3_rtHz * root * normal3(random);
-    filter.predict(now, point.w_B + gyro_bias + unit.noise.gyro_radps_rtHz / root * normal3(random),
-                   point.f_B + accel_bias + unit.noise.accel_mps2_rtHz / root * normal3(random));
+    gyro_bias += share.imu * unit.noise.gyro_walk_radps2_rtHz * root * normal3(random);
+    accel_bias += share.imu * unit.noise.accel_walk_mps3_rtHz * root * normal3(random);
+    const double gyro_std = share.imu * unit.noise.gyro_radps_rtHz / root;
+    const double accel_std = share.imu * unit.noise.accel_mps2_rtHz / root;
+    filter.predict(now, point.w_B + gyro_bias + gyro_std * normal3(random),
+                   point.f_B + accel_bias + accel_std * normal3(random));
     truth = point.state;
     truth.gyro_bias_B = gyro_bias;
     truth.accel_bias_B = accel_bias;
     if (i % 20 == 0 && i > 0) {
       const Vector3d arm_W = truth.q_WB * arm_B;
-      const VectorMeasurement place =
-          place_measurement(filter.past(now), arm_B, truth.p_WI + arm_W + 0.3 * normal3(random));
+      const VectorMeasurement place = place_measurement(
+          filter.past(now), arm_B, truth.p_WI + arm_W + share.fixes * 0.3 * normal3(random));
       const Correction taken = filter.correct_vector(place.innovation, place.H,
                                                      Vector3d::Constant(told_factor * 0.09), 10);
       const VectorMeasurement velocity = velocity_measurement(
           filter.past(now), arm_B,
-          truth.v_WI + truth.q_WB * point.w_B.cross(arm_B) + 0.1 * normal3(random));
+          truth.v_WI + truth.q_WB * point.w_B.cross(arm_B) + share.fixes * 0.1 * normal3(random));
       filter.correct_vector(velocity.innovation, velocity.H, Vector3d::Constant(told_factor * 0.01),
                             10);
       run.nis_sum += taken.nis;
@@ -159,6 +167,36 @@ TEST_P(Consistency, TellsAFilterThatIsWrongAboutItsFixes) {
     sum += nees(run_once(GetParam(), seed, 0.25).looks[kLooks - 1], 0, 6);
   }
   EXPECT_GT(sum / 10, 6.0 + 1.96 * std::sqrt(2.0 * 6 / 10));
+}
+
+TEST_P(Consistency, HalfAndTwiceTheNoiseThatItIsTold) {
+  // Rms of the position and mean NEES of position, velocity and attitude at 60 s: the table of
+  // docs/localisation.md.
+  const auto judge = [&](NoiseShare share) {
+    double nees_sum = 0.0, squares = 0.0;
+    for (int seed = 0; seed < kRuns; ++seed) {
+      const Look look = run_once(GetParam(), seed, 1.0, share).looks[kLooks - 1];
+      nees_sum += nees(look, 0, 9);
+      squares += look.error.head<3>().squaredNorm();
+    }
+    const std::pair result(std::sqrt(squares / kRuns), nees_sum / kRuns);
+    std::printf("%s fixes x %.1f, imu x %.1f: %.3f m, NEES %.1f of 9\n", GetParam().name.c_str(),
+                share.fixes, share.imu, result.first, result.second);
+    return result;
+  };
+  const auto told = judge({});
+  for (const NoiseShare less : {NoiseShare{0.5, 1.0}, {1.0, 0.5}, {0.5, 0.5}}) {
+    const auto [rms_m, mean_nees] = judge(less);
+    EXPECT_LE(rms_m, 1.1 * told.first);
+    EXPECT_LE(mean_nees, 1.1 * told.second);
+    EXPECT_GE(mean_nees, 0.25 * 0.75 * told.second);  // a quarter where all its noise is half
+  }
+  for (const NoiseShare more : {NoiseShare{2.0, 1.0}, {1.0, 2.0}, {2.0, 2.0}}) {
+    const auto [rms_m, mean_nees] = judge(more);
+    EXPECT_LE(rms_m, 2.2 * told.first);
+    EXPECT_LE(mean_nees, 4.0 * 1.25 * told.second);  // four times where all its noise is twice
+    EXPECT_GE(mean_nees, 0.9 * told.second);
+  }
 }
 
 TEST_P(Consistency, FindsTheBiases) {

@@ -8,6 +8,7 @@
 
 #include "controllers/estimation/navigation_start.h"
 #include "engine/api/messages/commands.h"
+#include "engine/api/messages/heading.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
@@ -36,6 +37,7 @@ class Bench {
     baro = world.write<PressureSample>("baro");
     compass = world.write<MagneticSample>("compass");
     wheels = world.write<NamedValues>("wheels");
+    antennas = world.write<GnssHeading>("antennas");
     estimate = world.read<Odometry>("estimate");
     state = world.read<NamedValues>("estimator_state");
     EstimatorContext context;
@@ -44,8 +46,10 @@ class Bench {
     context.period = Duration{k10ms};
     context.seed = seed;
     context.vehicle_description = &description_;
-    context.sensors = {
-        {"imu", "imu", X_BI}, {"gps", "gps", X_BA}, {"compass", "magnetometer", X_BM}};
+    context.sensors = {{"imu", "imu", X_BI},
+                       {"gps", "gps", X_BA},
+                       {"compass", "magnetometer", X_BM},
+                       {"antennas", "gnss_heading", X_BH}};
     const PartSpec& spec = parts().spec(PartKind::kEstimator, "error_state_kalman");
     estimator =
         parts().make_estimator("error_state_kalman", make_parameters(spec, values), context);
@@ -92,6 +96,18 @@ class Bench {
     return sample;
   }
 
+  /// What two antennas 1.2 m apart tell, 7 mm on each axis.
+  GnssHeading baseline_at(double t) const {
+    GnssHeading reading;
+    reading.valid = true;
+    reading.length_m = 1.2;
+    reading.baseline_W = truth_at(t).X_WB.q * (X_BH.q * Vector3d(1.2, 0, 0));
+    reading.std_m.setConstant(0.007);
+    reading.heading_rad = std::atan2(reading.baseline_W.y(), reading.baseline_W.x());
+    reading.heading_std_rad = 0.007 / 1.2;
+    return reading;
+  }
+
   /// One tick with everything written that is due.
   void tick() {
     const double t = now().s();
@@ -102,6 +118,10 @@ class Bench {
       gps.write(measured, fix_at(measured.s()));
     }
     compass.write(now(), field_at(t));
+    if (ticks % 20 == 0 && ticks >= late_ticks) {
+      const Time measured = tick_at(ticks - late_ticks, k10ms);
+      antennas.write(measured, baseline_at(measured.s()));
+    }
     estimator->step(now());
     ++ticks;
   }
@@ -131,6 +151,7 @@ class Bench {
   Pose X_BI{quaternion_from_rpy({0.1, -0.2, 0.5}), {0.15, -0.1, 0.05}};
   Pose X_BA{Eigen::Quaterniond::Identity(), {-0.3, 0.2, 0.6}};
   Pose X_BM{quaternion_from_rpy({3.0, 0.1, -0.4}), {0, 0, 0.2}};
+  Pose X_BH{quaternion_from_rpy({0.0, 0.0, 1.3}), {-0.3, 0.2, 0.6}};
   Vector3d gyro_bias_B = Vector3d::Zero(), accel_bias_B = Vector3d::Zero();
   bool imu_on = true, gps_on = true;
   int late_ticks = 0;
@@ -141,6 +162,7 @@ class Bench {
   SignalWriter<PressureSample> baro;
   SignalWriter<MagneticSample> compass;
   SignalWriter<NamedValues> wheels;
+  SignalWriter<GnssHeading> antennas;
   SignalReader<Odometry> estimate;
   SignalReader<NamedValues> state;
   std::unique_ptr<Estimator> estimator;
@@ -417,6 +439,41 @@ TEST(ErrorStateEstimator, AllocatesNothingAfterTheFirstTick) {
     allocations = counter.count();
   }
   EXPECT_EQ(allocations, 0u);
+}
+
+TEST(ErrorStateEstimator, TwoAntennasTellTheHeadingOfAVehicleThatStands) {
+  for (const bool has_antennas : {false, true}) {
+    SCOPED_TRACE(has_antennas);
+    double worst_rad = 0.0;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      Bench bench(at_rest(),
+                  {{"start_yaw_std_deg", 20.0}, {"heading", Text(has_antennas ? "antennas" : "")}},
+                  seed);
+      bench.late_ticks = 10;
+      bench.run(10.0);
+      worst_rad = std::max(worst_rad, std::abs(bench.yaw_error_rad()));
+      if (has_antennas) {
+        // 50 exact readings of 7 mm over 1.2 m: 0.33 deg / sqrt(50).
+        EXPECT_LT(bench.estimate.value().yaw_std_rad, rad_from_deg(0.1));
+        EXPECT_GT(bench.value("used_heading"), 45);
+      }
+    }
+    if (has_antennas) {
+      EXPECT_LT(worst_rad, rad_from_deg(0.1));
+    } else {
+      EXPECT_GT(worst_rad, rad_from_deg(10.0));
+    }
+  }
+}
+
+TEST(ErrorStateEstimator, LevelsWithTheHeadingOfTwoAntennas) {
+  ImuCourse course;
+  course.yaw = {2.2, 1e-9, 0.5 * kPi};  // stands turned by 2.2 rad
+  Bench bench(course, {{"start", Text("levelling")}, {"heading", Text("antennas")}});
+  bench.run(3.0);
+  ASSERT_TRUE(bench.estimate.has_value());
+  EXPECT_LT(std::abs(bench.yaw_error_rad()), 1e-3);
+  EXPECT_GT(std::abs(yaw_from_quaternion(bench.estimate.value().X_WB.q)), 2.0);
 }
 
 TEST(ErrorStateEstimator, RefusesStandingByWheelsItDoesNotRead) {

@@ -221,6 +221,9 @@ TEST(NavigationMeasurements, HaveTheGradientsOfTheirDifferences) {
         return magnetic_measurement(p, Vector3d(2e-5, 1e-5, -4e-5), 1.2);
       },
       1e-8);
+  check_gradient([&](const PastState& p, const Vector3d&,
+                     const NavState&) { return direction_measurement(p, arm, z); },
+                 1e-8);
   check_gradient([&](const PastState&, const Vector3d& w,
                      const NavState& s) { return standing_rate_measurement(w, s.gyro_bias_B); },
                  1e-8);

@@ -18,7 +18,8 @@ using Text = std::string;
 /// An estimator between signals that a test writes by hand. Tick: 25 ms.
 class Bench {
  public:
-  explicit Bench(const PartChoice& choice) : description_(make_rover_description()) {
+  explicit Bench(const PartChoice& choice, std::uint64_t seed = 1)
+      : description_(make_rover_description()) {
     Ports world(bus_, "rover", "test");
     truth = world.write<Odometry>("truth");
     gps = world.write<GnssFix>("gps");
@@ -29,6 +30,7 @@ class Bench {
     EstimatorContext context;
     context.vehicle = "rover";
     context.part = "rover.estimator";
+    context.seed = seed;
     context.period = period;
     context.vehicle_description = &description_;
     const PartSpec& spec = parts().spec(PartKind::kEstimator, choice.type);
@@ -72,7 +74,7 @@ class Bench {
 };
 
 TEST(GpsPose, TakesTheFixAndTheTrueHeading) {
-  Bench bench({"gps_pose", {}});
+  Bench bench({"gps_pose", {{"heading", Text("truth")}}});
   bench.write_truth({1, 2, 0.3}, {0, 0, 0.7});
   bench.tick();
   EXPECT_FALSE(bench.estimate.has_value());  // no fix yet
@@ -89,7 +91,8 @@ TEST(GpsPose, TakesTheFixAndTheTrueHeading) {
 TEST(GpsPose, TakesOffTheAntennasArmOnASlope) {
   const RollPitchYaw rpy = {0.1, -0.2, 0.9};
   const Eigen::Vector3d p_WB(4, 5, 6), p_BA(0.3, -0.1, 0.9);
-  Bench bench({"gps_pose", {{"antenna_m", std::vector<double>{0.3, -0.1, 0.9}}}});
+  Bench bench({"gps_pose",
+               {{"heading", Text("truth")}, {"antenna_m", std::vector<double>{0.3, -0.1, 0.9}}}});
   bench.write_truth(p_WB, rpy);
   bench.write_fix(p_WB + quaternion_from_rpy(rpy) * p_BA, bench.now);
   bench.tick();
@@ -97,15 +100,36 @@ TEST(GpsPose, TakesOffTheAntennasArmOnASlope) {
 }
 
 TEST(GpsPose, CarriesTheFixOnByItsVelocityIfAsked) {
-  Bench bench({"gps_pose", {{"extrapolate", true}}});
+  Bench bench({"gps_pose", {{"heading", Text("truth")}, {"extrapolate", true}}});
   bench.write_truth({0, 0, 0});
   bench.write_fix({1, 0, 0}, bench.now, {2, 0, 0});
   for (int i = 0; i < 5; ++i) bench.tick();
   EXPECT_NEAR(bench.estimate.value().X_WB.p.x(), 1.0 + 4 * 0.025 * 2.0, 1e-12);
 }
 
+TEST(HeadingSource, TakesTheTruthOnlyWhereItIsAskedFor) {
+  // By default it waits for an IMU, and knows where it was set down to `start_yaw_std_deg`.
+  double sum = 0.0, sum_of_squares = 0.0;
+  constexpr int kVehicles = 400;
+  for (std::uint64_t seed = 1; seed <= kVehicles; ++seed) {
+    Bench bench({"gps_pose", {{"start_yaw_std_deg", 2.0}}}, seed);
+    bench.write_truth({0, 0, 0}, {0, 0, 1.0});
+    bench.write_fix({0, 0, 0}, bench.now);
+    bench.tick();
+    ASSERT_FALSE(bench.estimate.has_value());
+    bench.imu.write(bench.now, ImuSample{});
+    bench.tick();
+    const double error = deg_from_rad(yaw_from_quaternion(bench.estimate.value().X_WB.q) - 1.0);
+    sum += error;
+    sum_of_squares += error * error;
+  }
+  // Four standard errors of 400 draws.
+  EXPECT_NEAR(sum / kVehicles, 0.0, 0.4);
+  EXPECT_NEAR(std::sqrt(sum_of_squares / kVehicles), 2.0, 0.3);
+}
+
 TEST(HeadingSource, SumsUpTheGyroFromTheTrueStart) {
-  Bench bench({"gps_pose", {{"heading", Text("gyro")}}});
+  Bench bench({"gps_pose", {{"heading", Text("gyro")}, {"start_yaw_std_deg", 0.0}}});
   bench.write_truth({0, 0, 0}, {0, 0, 3.0});
   bench.write_fix({0, 0, 0}, bench.now);
   ImuSample sample;
@@ -121,7 +145,7 @@ TEST(HeadingSource, CourseTakesOutTheGyrosBias) {
   // Straight east at 1 m/s with a bias of 0.01 rad/s: gyro alone is 0.6 rad off after a minute;
   // drawn to the course over 5 s the error settles at bias times that time, 0.05 rad.
   for (const char* heading : {"gyro", "gyro_course"}) {
-    Bench bench({"gps_pose", {{"heading", Text(heading)}}});
+    Bench bench({"gps_pose", {{"heading", Text(heading)}, {"start_yaw_std_deg", 0.0}}});
     ImuSample sample;
     sample.w_WS_S.z() = 0.01;
     bench.write_truth({0, 0, 0});
@@ -136,7 +160,7 @@ TEST(HeadingSource, CourseTakesOutTheGyrosBias) {
 }
 
 TEST(OdometryFilter, DeadReckonsExactlyOverArcs) {
-  Bench bench({"odometry_filter", {{"gain", Text("fixed")}}});
+  Bench bench({"odometry_filter", {{"heading", Text("truth")}, {"gain", Text("fixed")}}});
   Pose2 pose;
   bench.write_truth({0, 0, 0});
   bench.write_fix({0, 0, 0}, bench.now);
@@ -151,7 +175,8 @@ TEST(OdometryFilter, DeadReckonsExactlyOverArcs) {
 }
 
 TEST(OdometryFilter, ReadsTheWheelsByName) {
-  Bench bench({"odometry_filter", {{"odometry_source", Text("wheels")}}});
+  Bench bench(
+      {"odometry_filter", {{"heading", Text("truth")}, {"odometry_source", Text("wheels")}}});
   NamedValues wheels;
   wheels.names = {"wheel_fl_slip", "wheel_fl_speed_radps", "wheel_fr_speed_radps",
                   "wheel_rl_speed_radps", "wheel_rr_speed_radps"};
@@ -166,8 +191,10 @@ TEST(OdometryFilter, ReadsTheWheelsByName) {
 
 TEST(OdometryFilter, SatelliteVelocitySeesTheSlide) {
   // Nose east, drifting north at 0.3 m/s: the wheels know nothing of it.
-  Bench bench(
-      {"odometry_filter", {{"odometry_source", Text("gps_velocity")}, {"gain", Text("fixed")}}});
+  Bench bench({"odometry_filter",
+               {{"heading", Text("truth")},
+                {"odometry_source", Text("gps_velocity")},
+                {"gain", Text("fixed")}}});
   bench.write_truth({0, 0, 0});
   bench.write_fix({0, 0, 0}, bench.now, {1.0, 0.3, 0});
   bench.tick();
@@ -180,7 +207,8 @@ TEST(OdometryFilter, SatelliteVelocitySeesTheSlide) {
 TEST(OdometryFilter, ComparesALateFixWithThePastItSaw) {
   // 1 m/s east; fixes are exact but 0.2 s old. Taken for new they would hold the estimate 0.2 m
   // back.
-  Bench bench({"odometry_filter", {{"gain", Text("fixed")}, {"position_gain", 0.5}}});
+  Bench bench({"odometry_filter",
+               {{"heading", Text("truth")}, {"gain", Text("fixed")}, {"position_gain", 0.5}}});
   bench.write_truth({0, 0, 0});
   bench.write_fix({0, 0, 0}, bench.now);
   bench.tick();

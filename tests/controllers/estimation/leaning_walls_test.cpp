@@ -71,5 +71,38 @@ TEST(LeaningWalls, HeightIsLeftToWhatTellsItWhereAsked) {
   EXPECT_NEAR(careful.y(), 0.0, 1e-3);
 }
 
+/// Variance that one echo of the left wall had, from what it left of the lateral variance:
+/// 1 / r = 1 / P_after - 1 / P_before.
+double echo_variance_m2(double height_variance_m2) {
+  const RowMap map = make_leaning_map();
+  const RowMeshIndex index(map);
+  MapLocalisationParams params;
+  params.walls_tell_height = false;
+  const std::vector<RangeSensorModel> sensors = {
+      {"left", {quaternion_from_rpy({0, 0, 0.5 * std::numbers::pi}), {0, 0, 0}}, 0.0, 1, 0.003}};
+  MapLocalisationLaw law(params, map, index, sensors);
+  const Eigen::Vector3d p_W(0.0, 1.25, kHeight_m);
+  constexpr double kLateral_m2 = 0.04;
+  law.start(Time{}, p_W,
+            Eigen::Vector3d(1e-6, kLateral_m2, height_variance_m2).asDiagonal().toDenseMatrix());
+  const Time now{10'000'000};
+  law.predict(now, Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity());
+  EXPECT_EQ(law.filter_count(), 1);
+  const double before_m2 = law.position_covariance()(1, 1);
+  law.correct_range(now, 0, 1.25 - (0.25 - 0.5 * kLean_m), 0.05);
+  EXPECT_EQ(law.counters().echoes, 1);
+  EXPECT_NEAR(law.position_covariance()(2, 2), height_variance_m2, 1e-3 * height_variance_m2 + 1e-4)
+      << "it tells no height";
+  return 1.0 / (1.0 / law.position_covariance()(1, 1) - 1.0 / before_m2);
+}
+
+// The map's walls come in by kLean_m over their 2 m: an echo that may not correct the height is
+// wrong by that slope times the height's error, and must say so.
+TEST(LeaningWalls, AnEchoIsAsUncertainAsTheHeightThatItMustNotCorrect) {
+  constexpr double kSlope = kLean_m / 2.0, kHeight_m2 = 1.0, kKnown_m2 = 1e-6;
+  EXPECT_NEAR(echo_variance_m2(kHeight_m2) - echo_variance_m2(kKnown_m2),
+              kSlope * kSlope * (kHeight_m2 - kKnown_m2), 0.02 * kSlope * kSlope);
+}
+
 }  // namespace
 }  // namespace vinerow::test::leaning_walls_test

@@ -46,14 +46,19 @@ TEST(Localisation, RangeEkfIsAccurateAndConsistent) {
 
 TEST(Localisation, WithoutTheMapReadingR1GivesPaperCsTable3) {
   const LabScore score = run({}, with(kR1, DistanceFusion::kRangeEkf), false);
-  EXPECT_NEAR(score.lateral_m, 0.2623, four_errors(score.lateral_spread_m));
-  EXPECT_NEAR(score.longitudinal_m, 0.2616, four_errors(score.longitudinal_spread_m));
-  EXPECT_LT(four_errors(score.lateral_spread_m), 0.03);
+  // A filter that scatters more may not widen its own bounds beyond a share of the figure, a little
+  // more than ten seeds scatter today.
+  const auto expect_near = [](double value, double expected, double spread, double most = 0.12) {
+    EXPECT_LT(four_errors(spread), most * expected);
+    EXPECT_NEAR(value, expected, four_errors(spread));
+  };
+  expect_near(score.lateral_m, 0.2623, score.lateral_spread_m);
+  expect_near(score.longitudinal_m, 0.2616, score.longitudinal_spread_m);
   // R3, the velocity as process model, is consistent: the reference's 0.2125 / 0.2022, NEES 1.9.
   const LabScore velocity = run({}, {}, false);
-  EXPECT_NEAR(velocity.lateral_m, 0.2125, four_errors(velocity.lateral_spread_m));
-  EXPECT_NEAR(velocity.longitudinal_m, 0.2022, four_errors(velocity.longitudinal_spread_m));
-  EXPECT_NEAR(velocity.nees, 1.9, four_errors(velocity.nees_spread));
+  expect_near(velocity.lateral_m, 0.2125, velocity.lateral_spread_m, 0.25);
+  expect_near(velocity.longitudinal_m, 0.2022, velocity.longitudinal_spread_m, 0.35);
+  expect_near(velocity.nees, 1.9, velocity.nees_spread, 0.45);
 }
 
 TEST(Localisation, Table3WithTheMapComesOutOfReadingR1) {

@@ -71,7 +71,7 @@ TEST(AircraftPorts, DeviationIsThatOfAviationInTheWind) {
   AircraftDeviation x;
   x.lon << 0.5, -0.7, 0.2, 0.06, -3.0;
   x.lat << 0.8, -0.4, 0.3, 0.2, 0.15;
-  const TrimPoint trim = bench.ports->trims().at(0.05, 0.3);
+  const TrimPoint trim = bench.ports->trims().cruise().at(0.05, 0.3);
   for (const double psi : {0.0, 1.2, 3.1, -2.0}) {
     // A heading clockwise from north is 90 deg less it, from east to the left; whole turns do not
     // matter.
@@ -91,7 +91,7 @@ TEST(AircraftPorts, DeviationIsThatOfAviationInTheWind) {
 TEST(AircraftPorts, AnotherAirspeedShiftsTheForwardSpeed) {
   Bench bench;
   AirReference wanted = fly_straight(0.5 * kPi, 90.0)(0.0);
-  const TrimPoint trim = bench.ports->trims().at(0.0, 0.0);
+  const TrimPoint trim = bench.ports->trims().cruise().at(0.0, 0.0);
   wanted.airspeed_mps = 12.4;
   bench.tell(moved_from_trim(trim, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
   EXPECT_NEAR(bench.ports->deviation().lon(0), -0.4, 1e-12);
@@ -100,7 +100,7 @@ TEST(AircraftPorts, AnotherAirspeedShiftsTheForwardSpeed) {
 TEST(AircraftPorts, WritesTrimPlusDeviationWithinTheActuatorsRanges) {
   Bench bench;
   AirReference wanted = fly_straight(0.5 * kPi, 90.0)(0.0);
-  const TrimPoint trim = bench.ports->trims().at(0.0, 0.0);
+  const TrimPoint trim = bench.ports->trims().cruise().at(0.0, 0.0);
   bench.tell(moved_from_trim(trim, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
   AircraftControls left = bench.ports->write(Time{}, {0.1, 0.05, 0.02});
   const double de = trim.controls.elevator_rad + 0.05, da = trim.controls.aileron_rad + 0.02;
@@ -132,7 +132,7 @@ TEST(AircraftPorts, JudgesEachStateByItsLimit) {
   for (int i = 0; i < 10; ++i) {
     Bench bench;
     const AirReference wanted = fly_straight(0.5 * kPi, 90.0)(0.0);
-    const TrimPoint trim = bench.ports->trims().at(0.0, 0.0);
+    const TrimPoint trim = bench.ports->trims().cruise().at(0.0, 0.0);
     for (const double share : {0.999, 1.001}) {
       AircraftDeviation x;
       (i < 5 ? x.lon(i) : x.lat(i - 5)) =

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "controllers/parts/path_pieces.h"
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::path_test {
@@ -26,6 +27,17 @@ TEST(PathPieces, SplitsEachPieceIntoRoundLengthOverPitch) {
   EXPECT_EQ(plan.points[49].p_W.head<2>(), Eigen::Vector2d(10, 4));
   EXPECT_EQ(plan.points[49].alley, 1);
   EXPECT_NEAR((plan.points.back().p_W - Eigen::Vector3d(0, 4, 0)).norm(), 0.0, 1e-12);
+}
+
+TEST(PathPieces, APlanOfMillionsOfPointsIsRefused) {
+  try {
+    make_planned_path(make_u_turn(), 1e-6);
+    FAIL() << "not refused";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "a plan of 0.02628 km with a point every 1e-06 m has 26.3 million points, must be "
+                 "at most 2 million: take a coarser waypoint_pitch_m");
+  }
 }
 
 TEST(Path, KnowsTheExactCurveBetweenItsPoints) {

@@ -37,6 +37,14 @@ TEST(SurveyArea, TellsWhichEdgesCross) {
   EXPECT_EQ(fault_of({{0, 0}, {1, 1}}), "it has 2 different points, needs at least 3");
   EXPECT_EQ(fault_of({{0, 0}, {50, 50}, {100, 100}}),
             "its 3 points enclose 0.000 m2, must be at least 1 m2");
+  EXPECT_EQ(fault_of({{0, 0}, {100, 0}, {-8e6, 100}}),
+            "its points 1 and 3 lie 8000 km apart, must be at most 50 km");
+  Polygon2 circle;
+  for (int i = 0; i < 5001; ++i) {
+    const double angle_rad = 2.0 * 3.141592653589793 * i / 5001;
+    circle.emplace_back(100.0 * std::cos(angle_rad), 100.0 * std::sin(angle_rad));
+  }
+  EXPECT_EQ(fault_of(circle), "it has 5001 points, must have at most 5000: simplify it");
 }
 
 TEST(SurveyArea, CleansClosedRings) {

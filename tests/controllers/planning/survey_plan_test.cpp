@@ -52,6 +52,48 @@ double height_of_path(const PlannedPath& path, std::size_t i, double share) {
   return path.points[i].p_W.z() + share * (path.points[i + 1].p_W.z() - path.points[i].p_W.z());
 }
 
+/// A multirotor over a slope of 20 %: what a customer asks for on a field of 0.24 ha.
+TEST(SurveyPlan, RotorcraftKeepsItsHeightOverASlopeAndFliesNoLaps) {
+  SurveyRequest request;
+  request.polygon_W = {{0, 0}, {60, 0}, {60, 40}, {0, 40}};
+  request.camera.focal_length_mm = 10.26;
+  request.camera.sensor_width_mm = 13.2;
+  request.camera.sensor_height_mm = 8.8;
+  request.height_m = 60.0;
+  request.speed_mps = 5.0;
+  request.side_overlap = 0.7;
+  request.ramp_error_m = 1.0;
+  request.max_slope = 0.3;
+  request.lane_yaw_rad = 0.0;
+  request.rotorcraft = true;
+  const GroundHeight slope = [](const Vector2d& p) { return std::optional<double>(0.2 * p.x()); };
+  const auto plan = plan_survey(request, start_at(-20, -10, -4.0), slope);
+  ASSERT_TRUE(plan.ok()) << plan.reason();
+  const auto& points = plan->path.points;
+  // Straight up from the start to 60 m above it.
+  EXPECT_LT((points[0].p_W - Eigen::Vector3d(-20, -10, 56.0)).norm(), 1e-9);
+  EXPECT_EQ(plan->numbers.at("wide_turns"), 0);
+  EXPECT_EQ(plan->numbers.at("turn_radius_m"), 0.0);
+  EXPECT_EQ(plan->numbers.at("run_out_m"), 6.25);  // 5^2 / (2 x 2)
+  EXPECT_EQ(plan->numbers.at("climb_way_m"), 0.0);
+  for (const SurveyShot& shot : plan->shots) EXPECT_NEAR(shot.height_m, 60.0, 1.0);
+  EXPECT_NEAR(plan->numbers.at("gsd_max_mm"), plan->numbers.at("gsd_mm"),
+              plan->numbers.at("gsd_mm") / 60.0);
+  // Lanes, their run-outs, the steps between them, there and back: nothing else. Lanes begin half a
+  // picture before the field and end half a picture behind it, in whole picture distances.
+  double lanes_m = 0.0;
+  for (const SurveyLane& lane : plan->lanes) lanes_m += lane.high_m() - lane.low_m() + 2.0 * 6.25;
+  const double across_m = plan->lanes.back().across_m - plan->lanes.front().across_m;
+  const double length_m = plan->numbers.at("length_m");
+  const double home_m = std::hypot(110.0, 90.0);
+  EXPECT_GT(length_m, lanes_m + across_m);
+  EXPECT_LT(length_m, 1.03 * (lanes_m + across_m) + 2.0 * home_m);
+  request.rotorcraft = false;
+  const auto winged = plan_survey(request, start_at(-20, -10, -4.0), slope);
+  ASSERT_TRUE(winged.ok()) << winged.reason();
+  EXPECT_GT(winged->numbers.at("length_m"), length_m);
+}
+
 TEST(SurveyPlan, FliesTheSnakeOfThePaper) {
   const auto plan = plan_survey(make_request(), start_at(-200, -100, 150), flat());
   ASSERT_TRUE(plan.ok()) << plan.reason();
@@ -257,6 +299,16 @@ TEST(SurveyPlan, RefusesPolygonsThatCrossThemselvesOrLeaveTheTerrain) {
     return (p - Vector2d(100, 100)).norm() > 9.0 ? std::optional<double>(0.0) : std::nullopt;
   };
   EXPECT_NE(fault_of(request, holed).find("the polygon has no terrain at (9"), std::string::npos);
+}
+
+TEST(SurveyPlan, CountsLanesAndPicturesBeforeItPlansThem) {
+  SurveyRequest request = make_request();
+  request.polygon_W = {{0, 0}, {30e3, 0}, {30e3, 40e3}, {0, 40e3}};
+  const std::string fault = fault_of(request);
+  EXPECT_EQ(fault.find("30000 m x 40000 m at "), 0u) << fault;
+  // 40 km / 45 m + 1
+  EXPECT_NE(fault.find(" would take 890 lanes 45 m apart and "), std::string::npos) << fault;
+  EXPECT_NE(fault.find("at most 1000 lanes and 200000 pictures are planned"), std::string::npos);
 }
 
 TEST(SurveyPlan, ClimbsInLapsWhereTheFirstLaneIsNear) {

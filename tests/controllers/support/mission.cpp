@@ -89,12 +89,13 @@ const VehicleDescription& vehicle_for(const std::string& controller) {
   }
 }
 
-std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& map) {
+std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& map,
+                                      const VehicleDescription* vehicle) {
   static const VehicleDescription description = make_rover_description();
   PlannerContext context;
   context.vehicle = "rover";
   context.part = "rover.planner";
-  context.vehicle_description = &description;
+  context.vehicle_description = vehicle != nullptr ? vehicle : &description;
   context.map = &map;
   const PartSpec& spec = parts().spec(PartKind::kPlanner, choice.type);
   return parts().make_planner(choice.type, make_parameters(spec, choice.values), context);
@@ -103,7 +104,8 @@ std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& ma
 PlannedPath plan_mission(const MissionSetup& setup) {
   const Pose start = {quaternion_from_rpy({0, 0, setup.start.yaw_rad}),
                       {setup.start.p.x(), setup.start.p.y(), 0.0}};
-  auto plan = make_planner(setup.planner, setup.map)->plan(start);
+  auto plan =
+      make_planner(setup.planner, setup.map, &vehicle_for(setup.controller.type))->plan(start);
   if (!plan) std::fprintf(stderr, "no plan: %s\n", plan.reason().c_str());
   VINEROW_DEMAND(plan.ok());
   return std::move(plan).value();

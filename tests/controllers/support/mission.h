@@ -73,7 +73,9 @@ std::vector<std::string> controllers_that_read(const std::string& signal);
 std::vector<std::string> controllers_that_write(const std::string& signal);
 
 ParameterSet make_parameters(const PartSpec& spec, const Values& values);
-std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& map);
+/// @param vehicle  that is planned for; null: paper B's rover
+std::unique_ptr<Planner> make_planner(const PartChoice& choice, const RowMap& map,
+                                      const VehicleDescription* vehicle = nullptr);
 /// The plan, or a failed DEMAND with the planner's reason.
 PlannedPath plan_mission(const MissionSetup& setup);
 

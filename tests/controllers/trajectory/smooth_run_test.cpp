@@ -11,6 +11,7 @@
 #include "controllers/trajectory/landing_watch.h"
 #include "controllers/trajectory/time_law.h"
 #include "controllers/trajectory/yaw_move.h"
+#include "engine/core/error.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test::smooth_run_test {
@@ -72,6 +73,20 @@ TEST(SmoothRun, CurvatureRampsOverTheBlend) {
   EXPECT_NEAR(run.at(10.2).yaw_per_m, 0.75 / kRadius_m, 0.015);
   EXPECT_NEAR(run.at(9.35).yaw_per_m, 0.0, 1e-3);
   EXPECT_NEAR(run.at(10.7).yaw_per_m, 1.0 / kRadius_m, 0.01);
+}
+
+TEST(TimeLaw, AFlightOfYearsIsRefusedBeforeItIsSampled) {
+  const SmoothRun run(make_hairpin(), kBlend_m);
+  TrajectoryLimits limits;
+  limits.lateral_acceleration_mps2 = 1e-308;
+  try {
+    const TimeLaw law(run, limits, 1e9);
+    FAIL() << "not refused";
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("at most 56 h are planned: raise its speeds"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(TimeLaw, FliesAStraightAsFastAsItMay) {

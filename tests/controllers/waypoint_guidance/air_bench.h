@@ -70,6 +70,7 @@ class AirBench {
   const std::vector<Event>& events() const { return events_; }
   bool has_event(const std::string& words) const;
   double time_s() const { return now_.s(); }
+  const Guidance& guidance() const { return *guidance_; }
 
  private:
   VehicleDescription vehicle_;

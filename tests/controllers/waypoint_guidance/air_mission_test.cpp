@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/api/may_fail.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/waypoint_guidance/air_bench.h"
@@ -280,6 +281,43 @@ TEST(AirMission, LandsAtItsStartAgainstTheWind) {
                 rad_from_deg(3.0));
     EXPECT_TRUE(bench.has_event("landed at"));
   }
+}
+
+TEST(AirMission, FailsWhereItLandsTooFarOff) {
+  const auto fly = [](double tolerance_m) {
+    AirBench bench({{"land_tolerance_m", tolerance_m}}, on_launcher(0.3));
+    bench.give_plan(make_waypoints({{200, 200, 80}, {500, 200, 80}}));
+    bench.fly(600.0);
+    EXPECT_TRUE(bench.has_event("landed at"));
+    return std::string(dynamic_cast<const MayFail&>(bench.guidance()).failure());
+  };
+  EXPECT_EQ(fly(50.0), "");
+  const std::string failure = fly(0.01);
+  EXPECT_TRUE(failure.starts_with("landed at (")) << failure;
+  EXPECT_TRUE(failure.ends_with("m from where it should, at most 0.01 m (land_tolerance_m)"))
+      << failure;
+}
+
+TEST(AirMission, TakesTheLandingsBearingFromNorthAndItsOldFormWithAWarning) {
+  const auto glide_yaw = [](const Values& values, bool warns) {
+    AirBench bench(values, on_launcher(0.3));
+    bench.give_plan(make_waypoints({{200, 200, 80}, {500, 200, 80}}));
+    double yaw_rad = 0.0;
+    bench.fly(600.0, [&](double, const Odometry& seen, const AirReference& reference) {
+      if (reference.phase == AirPhase::kLand && seen.X_WB.p.z() > 0.06) {
+        yaw_rad = yaw_from_quaternion(seen.X_WB.q);
+      }
+    });
+    EXPECT_EQ(bench.has_event("land_course_deg = -30 counts from east to the left and is old: "
+                              "write land_bearing_deg: 120"),
+              warns);
+    return yaw_rad;
+  };
+  // South-east by south: 120 deg clockwise from north is 30 deg right of east.
+  EXPECT_NEAR(glide_yaw({{"land_bearing_deg", 120.0}}, false), rad_from_deg(-30.0),
+              rad_from_deg(3.0));
+  EXPECT_NEAR(glide_yaw({{"land_course_deg", -30.0}}, true), rad_from_deg(-30.0),
+              rad_from_deg(3.0));
 }
 
 TEST(AirMission, ReferenceHasNoStepsFromLaunchToLanding) {

@@ -153,7 +153,7 @@ std::string binary_ply(float first_x) {
 }
 
 TEST_F(MeshFileTest, PlyWhoseDataBeginsWithALineFeedIsReadRight) {
-  // assimp 5.2 swallows a first byte of 0x0a and shifts what follows.
+  // Readers that skip line ends behind the header swallow a first byte of 0x0a.
   for (const unsigned char low : {0x0a, 0x0d, 0x00, 0x20, 0x41}) {
     float x = -0.25f;
     std::memcpy(&x, &low, 1);
@@ -171,13 +171,182 @@ TEST_F(MeshFileTest, PlyThatIsCutOffOrPointsOutsideIsRefused) {
   EXPECT_NE(error_of(write("cut.ply", whole.substr(0, whole.size() - 20)))
                 .find("cut.ply' is cut off: element vertex 3 of 3 is not whole"),
             std::string::npos);
-  EXPECT_NE(error_of(write("cut.ply", whole.substr(0, 60))).find("its header has no 'end_header'"),
+  EXPECT_NE(error_of(write("cut.ply", whole.substr(0, whole.find("element face"))))
+                .find("is cut off: its header has no end_header"),
             std::string::npos);
   std::string outside = whole;
   outside[outside.size() - 4] = 9;
   EXPECT_NE(
       error_of(write("outside.ply", outside)).find("face 1 names vertex 9, it has 3 (0 to 2)"),
       std::string::npos);
+}
+
+/// An ascii PLY of four vertices, a square of 1 x 2, and these faces.
+std::string square_ply(const std::string& faces, int count) {
+  return "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\n"
+         "property float y\nproperty float z\nelement face " +
+         std::to_string(count) +
+         "\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 2 0\n0 2 0\n" +
+         faces;
+}
+
+TEST_F(MeshFileTest, BrokenFacesOfAnAsciiPlyAreRefusedByNumber) {
+  const auto error = [&](const std::string& face) {
+    return error_of(write("f.ply", square_ply("3 0 1 2\n" + face + "\n", 2)));
+  };
+  const std::string file = "mesh file '" + (folder_ / "f.ply").string() + "' ";
+  EXPECT_EQ(error("3 0 -1 2"), file + "is broken: face 2 names vertex -1, it has 4 (0 to 3)");
+  EXPECT_EQ(error("3 0 65536 2"), file + "is broken: face 2 names vertex 65536, it has 4 (0 to 3)");
+  EXPECT_EQ(error("3 0 99999999 2"),
+            file + "is broken: face 2 names vertex 99999999, it has 4 (0 to 3)");
+  EXPECT_EQ(error("3 0 1.5 2"), file + "is broken: face 2 names vertex 1.5, it has 4 (0 to 3)");
+  EXPECT_EQ(error("3 0 1"), file + "has '' as vertex_indices in line 16, must be a number");
+  EXPECT_EQ(
+      error("-3 0 1 2"),
+      file + "has a list 'vertex_indices' of -3 values in face 2, must be a whole number >= 0");
+  EXPECT_EQ(error("3 0 1 2 3"), file + "has more numbers in line 16 than its header names");
+  EXPECT_EQ(error("3 0 1 2\n3 0 1 2"), file + "has more data than its header counts");
+  EXPECT_EQ(error_of(write("f.ply", square_ply("3 0 1 2\n", 2))),
+            file + "is cut off: element face 2 of 2 is not whole");
+}
+
+TEST_F(MeshFileTest, BinaryPlyWithABrokenHeaderIsRefused) {
+  const std::string whole = binary_ply(-0.25f);
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    text.replace(text.find(from), from.size(), to);
+    return error_of(write("h.ply", text));
+  };
+  // 49 bytes hold four vertices of 12.
+  EXPECT_NE(changed("vertex 3", "vertex 9999999999").find("element vertex 5 of 9999999999"),
+            std::string::npos);
+  EXPECT_NE(changed("face 1", "face 2").find("element face 2 of 2 is not whole"),
+            std::string::npos);
+  EXPECT_NE(changed("list uchar int", "list uchxr int").find("has the unknown type 'uchxr'"),
+            std::string::npos);
+  EXPECT_NE(changed("property float z", "property float w").find("vertices without x, y and z"),
+            std::string::npos);
+  EXPECT_NE(changed("vertex_indices", "vertex_indicex").find("without a list vertex_indices"),
+            std::string::npos);
+  std::string counted = whole;
+  counted[counted.size() - 13] = '\xff';  // corners of the face
+  EXPECT_NE(error_of(write("h.ply", counted)).find("element face 1 of 1 is not whole"),
+            std::string::npos);
+}
+
+TEST_F(MeshFileTest, PlyPolygonsAreCutIntoTriangles) {
+  const auto area_of = [](const TriangleMesh& mesh) {
+    Eigen::Vector3f area = Eigen::Vector3f::Zero();
+    float parts = 0.0f;
+    for (const auto& t : mesh.triangles) {
+      const Eigen::Vector3f& a = mesh.vertices[t[0]];
+      const Eigen::Vector3f n = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a) / 2.0f;
+      area += n;
+      parts += n.norm();
+    }
+    EXPECT_FLOAT_EQ(area.z(), parts);  // none turned over, none outside
+    return parts;
+  };
+  const MeshFile square = load_mesh(write("q.ply", square_ply("4 0 1 2 3\n", 1)));
+  EXPECT_EQ(square.triangle_count(), 2u);
+  EXPECT_FLOAT_EQ(area_of(*square.parts[0].mesh), 2.0f);
+  // An L and an arrow whose fan from the first corner would leave the polygon: areas by the
+  // shoelace formula, 3 and 3.
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar uint vertex_index\nend_header\n";
+  const MeshFile ell = load_mesh(
+      write("l.ply", header + "0 2 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n6 0 1 2 3 4 5\n"));
+  EXPECT_EQ(ell.triangle_count(), 4u);
+  EXPECT_FLOAT_EQ(area_of(*ell.parts[0].mesh), 3.0f);
+  const MeshFile arrow =
+      load_mesh(write("a.ply", header + "4 0 0\n0 2 0\n1 0 0\n0 -2 0\n0 0 9\n0 0 9\n4 0 1 2 3\n"));
+  EXPECT_EQ(arrow.triangle_count(), 2u);
+  EXPECT_FLOAT_EQ(area_of(*arrow.parts[0].mesh), 6.0f);
+}
+
+TEST_F(MeshFileTest, PlyStripsCornersAndSharedVerticesAreRead) {
+  const std::string vertices = "0 0 0\n1 0 0\n0 2 0\n1 2 0\n0 0 0\n";  // the last equals the first
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+      "property float z\n";
+  const MeshFile strip = load_mesh(write(
+      "s.ply", header + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
+                   vertices + "8 0 1 2 3 -1 4 1 2\n"));
+  ASSERT_EQ(strip.triangle_count(), 3u);
+  EXPECT_EQ(strip.parts[0].mesh->vertices.size(), 4u);
+  for (const auto& t : strip.parts[0].mesh->triangles) {
+    const auto& v = strip.parts[0].mesh->vertices;
+    EXPECT_GT((v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).z(), 0.0f);
+  }
+  // Two faces with other texture coordinates at the same vertex: it is there twice.
+  const MeshFile corners =
+      load_mesh(write("c.ply", header +
+                                   "element face 2\nproperty list uchar int vertex_indices\n"
+                                   "property list uchar float texcoord\nend_header\n" +
+                                   vertices + "3 0 1 2 6 0 0 1 0 0 1\n3 1 3 2 6 0.5 0 1 1 0 1\n"));
+  const TriangleMesh& mesh = *corners.parts[0].mesh;
+  ASSERT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.vertices.size(), 5u);
+  EXPECT_EQ(mesh.uvs[mesh.triangles[0][1]], Eigen::Vector2f(1.0f, 0.0f));
+  EXPECT_EQ(mesh.uvs[mesh.triangles[1][0]], Eigen::Vector2f(0.5f, 0.0f));
+  EXPECT_EQ(mesh.vertices[mesh.triangles[1][0]], mesh.vertices[mesh.triangles[0][1]]);
+}
+
+TEST_F(MeshFileTest, PlyColoursAreLinearWhereTheyAreRealNumbers) {
+  const auto colour_of = [&](const std::string& type, const std::string& value) {
+    const std::string c = " " + value + " " + value + " " + value + "\n";
+    const MeshFile file = load_mesh(
+        write("k.ply",
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+              "property float z\nproperty " +
+                  type + " red\nproperty " + type + " green\nproperty " + type +
+                  " blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                  "0 0 0" +
+                  c + "1 0 0" + c + "0 1 0" + c + "3 0 1 2\n"));
+    const auto& colours = file.parts[0].mesh->colours;
+    return colours.empty() ? -1.0f : colours[0].x();
+  };
+  EXPECT_EQ(colour_of("float", "0.5"), 0.5f);
+  // sRGB of IEC 61966-2-1: ((0.5 + 0.055) / 1.055)^2.4 and ((51 / 255 + 0.055) / 1.055)^2.4
+  EXPECT_NEAR(colour_of("uchar", "51"), 0.0331048f, 1e-6);
+  EXPECT_NEAR(colour_of("ushort", "13107"), 0.0331048f, 1e-6);
+  EXPECT_EQ(colour_of("int", "51"), -1.0f);
+}
+
+TEST_F(MeshFileTest, ColladaThatPromisesMoreThanItHoldsIsRefused) {
+  const std::string whole = wedge_dae("Z_UP", "1");
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    text.replace(text.find(from), from.size(), to);
+    return error_of(write("w.dae", text));
+  };
+  const std::string file = "mesh file '" + (folder_ / "w.dae").string() + "' ";
+  EXPECT_EQ(changed("count=\"12\"", "count=\"1999999999\""),
+            file +
+                "is broken: count = '1999999999' of <float_array> in line 1, must be a whole "
+                "number up to " +
+                std::to_string(whole.size() + 8) + ", the file's bytes");
+  EXPECT_NE(
+      changed("<triangles count=\"4\"", "<triangles count=\"-4\"").find("count = '-4' of <tri"),
+      std::string::npos);
+  EXPECT_NE(changed("offset=\"0\"", "offset=\"99999999\"").find("offset = '99999999' of <input>"),
+            std::string::npos);
+  EXPECT_NE(changed("stride=\"3\"", "stride=\"3000000\"").find("stride = '3000000' of <accessor>"),
+            std::string::npos);
+  EXPECT_NE(changed("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#n\"/>")
+                .find("is broken: the node 'n' contains itself"),
+            std::string::npos);
+  // 30 nodes, each of which stands twice in the next: 2^30 in all.
+  std::string nodes = "<node id=\"k0\"><instance_geometry url=\"#g\"/></node>";
+  for (int i = 1; i <= 30; ++i) {
+    const std::string below = "<instance_node url=\"#k" + std::to_string(i - 1) + "\"/>";
+    nodes += "<node id=\"k" + std::to_string(i) + "\">" + below + below + "</node>";
+  }
+  EXPECT_NE(changed("<instance_geometry url=\"#g\"/></node>",
+                    "<instance_node url=\"#k30\"/></node>" + nodes)
+                .find("is broken: its nodes instance each other more than 1000000 times"),
+            std::string::npos);
 }
 
 TEST_F(MeshFileTest, BadFilesAreRefusedInOneSentence) {

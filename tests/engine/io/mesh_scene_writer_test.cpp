@@ -132,7 +132,7 @@ TEST_F(MeshSceneWriterTest, WhatCannotBeWrittenIsSaid) {
             "written");
   far_.vertices[2].y() = 0.0f;
   EXPECT_EQ(error_of([&] { write_glb(meshes_, "/nowhere/x.glb", canopy_material()); }),
-            "mesh file '/nowhere/x.glb' cannot be written");
+            "mesh file '/nowhere/x.glb' cannot be written: No such file or directory");
 }
 
 }  // namespace

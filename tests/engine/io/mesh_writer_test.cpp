@@ -80,7 +80,8 @@ TEST(MeshWriter, RefusesAFolderThatIsNotThere) {
     write_ply(TriangleMesh{}, "/nowhere/x.ply");
     FAIL();
   } catch (const ConfigError& e) {
-    EXPECT_STREQ(e.what(), "mesh file '/nowhere/x.ply' cannot be written");
+    EXPECT_STREQ(e.what(),
+                 "mesh file '/nowhere/x.ply' cannot be written: No such file or directory");
   }
 }
 

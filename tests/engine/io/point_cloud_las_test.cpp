@@ -240,8 +240,9 @@ TEST_F(Las, CountsOfSixtyFourBits) {
 
 TEST_F(Las, CompressedFilesSayHowToDecompressThem) {
   const std::string sentence =
-      "point cloud 'a.laz' is compressed (LAZ), which is not read; decompress it first, with "
-      "'laszip -i in.laz -o out.las' or 'pdal translate in.laz out.las'";
+      "point cloud 'a.laz' is compressed (LAZ), which is not read; "
+      "Debian 12 has no program for it, Python's laspy has: pip install 'laspy[lazrs]', then "
+      "python3 -c \"import laspy; laspy.read('in.laz').write('out.las')\"";
   HandFile f;
   f.points = {hand_point(0, {})};
   f.format = 0x80;
@@ -274,6 +275,9 @@ TEST_F(Las, FaultsInTheHeaderAreNamed) {
             "point cloud 'a.las' is cut off: its header counts 2 points, it holds 0");
   EXPECT_EQ(error(bytes.substr(0, bytes.size() - 1)),
             "point cloud 'a.las' is cut off: its header counts 2 points, it holds 1");
+  // A byte too many anywhere among the points shifts all behind it.
+  EXPECT_EQ(error(std::string(bytes).insert(240, 1, '\x2a')),
+            "point cloud 'a.las' is damaged: behind its 2 points are 1 bytes, less than one more");
   EXPECT_EQ(with([](HandFile& f) { f.count = 1; }),
             "point cloud 'a.las' has more data than its header counts: 1 points, it holds 2");
   EXPECT_EQ(patched(25, "\x05"), "point cloud 'a.las' is LAS 1.5, must be 1.2, 1.3 or 1.4");

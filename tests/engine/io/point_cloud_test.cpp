@@ -189,7 +189,7 @@ TEST_F(PointCloud, WritersRefuseWhatTheyCannotHold) {
             "point cloud 'a.laz' cannot be written as '.laz', must be one of: .ply, .las, .xyz, "
             ".txt");
   EXPECT_EQ(error_in([&] { written("none/a.ply", {}, {}); }),
-            "point cloud 'none/a.ply' cannot be written");
+            "point cloud 'none/a.ply' cannot be written: No such file or directory");
 }
 
 TEST_F(PointCloud, BrokenBytesAreReadOrRefusedInWords) {

@@ -128,6 +128,7 @@ TEST(Raster, GeoTiffWithoutCrsNeedsOneFromTheUser) {
                 "' has no coordinate reference system; give it by 'crs: EPSG:<code>'");
   const ElevationRaster raster = read_elevation(file, "EPSG:32632");
   EXPECT_NEAR(height_at(raster, kOrigin.latitude_rad, kOrigin.longitude_rad), 100.0, 0.01);
+  EXPECT_EQ(read_elevation(file, "32632").crs_name, read_elevation(file, "EPSG:32632").crs_name);
   EXPECT_EQ(error_of([&] { read_elevation(file, "EPSG:nonsense"); }),
             "crs = 'EPSG:nonsense' is not a coordinate reference system, must be like EPSG:32632");
 }
@@ -157,6 +158,34 @@ TEST(Raster, RefusesBadInputInOneSentence) {
   });
   EXPECT_NE(error.find("has no height at latitude"), std::string::npos) << error;
   EXPECT_NE(error.find("it covers x 499800 to 500200"), std::string::npos) << error;
+  EXPECT_EQ(error.find("swapped"), std::string::npos) << error;
+}
+
+TEST(Raster, SwappedLatitudeAndLongitudeAreSuspected) {
+  const ElevationRaster raster = read_elevation(write_plane("swapped.tif", 32632));
+  GeoOrigin swapped = kOrigin;
+  std::swap(swapped.latitude_rad, swapped.longitude_rad);
+  const std::string error = error_of([&] {
+    resample_elevation(raster, swapped, {{-5, -5}, 10, 10, 5.0});
+  });
+  EXPECT_NE(error.find("of WGS 84 / UTM zone 32N; are latitude and longitude swapped?"),
+            std::string::npos)
+      << error;
+}
+
+TEST(Raster, AHeightOfNoPlaceOnEarthIsRefused) {
+  std::vector<float> heights(100, 250.0f);
+  heights[55] = -32768.0f;
+  const ElevationRaster raster =
+      read_elevation(write_tiff("void.tif", 10, 10, 9.0, 45.0, 0.001, heights, 0), "EPSG:4326");
+  GeoOrigin origin;
+  origin.latitude_rad = rad_from_deg(44.9945);
+  origin.longitude_rad = rad_from_deg(9.0055);
+  const std::string error = error_of([&] {
+    resample_elevation(raster, origin, {{0, 0}, 1.0, 1.0, 1.0});
+  });
+  EXPECT_NE(error.find("does it mean \"no data\" there without saying so?"), std::string::npos)
+      << error;
 }
 
 TEST(Raster, DavosdorfHasTheKnownFacts) {

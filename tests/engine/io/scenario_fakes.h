@@ -37,7 +37,7 @@ inline Registry fake_registry() {
   registry.add_world(fake_spec("hilly", {number_parameter("slope_deg", "deg", 5.0, -45.0, 45.0,
                                                           "positive where x rises")}),
                      nullptr);
-  registry.add_vehicle(
+  PartSpec cart =
       fake_spec("cart",
                 {positive_parameter("mass_kg", "kg", 100.0, "with battery"),
                  required(positive_parameter("wheel_radius_m", "m", 0.2, "unloaded")),
@@ -49,8 +49,9 @@ inline Registry fake_registry() {
                  group_parameter("motor",
                                  {positive_parameter("torque_Nm", "N m", 50.0, "peak"),
                                   path_parameter("map_file", "efficiency map")},
-                                 "of each wheel")}),
-      nullptr);
+                                 "of each wheel")});
+  cart.writes = {"wheels: NamedValues", "battery", "<name>_event"};
+  registry.add_vehicle(cart, nullptr);
   registry.add_map(
       fake_spec("survey", {number_parameter("offset_m", "m", 0.0, -10.0, 10.0, "to the east")}),
       nullptr);
@@ -60,6 +61,13 @@ inline Registry fake_registry() {
   registry.add_sensor(fake_spec("imu", {}, 0.0), nullptr);
   registry.add_estimator(
       fake_spec("filter", {positive_parameter("gain", "", 0.5, "of updates")}, 20.0), nullptr);
+  registry.add_estimator(
+      fake_spec("fusion",
+                {text_parameter("gps", "gps", "signal of the receiver"),
+                 text_list_parameter("ranges", {}, "signals"),
+                 choice_parameter("heading", "gyro", {"gyro", "truth"}, "where from")},
+                20.0),
+      nullptr);
   registry.add_planner(
       fake_spec("coverage", {integer_parameter("first_alley", 0, 0, 1000, "start")}), nullptr);
   registry.add_guidance(fake_spec("window", {}, 10.0), nullptr);

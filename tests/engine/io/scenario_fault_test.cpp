@@ -123,7 +123,10 @@ TEST(ScenarioFault, RateThatDoesNotDivideNamesBothNumbers) {
   EXPECT_EQ(fault_of(with_line(13, "      rate_Hz: 30")),
             "scenario:13: vehicles.rover.controller.rate_Hz = 30 Hz, its period of 0.033333333 s "
             "is not a "
-            "whole number of physics steps of 0.001 s; 29.4118 Hz and 30.303 Hz fit");
+            "whole number of physics steps of 0.001 s; 29.411765 Hz and 30.30303 Hz fit");
+  // What is printed is accepted.
+  EXPECT_EQ(fault_of(with_line(13, "      rate_Hz: 29.411765")), "");
+  EXPECT_EQ(fault_of(with_line(13, "      rate_Hz: 30.30303")), "");
   EXPECT_EQ(fault_of(with_line(13, "      rate_Hz: 3000")),
             "scenario:13: vehicles.rover.controller.rate_Hz = 3000 Hz, its period of 0.000333333 s "
             "is not "
@@ -237,6 +240,32 @@ TEST(ScenarioFault, CriteriaAndCamerasNameVehicles) {
       "scenario:4: pictures.cameras.c: centre_m and vehicle are both given, must be one of them");
 }
 
+TEST(ScenarioFault, ANameIsOneOfAFolderInRuns) {
+  for (const char* name : {"../../evil", "/tmp/x", "a/b", "..", "two words", "9lives"}) {
+    EXPECT_EQ(fault_of(with_line(2, "name: '" + std::string(name) + "'")),
+              "scenario:2: name = '" + std::string(name) +
+                  "', must be made of letters, digits, '_' and '-' and start with a letter or '_' "
+                  "(results go to runs/<name>)");
+  }
+}
+
+TEST(ScenarioFault, PicturesWithoutEndAreRefused) {
+  EXPECT_EQ(fault_of(with_line(2, "duration_s: 20\npictures: {every_s: 0.001}")),
+            "scenario:3: pictures.every_s = 0.001 s makes 20000 frames of each camera in 20 s, must "
+            "make at most 10000");
+  EXPECT_EQ(fault_of(with_line(2, "duration_s: 20\npictures: {every_s: 0.002}")), "");
+}
+
+TEST(ScenarioFault, NumbersThatNoUnitCanMeanAreRefused) {
+  const auto fault = [](const std::string& value) {
+    return fault_of(with_line(13, "      lookahead_m: " + value));
+  };
+  const std::string place = "scenario:13: vehicles.rover.controller.lookahead_m = ";
+  EXPECT_EQ(fault("9.2e18"), place + "9.2e+18 m, must be >= 1e-09 m and <= 10000000 m");
+  EXPECT_EQ(fault("1e-308"), place + "1e-308 m, must be >= 1e-09 m and <= 10000000 m");
+  EXPECT_EQ(fault("-1"), place + "-1 m, must be > 0 m");
+}
+
 TEST(ScenarioFault, NamesAreSimpleWords) {
   EXPECT_EQ(
       fault_of(with_line(5, "  ro.ver:")),
@@ -248,8 +277,45 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
       "(truth, estimate, plan, reference, links, actuators, follower, command, plan_tree, "
       "local_command, ellipsoid, estimator_state, contacts, map_edges, authority)");
   EXPECT_EQ(fault_of(with_line(10, "      gps: {type: gps}\n      gps_truth: {type: gps}")),
-            "scenario:11: vehicles.rover.sensors.gps_truth: a sensor cannot have the name of the "
-            "truth beside the sensor 'gps'");
+            "scenario:11: vehicles.rover.sensors.gps_truth: a name cannot end in '_truth', which "
+            "marks what a sensor would have read without error");
+}
+
+TEST(ScenarioFault, NoPartIsWiredToTheTruth) {
+  const auto fusion = [](const std::string& inputs) {
+    return fault_of(
+        with_line(11, "    estimator: {type: fusion, " + inputs + "}\n    controller:"));
+  };
+  const std::string end =
+      " is the truth, which no part of a vehicle reads by name; must be the name of a sensor's "
+      "signal";
+  EXPECT_EQ(fusion("gps: gps"), "");
+  EXPECT_EQ(fusion("gps: truth"), "scenario:11: vehicles.rover.estimator.gps = 'truth'" + end);
+  EXPECT_EQ(fusion("gps: gps_truth"),
+            "scenario:11: vehicles.rover.estimator.gps = 'gps_truth'" + end);
+  EXPECT_EQ(fusion("gps: drone/gps_truth"),
+            "scenario:11: vehicles.rover.estimator.gps = 'drone/gps_truth'" + end);
+  EXPECT_EQ(fusion("ranges: [us_left, us_right_truth]"),
+            "scenario:11: vehicles.rover.estimator.ranges = 'us_right_truth'" + end);
+  // What is asked for by name as one of a parameter's choices is said openly.
+  EXPECT_EQ(fusion("heading: truth"), "");
+  EXPECT_EQ(fault_of(with_line(11,
+                               "    observers: {ekf: {type: fusion, gps: gps_truth}}\n"
+                               "    controller:")),
+            "scenario:11: vehicles.rover.observers.ekf.gps = 'gps_truth'" + end);
+}
+
+TEST(ScenarioFault, NamesOfSignalsOfOtherPartsAreTaken) {
+  const std::string writes = "the vehicle 'cart' writes (wheels, battery); give it another name";
+  EXPECT_EQ(fault_of(with_line(10, "      gps: {type: gps}\n      wheels: {type: imu}")),
+            "scenario:11: vehicles.rover.sensors.wheels: a sensor cannot have the name of a signal "
+            "that " +
+                writes);
+  EXPECT_EQ(fault_of(with_line(11, "    observers: {battery: {type: filter}}\n    controller:")),
+            "scenario:11: vehicles.rover.observers.battery: an observer cannot have the name of a "
+            "signal that " +
+                writes);
+  EXPECT_EQ(fault_of(with_line(10, "      wheel: {type: gps}")), "");
 }
 
 TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {
@@ -274,7 +340,7 @@ TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {
       "(known: filter)");
   EXPECT_EQ(observers("a: {type: filtr}"),
             "scenario:11: vehicles.rover.observers.a.type = 'filtr': unknown estimator; did you "
-            "mean 'filter'? (known: filter)");
+            "mean 'filter'? (known: filter, fusion)");
 }
 
 TEST(ScenarioFault, DuplicateKeysNameBothLines) {
@@ -285,10 +351,18 @@ TEST(ScenarioFault, DuplicateKeysNameBothLines) {
 TEST(ScenarioFault, SyntaxErrorsNameTheLine) {
   EXPECT_EQ(fault_of(with_line(7, "\twheel_radius_m: 0.2")),
             "scenario:7: is indented with a tab; YAML is indented with spaces");
-  EXPECT_THAT(fault_of(with_line(8, "    spawn: {alley: 0")),
-              ::testing::MatchesRegex("scenario:[0-9]+: is not valid YAML: .*"));
-  EXPECT_THAT(fault_of(with_line(7, "    wheel_radius_m: 0.2: 3")),
-              ::testing::MatchesRegex("scenario:7: is not valid YAML: .*"));
+  EXPECT_THAT(
+      fault_of(with_line(8, "    spawn: {alley: 0")),
+      ::testing::MatchesRegex(
+          "scenario:[0-9]+: is not valid YAML: the '\\{' of line 8 is not closed by '\\}'"));
+  EXPECT_THAT(
+      fault_of(with_line(8, "    spawn: [alley, 0")),
+      ::testing::MatchesRegex(
+          "scenario:[0-9]+: is not valid YAML: the '\\[' of line 8 is not closed by '\\]'"));
+  EXPECT_EQ(
+      fault_of(with_line(7, "    wheel_radius_m: 0.2: 3")),
+      "scenario:7: is not valid YAML: a ':' stands where none can be: is a text with ': ' not "
+      "in quotes?");
   EXPECT_EQ(fault_of(std::string("vinerow: 1\nname: a\x01z\n")),
             "scenario:2: holds the control character 0x01; a scenario is plain text");
   EXPECT_EQ(fault_of("vinerow: 1\n---\nvinerow: 1\n"),

@@ -191,7 +191,9 @@ TEST(Scenario, FillsInDefaults) {
   EXPECT_EQ(s.metrics[0].name, "deviation");
   EXPECT_EQ(s.metrics[1].name, "distance");
   EXPECT_EQ(s.metrics[1].part.rate_Hz, 0.0) << "as often as the controller";
-  EXPECT_TRUE(s.pictures.cameras.empty()) << "no pictures unless asked";
+  ASSERT_EQ(s.pictures.cameras.size(), 1u) << "every log can be drawn";
+  EXPECT_EQ(s.pictures.cameras[0].name, "chase");
+  EXPECT_EQ(s.pictures.cameras[0].vehicle, "rover");
   EXPECT_TRUE(s.record.enabled);
 }
 

@@ -76,7 +76,21 @@ TEST(ResolvedScenario, WritesDefaultsSourcesAndAbsolutePaths) {
                 "  every_s: 0\n"
                 "  times_s: []\n"
                 "  shares: [1]\n"
-                "  cameras: {}\n");
+                "  cameras:\n"
+                "    chase:\n"
+                "      kind: chase\n"
+                "      vehicle: rover\n"
+                "      distance_m: 6\n"
+                "      height_m: 2.5\n"
+                "      yaw_deg: 0\n"
+                "      fov_deg: 55\n"
+                "      show_sensor_rays: false\n"
+                "      show_trail: true\n"
+                "      show_plan: true\n"
+                "      show_grid: false\n"
+                "      show_tree: false\n"
+                "      show_estimate: false\n"
+                "      show_map: false\n");
 }
 
 /// Loads the resolved text from another folder and expects the same text and the same values again.

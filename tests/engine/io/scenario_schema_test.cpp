@@ -104,6 +104,8 @@ const Variant kBad[] = {
     {1, ""},
     {2, "nme: x"},
     {2, "name: 3"},
+    {2, "name: ../evil"},
+    {2, "name: two words"},
     {2, "name: true"},
     {2, "name: null"},
     {2, "seed: 1.5"},

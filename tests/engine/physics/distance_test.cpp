@@ -145,6 +145,8 @@ TEST(Distance, MaskAndReachAreKept) {
   const Vector3d h(0.4, 0.3, 0.2);
   EXPECT_NEAR(scene.distance_to_box_m(X_WBox, h, 10.0), 3.0 - 0.5 - 0.4, 1e-6);
   EXPECT_EQ(scene.distance_to_box_m(X_WBox, h, 2.0), 2.0);
+  EXPECT_NEAR(scene.distance_to_box_m(X_WBox, h, 10.0, mask_of(SurfaceClass::kWire)),
+              1.0 - 0.01 - 0.4, 1e-6);
   EXPECT_EQ(scene.distance_to_box_m(X_WBox, h, 10.0, mask_of(SurfaceClass::kPost)), 10.0);
   EXPECT_NEAR(scene.distance_to_box_m(X_WBox, h, 10.0, mask_of(SurfaceClass::kTerrain)), 0.8, 1e-9);
   EXPECT_EQ(scene.distance_to_box_m({X_WBox.q, {3, 0, 1.6}}, h, 10.0), 0.0);

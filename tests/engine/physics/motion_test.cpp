@@ -92,6 +92,33 @@ TEST(FreeMotion, ForceOffTheCentreTurnsTheBody) {
   EXPECT_NEAR(yaw_from_quaternion(world.state(body).X_WB.q), 0.5 * 2.0 * 0.25, 1e-9);
 }
 
+// A torsion spring: phi'' = -k phi / I with k / I = 4, so phi = phi_0 cos 2t, whose error shrinks
+// with the square of the step. Torques that were held over each step would leave a first order.
+TEST(FreeMotion, ASpringThatTurnsABodyIsOfSecondOrder) {
+  const WorldModel model;
+  double error[2];
+  for (const int half : {0, 1}) {
+    const double dt_s = half == 0 ? 0.01 : 0.005;
+    PhysicsWorld world(with_step(dt_s), model);
+    BodySpec spec = test::make_sphere(0.5, 10.0, Vector3d::Zero());  // 1 kg m2
+    spec.X_WB.q = quaternion_from_rpy({0, 0, 0.3});
+    const BodyId body = world.add_body(spec);
+    const int steps = static_cast<int>(std::lround(10.0 / dt_s));
+    error[half] = 0.0;
+    for (int k = 1; k <= steps; ++k) {
+      const double phi = yaw_from_quaternion(world.state(body).X_WB.q);
+      world.add_torque_W(body, {0, 0, -4.0 * phi});
+      world.step(duration_from_s(dt_s));
+      const double exact = 0.3 * std::cos(2.0 * k * dt_s);
+      error[half] =
+          std::max(error[half], std::abs(yaw_from_quaternion(world.state(body).X_WB.q) - exact));
+    }
+  }
+  // Verlet's phase runs ahead by (w dt)^2 / 24 of itself: 0.3 * 20 rad * 0.02^2 / 24 = 1e-4.
+  EXPECT_NEAR(error[0], 1e-4, 3e-5);
+  EXPECT_NEAR(error[0] / error[1], 4.0, 0.2);
+}
+
 struct Brick {
   Vector3d inertia_kgm2 = Vector3d(0.00189422, 0.006211019, 0.007194665) * kSlugFt2_kgm2;
   Vector3d w0_B = Vector3d(rad_from_deg(10), rad_from_deg(20), rad_from_deg(30));

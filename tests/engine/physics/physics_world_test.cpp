@@ -1,7 +1,7 @@
 /// The world's own promises: determinism, contacts by name, kinematic bodies, refusals.
 
-#include "engine/api/world_model.h"
 #include "engine/physics/physics_world.h"
+#include "engine/api/world_model.h"
 
 #include <gtest/gtest.h>
 
@@ -134,17 +134,58 @@ TEST(PhysicsWorld, RestingBodyHasNoAcceleration) {
   EXPECT_LT(world.acceleration_W(box).norm(), 0.05);
 }
 
-TEST(PhysicsWorld, CanopyAndWireDoNotPush) {
+TEST(PhysicsWorld, CanopyDoesNotPush) {
   WorldModel model;
   model.terrain = test::make_flat();
   model.meshes = {test::make_instance("leaves", test::make_box_mesh({1, 1, 0.2f}), {0, 0, 2},
-                                      SurfaceClass::kCanopy),
-                  test::make_instance("wire", test::make_box_mesh({1, 1, 0.2f}), {0, 0, 1},
-                                      SurfaceClass::kWire)};
+                                      SurfaceClass::kCanopy)};
   PhysicsWorld world({}, model);
   const BodyId ball = world.add_body(test::make_sphere(0.1, 1.0, {0, 0, 4}));
   test::run(world, 2.0);
   EXPECT_NEAR(world.state(ball).X_WB.p.z(), 0.1, 1e-3);
+}
+
+TEST(PhysicsWorld, NothingPassesThroughAWire) {
+  // A trellis wire of 5 mm across the way of a box that flies at 8 m/s, without weight.
+  WorldModel model;
+  model.meshes = {test::make_instance("wire", test::make_box_mesh({0.0025f, 3.0f, 0.0025f}),
+                                      {2, 0, 1}, SurfaceClass::kWire)};
+  PhysicsSettings settings;
+  settings.gravity_mps2 = 0.0;
+  PhysicsWorld world(settings, model);
+  BodySpec spec = test::make_box({0.3, 0.3, 0.1}, 2.0, {0, 0, 1});
+  spec.v_WB_W = {8, 0, 0};
+  const BodyId box = world.add_body(spec);
+  double farthest_m = 0.0;
+  const Contact* met = nullptr;
+  Contact first;
+  for (int k = 0; k < 1000; ++k) {
+    world.step(settings.step);
+    farthest_m = std::max(farthest_m, world.state(box).X_WB.p.x());
+    for (const Contact& contact : world.contacts()) {
+      if (met != nullptr) continue;
+      first = contact;
+      met = &first;
+    }
+  }
+  ASSERT_NE(met, nullptr);
+  EXPECT_EQ(met->surface, SurfaceClass::kWire);
+  EXPECT_EQ(world.contact_name(*met), "wire");
+  // Its front stops at the wire; in one step it moves 8 mm.
+  EXPECT_NEAR(farthest_m, 2.0 - 0.0025 - 0.3, 0.008);
+  EXPECT_LT(world.state(box).v_WB_W.x(), 1e-6);
+}
+
+TEST(PhysicsWorld, WheelsRollThroughWiresThatLieBelowThem) {
+  WorldModel model;
+  model.terrain = test::make_flat();
+  model.meshes = {test::make_instance("wire", test::make_box_mesh({1.0f, 1.0f, 0.1f}), {0, 0, 0.2},
+                                      SurfaceClass::kWire)};
+  const PhysicsWorld world({}, model);
+  const auto ground = world.probe_ground({0, 0, 1}, -Eigen::Vector3d::UnitZ(), 2.0);
+  ASSERT_TRUE(ground);
+  EXPECT_NEAR(ground->distance_m, 1.0, 1e-9);
+  EXPECT_EQ(ground->surface, SurfaceClass::kTerrain);
 }
 
 TEST(PhysicsWorld, KinematicBodyStaysWhereItIsPutAndReportsOverlaps) {

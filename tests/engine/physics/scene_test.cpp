@@ -4,6 +4,7 @@
 #include <xmmintrin.h>
 
 #include <cmath>
+#include <limits>
 
 #include "engine/api/world_model.h"
 #include "engine/core/random.h"
@@ -217,6 +218,26 @@ TEST(Scene, RaysSeeTheClassesOfTheirMask) {
   EXPECT_FALSE(scene.cast_ray(p, ahead, 10.0, mask_of(SurfaceClass::kTerrain)));
   EXPECT_FALSE(scene.cast_ray(p, ahead, 1.7999));
   EXPECT_TRUE(scene.cast_ray(p, ahead, 1.8001));
+}
+
+TEST(Scene, RaysFromNowhereMeetNothing) {
+  const WorldModel model = make_row();
+  const PhysicsWorld world({}, model);
+  const SceneQuery& scene = world.scene();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double far : {9.2e18, -9.2e18, 1e39, 1e308, nan, infinity}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vector3d p(0, 0, 1);
+      p[axis] = far;
+      EXPECT_FALSE(scene.cast_ray(p, Vector3d::UnitX(), 10.0)) << far << " " << axis;
+      EXPECT_FALSE(scene.cast_ray(p, -Vector3d::UnitZ(), 1e30)) << far << " " << axis;
+      Vector3d ahead(1, 0, 0);
+      ahead[axis] = nan;
+      EXPECT_FALSE(scene.cast_ray(Vector3d(0, 0, 1), ahead, 10.0)) << axis;
+    }
+  }
+  EXPECT_FALSE(scene.cast_ray(Vector3d(0, 0, 1), Vector3d::UnitX(), nan));
 }
 
 TEST(Scene, GroundIsTerrainOrObstacleBelowThePoint) {

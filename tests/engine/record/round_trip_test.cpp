@@ -63,6 +63,73 @@ TEST_P(RoundTrip, EveryTypeComesBackToTheBit) {
 
 INSTANTIATE_TEST_SUITE_P(Compressions, RoundTrip, ::testing::Values("zstd", "lz4", "none"));
 
+TEST(RoundTrip, MessagesInAnotherOrderAreReadInTheOrderOfTheirStamps) {
+  // As merged logs and other writers leave them. Two have one stamp: they keep the file's order.
+  const TemporaryFile file;
+  const std::int64_t stamps_ns[] = {300, 100, 700, 200, 700, 0, 600};
+  SignalBus bus;
+  auto shuffled = bus.advertise<RangeSample>("rover/shuffled", "test");
+  auto sorted = bus.advertise<RangeSample>("rover/sorted", "test");
+  {
+    RecorderOptions options;
+    options.chunk_bytes = 200;  // several chunks
+    Recorder recorder(file.path(), options, {});
+    for (const auto& signal : bus.signals()) recorder.add_signal(*signal, Duration{0});
+    RangeSample sample;
+    for (int i = 0; i < 7; ++i) {
+      sample.range_m = i;
+      shuffled.write(Time{stamps_ns[i]}, sample);
+      sorted.write(Time{100 * i}, sample);
+      recorder.record(Time{1000 + i});
+    }
+    recorder.finish();
+  }
+  const LogReader log(file.path());
+  std::vector<std::pair<std::int64_t, double>> read;
+  const auto keep = [&](Time stamp, const RangeSample& sample) {
+    read.emplace_back(stamp.ns, sample.range_m);
+  };
+  log.read<RangeSample>("/rover/sorted", keep);
+  EXPECT_EQ(read.size(), 7u);
+  EXPECT_TRUE(log.info().warnings.empty());
+  for (int i = 0; i < 2; ++i) {
+    read.clear();
+    log.read<RangeSample>("/rover/shuffled", keep);
+    const std::vector<std::pair<std::int64_t, double>> wanted = {
+        {0, 5}, {100, 1}, {200, 3}, {300, 0}, {600, 6}, {700, 2}, {700, 4}};
+    EXPECT_EQ(read, wanted);
+  }
+  ASSERT_EQ(log.info().warnings.size(), 1u);
+  EXPECT_EQ(
+      log.info().warnings[0],
+      file.path().string() +
+          ": the messages of topic '/rover/shuffled/exact' are not in the order of their stamps; "
+          "they were sorted");
+  EXPECT_EQ(log.info().damaged, 0u);
+}
+
+TEST(RoundTrip, AStampOfNoTimeIsLeftOut) {
+  const TemporaryFile file;
+  SignalBus bus;
+  auto range = bus.advertise<RangeSample>("rover/range", "test");
+  {
+    Recorder recorder(file.path(), {}, {});
+    recorder.add_signal(*bus.find("rover/range"), Duration{0});
+    for (const std::int64_t stamp_ns : {std::int64_t{5}, std::int64_t{-1}, std::int64_t{6}}) {
+      range.write(Time{stamp_ns}, RangeSample{});
+      recorder.record(Time{10});
+    }
+    recorder.finish();
+  }
+  const LogReader log(file.path());
+  std::vector<std::int64_t> stamps_ns;
+  log.read<RangeSample>("/rover/range",
+                        [&](Time t, const RangeSample&) { stamps_ns.push_back(t.ns); });
+  EXPECT_EQ(stamps_ns, (std::vector<std::int64_t>{5, 6}));
+  EXPECT_EQ(log.info().damaged, 1u);
+  EXPECT_NE(log.info().warnings.back().find("message 2 of topic"), std::string::npos);
+}
+
 TEST(RoundTrip, SpecialNumbersComeBackToTheBit) {
   const TemporaryFile file;
   const double special[] = {

@@ -88,6 +88,22 @@ TEST(Imu, ItsMeansAreThoseOfASlowMotion) {
   }
 }
 
+// The first reading tells the moment: what the centre of mass feels and, on a lever r, the turn's
+// w x (w x r), which points to the axis.
+TEST(Imu, TheFirstReadingHasTheLeverArmsCentripetalForce) {
+  Rig rig("imu",
+          silent({{"position_m", std::vector<double>{0.4, -0.1, 0.2}},
+                  {"rotation_deg", std::vector<double>{0.0, 0.0, 90.0}}}),
+          100.0);
+  rig.bench.vehicle.specific_force = {1.0, 2.0, 9.0};
+  Odometry truth;
+  truth.w_WB_B = {0.0, 0.0, 3.0};
+  const ImuSample& sample = rig.read(truth);
+  // In B: (1, 2, 9) - 9 (0.4, -0.1, 0); S looks along y of B, so f_S = (f_y, -f_x, f_z).
+  EXPECT_NEAR((sample.f_WS_S - Vector3d(2.0 + 0.9, -(1.0 - 3.6), 9.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((sample.w_WS_S - Vector3d(0, 0, 3.0)).norm(), 0.0, 1e-12);
+}
+
 TEST(Imu, GivenScaleErrorsAndMisalignmentsAreLinear) {
   Rig rig("imu",
           silent({{"gyro_scale_errors", std::vector<double>{0.01, 0.0, -0.02}},

@@ -1,7 +1,7 @@
 /// Coverage and overlap of pictures whose footprints are known in closed form.
 
-#include "engine/api/map.h"
 #include "engine/sim/coverage.h"
+#include "engine/api/map.h"
 
 #include <gtest/gtest.h>
 
@@ -72,6 +72,17 @@ TEST(Coverage, OverlapAheadIsOneLessStepByLength) {
   EXPECT_NEAR(number(map, "gsd_mean_m"), 0.1041666667, 1e-9);
   EXPECT_NEAR(number(map, "gsd_formula_error_max"), 0.0, 1e-12);
   EXPECT_TRUE(std::isnan(number(map, "side_overlap_mean"))) << "one lane has no neighbour";
+}
+
+TEST(Coverage, OverlapIsAShareOfTheEarlierPicture) {
+  // Half as high: half as long and wide, and within the first one.
+  std::vector<LaneShot> shots = {{picture(0, {0, 0, kHeight_m}, {}), 0},
+                                 {picture(1, {10, 0, 0.5 * kHeight_m}, {}), 0}};
+  const Polygon parcel = box(-20, -20, 20, 20);
+  EXPECT_NEAR(number(map_coverage(shots, {parcel, 1.0, 0.85}), "forward_overlap_min"), 0.25, 1e-12);
+  std::swap(shots[0].shot, shots[1].shot);
+  std::swap(shots[0].shot.index, shots[1].shot.index);
+  EXPECT_NEAR(number(map_coverage(shots, {parcel, 1.0, 0.85}), "forward_overlap_min"), 1.0, 1e-12);
 }
 
 TEST(Coverage, OverlapAtTheLimitCounts) {

@@ -77,6 +77,26 @@ TEST_F(ComposedFrame, ATopCameraLooksAtTheGivenPlace) {
   EXPECT_LT((pixel - Eigen::Vector2d(100, 25)).norm(), 1e-9);
 }
 
+TEST_F(ComposedFrame, ATopCameraShowsTheWholeOfAWorldOfMeshes) {
+  world_.terrain.reset();
+  MeshInstance hill;
+  hill.mesh = std::make_shared<TriangleMesh>(
+      TriangleMesh{{{0, 0, -30}, {100, 0, -20}, {100, 40, -20}, {0, 40, -30}},
+                   {{0, 1, 2}, {0, 2, 3}},
+                   {},
+                   {},
+                   {}});
+  hill.surface = SurfaceClass::kTerrain;
+  world_.meshes.push_back(hill);
+  const render::Camera placed = compose(top_camera()).camera;
+  for (const Eigen::Vector3d& corner :
+       {Eigen::Vector3d(0, 0, -30), Eigen::Vector3d(100, 40, -20), Eigen::Vector3d(0, 40, -30)}) {
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(render::project(placed, 200, 100, corner, pixel));
+    EXPECT_TRUE((pixel.array() >= 0.0).all() && pixel.x() <= 200.0 && pixel.y() <= 100.0) << pixel;
+  }
+}
+
 TEST_F(ComposedFrame, AScansEchoesStandWhereTheBeamsEnd) {
   LaserScan scan;
   scan.first_angle_rad = -0.5 * kPi;

@@ -21,13 +21,17 @@ TEST(Judge, LimitsAreInclusiveAndWhatWasNotMeasuredFails) {
   const std::map<std::string, std::map<std::string, double>> metrics{
       {"rover", {{"a_m", 1.0}, {"b", std::nan("")}}}};
   const auto verdicts = judge({criterion("rover.a_m", {}, 1.0), criterion("rover.a_m", 1.5, {}),
-                               criterion("rover.b", {}, 1e9)},
+                               criterion("rover.b", {}, 1e9), criterion("rover.b", -1e9, {}),
+                               criterion("rover.a_m", 1.0, {})},
                               metrics);
-  ASSERT_EQ(verdicts.size(), 3u);
+  ASSERT_EQ(verdicts.size(), 5u);
   EXPECT_TRUE(verdicts[0].met);
   EXPECT_FALSE(verdicts[1].met);
   EXPECT_EQ(verdicts[1].kind, "min");
   EXPECT_FALSE(verdicts[2].met);
+  EXPECT_FALSE(verdicts[3].met) << "not measured is not enough";
+  EXPECT_TRUE(verdicts[4].met);
+  EXPECT_EQ(sentence_of(verdicts[1]), "rover.a_m = 1 (at least 1.5)");
 }
 
 TEST(Judge, UnknownMetricsAreRefusedWithTheNearest) {

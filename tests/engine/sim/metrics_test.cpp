@@ -9,6 +9,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/math/angles.h"
 #include "engine/sim/metrics/path_deviation.h"
+#include "engine/sim/metrics/spread.h"
 #include "engine/sim/metrics/travel.h"
 #include "engine/sim/metrics/wheel_slip.h"
 #include "tests/support/no_alloc.h"
@@ -245,6 +246,83 @@ TEST(PathDeviation, ArcsToTheRightLieOnTheOtherSide) {
   bench.plan(path);
   bench.step();
   EXPECT_NEAR(bench.results().at("turn_deviation_max_m"), 1 - std::sqrt(0.75), 1e-15);
+}
+
+// alleys_driven asks for the whole alley: each tenth of the leg.
+PlannedPath one_leg(double length_m) {
+  PlannedPath path;
+  for (const double x : {0.0, length_m}) {
+    PathPoint point;
+    point.p_W = {x, 0, 0};
+    point.kind = x == 0.0 ? PathKind::kLeg : PathKind::kTransit;
+    point.alley = x == 0.0 ? 4 : -1;
+    path.points.push_back(point);
+  }
+  return path;
+}
+
+/// Along the leg of 20 m in steps of 15 cm. @returns alleys_driven
+double drive_leg(const std::vector<std::pair<double, double>>& pieces_m, double step_m = 0.15) {
+  Bench bench;
+  bench.start(make_path_deviation);
+  bench.drive(0.0, {pieces_m.front().first, 0}, 3.0);
+  bench.plan(one_leg(20.0));
+  double t_s = 0.0;
+  for (const auto& [from_m, to_m] : pieces_m) {
+    for (double x = from_m; x < to_m + 1e-9; x += step_m) {
+      bench.drive(t_s += 0.05, {x, 0.1}, 3.0);
+      bench.step();
+    }
+  }
+  return bench.results().at("alleys_driven");
+}
+
+TEST(PathDeviation, AnAlleyIsDrivenWhenAllOfItIs) {
+  EXPECT_EQ(drive_leg({{0.0, 20.0}}), 1.0);
+  EXPECT_EQ(drive_leg({{1.9, 18.1}}), 1.0) << "from its first tenth to its last";
+  EXPECT_EQ(drive_leg({{0.0, 17.9}}), 0.0) << "not to its end";
+  EXPECT_EQ(drive_leg({{2.1, 20.0}}), 0.0) << "not from its begin";
+  EXPECT_EQ(drive_leg({{18.0, 20.0}}), 0.0) << "its end alone";
+  EXPECT_EQ(drive_leg({{0.0, 12.0}, {8.0, 20.0}}), 1.0) << "in two goes";
+  EXPECT_EQ(drive_leg({{0.0, 20.0}}, 3.9), 1.0) << "looked at every 3.9 m: it passed the rest too";
+}
+
+TEST(PathDeviation, CuttingALegShortIsNoAlley) {
+  // Out along the alley and back half a metre beside; the vehicle turns back half way.
+  PlannedPath path;
+  for (const auto& [x, y] :
+       {std::pair{0.0, 0.0}, std::pair{20.0, 0.0}, std::pair{20.0, 0.5}, std::pair{0.0, 0.5}}) {
+    PathPoint point;
+    point.p_W = {x, y, 0};
+    point.kind = PathKind::kLeg;
+    point.alley = 4;
+    path.points.push_back(point);
+  }
+  for (const double turns_at_m : {10.0, 20.0}) {
+    Bench bench;
+    bench.start(make_path_deviation);
+    bench.drive(0.0, {0, 0}, 3.0);
+    bench.plan(path);
+    for (double x = 0.0; x < turns_at_m + 1e-9; x += 0.2) {
+      bench.drive(x, {x, 0.0}, 3.0);
+      bench.step();
+    }
+    for (double x = turns_at_m; x > -1e-9; x -= 0.2) {
+      bench.drive(100.0 - x, {x, 0.5}, 3.0);
+      bench.step();
+    }
+    EXPECT_EQ(bench.results().at("alleys_driven"), turns_at_m == 20.0 ? 1.0 : 0.0);
+  }
+}
+
+TEST(Spread, KeepsANaN) {
+  Spread spread;
+  spread.add(-2.0);
+  EXPECT_EQ(spread.max_or_nan(), 2.0);
+  spread.add(std::numeric_limits<double>::quiet_NaN());
+  spread.add(3.0);
+  EXPECT_TRUE(std::isnan(spread.max_or_nan()));
+  EXPECT_TRUE(std::isnan(spread.rms()));
 }
 
 TEST(Travel, TellsPowerBatteryLifeAndDisplacement) {

@@ -50,7 +50,22 @@ criteria:
 
 class MissionRun : public test::RunFixture {
  protected:
-  MissionRun() : RunFixture(kScenario, test::mission_registry()) {}
+  MissionRun() : RunFixture(kScenario, test::mission_registry()) {
+    PartSpec flyer;
+    flyer.name = "flyer";
+    flyer.description = "for tests";
+    registry_.add_vehicle(flyer, [](const ParameterSet&, const VehicleContext&) {
+      return std::make_unique<test::Statue>(0.0, true);
+    });
+  }
+  /// When a vehicle's controller last wrote.
+  Time last_work(const std::string& vehicle) const {
+    Time last{-1};
+    record::LogReader(folder_ / "log.mcap")
+        .read<NamedValues>("/" + vehicle + "/map_rows",
+                           [&](Time t, const NamedValues&) { last = t; });
+    return last;
+  }
   /// State, begin and end of every phase: "survey succeeded 0.0-2.0".
   static std::vector<std::string> told(const RunResult& result) {
     std::vector<std::string> lines;
@@ -138,6 +153,21 @@ TEST_F(MissionRun, AnAbortStopsWhatRuns) {
                                 "phases.spray.on_failure=abort", "drone.controller.work_s=6"});
   EXPECT_EQ(told(result)[3], "scout stopped 5.00-7.00");
   EXPECT_EQ(phase(result, "scout").reason, "'spray' failed, which ends the mission");
+}
+
+TEST_F(MissionRun, WhatFailsInTheAirIsLeftToItsController) {
+  // The scout's timeout is at 6 s, the rover works until 9 s.
+  const std::vector<std::string> late = {"drone.controller.work_s=1000",
+                                         "phases.scout.timeout_s=1"};
+  std::vector<std::string> flies = late;
+  flies.push_back("drone.type=flyer");
+  EXPECT_EQ(told(run(flies))[3], "scout failed 5.00-6.00");
+  EXPECT_GT(last_work("drone").s(), 8.9) << "it is not parked in mid-air";
+  EXPECT_EQ(told(run(late))[3], "scout failed 5.00-6.00");
+  EXPECT_LT(last_work("drone").s(), 6.01) << "what stands on the ground is";
+  // What has finished, or lies on the ground, is parked, whether it flies or not.
+  EXPECT_EQ(told(run({"drone.type=flyer"}))[3], "scout succeeded 5.00-6.00");
+  EXPECT_LT(last_work("drone").s(), 6.01);
 }
 
 TEST_F(MissionRun, ACrashLeavesTheOthersAtWork) {

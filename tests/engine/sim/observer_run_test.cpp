@@ -58,7 +58,9 @@ class ObserverRun : public test::RunFixture {
   ObserverRun() : RunFixture(kScenario) {
     PartSpec beside;
     beside.name = "beside";
-    beside.parameters = {number_parameter("offset_m", "m", 0.0, -10.0, 10.0, "to the east")};
+    beside.parameters = {
+        number_parameter("offset_m", "m", 0.0, -10.0, 10.0, "to the east"),
+        choice_parameter("heading", "gyro", {"gyro", "truth"}, "where it is from")};
     registry_.add_estimator(beside, [](const ParameterSet& parameters, const EstimatorContext&) {
       return std::make_unique<Beside>(parameters.number("offset_m"));
     });
@@ -98,6 +100,21 @@ TEST_F(ObserverRun, WritesUnderItsOwnNameAndIsJudgedByIt) {
     if (event.text == "looks on") told.push_back(event.source);
   });
   EXPECT_EQ(told, (std::vector<std::string>{"rover.estimator", "rover.observers.near"}));
+}
+
+TEST_F(ObserverRun, TheSummarySaysWhatAVehicleTakesFromTheTruth) {
+  const auto of_rover = [&](const std::string& set) {
+    run({set});
+    return summary()["estimation"]["rover"];
+  };
+  EXPECT_EQ(of_rover("rover.estimator.offset_m=0.5"),
+            (nlohmann::json{{"estimator", "beside"}, {"truth", nlohmann::json::array()}}));
+  EXPECT_EQ(of_rover("rover.estimator.heading=truth"),
+            (nlohmann::json{{"estimator", "beside"}, {"truth", {"heading"}}}));
+  EXPECT_EQ(of_rover("rover.estimator=null"),
+            (nlohmann::json{{"estimator", nullptr}, {"truth", {"state"}}}));
+  EXPECT_EQ(of_rover("rover.estimator={type: truth}"),
+            (nlohmann::json{{"estimator", "truth"}, {"truth", {"state"}}}));
 }
 
 TEST_F(ObserverRun, ChangesNothingForTheVehicle) {

@@ -88,6 +88,7 @@ TEST(SensorLog, HoldsLateAndLostFixesBesideTheirTruth) {
   std::filesystem::remove_all(folder);
   RunOptions options;
   options.out = folder;
+  options.pictures = false;
   run_scenario(io::parse_scenario(R"(
 vinerow: 1
 name: sensor_log

@@ -80,11 +80,13 @@ class Statue final : public Vehicle {
 /// A straight path of 2 m, and a tree of one branch where `reports` says so.
 class StraightAhead final : public Planner {
  public:
-  explicit StraightAhead(const ParameterSet& parameters) : reports_(parameters.boolean("reports")) {
+  explicit StraightAhead(const ParameterSet& parameters)
+      : reports_(parameters.boolean("reports")), refuses_(parameters.boolean("refuses")) {
     report_.numbers = {{"nodes", 42.0}, {"clearance_m", 0.25}};
     report_.tree.points_W = {{0, 0, 0}, {1, 0, 0}};
   }
   Result<PlannedPath> plan(const Pose& start) override {
+    if (refuses_) return Failure{"there is no way"};
     PlannedPath path;
     path.points.resize(2);
     path.points[0].p_W = start.p;
@@ -96,6 +98,7 @@ class StraightAhead final : public Planner {
 
  private:
   bool reports_;
+  bool refuses_;
   PlanReport report_;
 };
 
@@ -151,7 +154,8 @@ inline Registry small_registry() {
       spec("one_sheet", {boolean_parameter("has_meshes", true, "whether it has row meshes")}),
       make_one_sheet);
   registry.add_planner(
-      spec("straight_ahead", {boolean_parameter("reports", true, "whether it keeps a report")}),
+      spec("straight_ahead", {boolean_parameter("reports", true, "whether it keeps a report"),
+                              boolean_parameter("refuses", false, "whether it finds no path")}),
       [](const ParameterSet& parameters, const PlannerContext&) {
         return std::make_unique<StraightAhead>(parameters);
       });

@@ -24,15 +24,19 @@ class RunFixture : public FolderTest {
   RunResult run(const std::vector<std::string>& sets = {}) {
     io::Overrides overrides;
     overrides.sets = sets;
-    RunOptions options;
-    options.out = folder_;
-    return run_scenario(io::parse_scenario(yaml_, ".", registry_, overrides), registry_, options);
+    options_.out = folder_;
+    return run_scenario(io::parse_scenario(yaml_, ".", registry_, overrides), registry_, options_);
   }
   nlohmann::json summary() const {
     return nlohmann::json::parse(std::ifstream(folder_ / "summary.json"));
   }
 
   Registry registry_;
+  RunOptions options_ = [] {
+    RunOptions options;
+    options.pictures = false;
+    return options;
+  }();
 
  private:
   std::string yaml_;

@@ -225,6 +225,18 @@ WorldModel windy_world() {
   return world;
 }
 
+TEST(FixedWingFlight, TellsWhatItIsInTheAirWhereItStarts) {
+  const auto describe = [](double altitude_m) {
+    WorldModel world = make_flat_world();
+    world.origin.altitude_m = altitude_m;
+    return *WingRig(plain_params(), std::move(world)).vehicle.description().fixed_wing;
+  };
+  const FixedWingAircraft low = describe(0.0), high = describe(1'000.0);
+  EXPECT_EQ(low.air_density_kgm3, 1.225);
+  EXPECT_NEAR(high.air_density_kgm3, 1.1117, 1e-4);  // US Standard Atmosphere 1976, table I
+  EXPECT_NEAR(high.stall_speed_mps / low.stall_speed_mps, std::sqrt(1.225 / 1.1117), 1e-4);
+}
+
 TEST(FixedWingFlight, SameInputsGiveTheSameBitsInWind) {
   const auto end = [] {
     WingRig rig(plain_params(), windy_world());

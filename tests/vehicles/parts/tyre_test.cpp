@@ -55,6 +55,38 @@ TEST(Tyre, PureSideSlipEqualsClosedForm) {
   }
 }
 
+// Lateral friction mu_y = ratio mu: the curve saturates at its own friction, N mu_y (1 - exp(-c
+// sigma / mu_y)), and what pulls forward keeps mu.
+TEST(Tyre, SideSlipOfATyreThatGripsLessSidewaysEqualsClosedForm) {
+  for (const double ratio : {0.5, 1.4}) {
+    const Tyre tyre(TyreParams{.lateral_friction_ratio = ratio}, kRadius);
+    const Soil soil;
+    const double spin = 5.0, v_roll = spin * kRadius;
+    for (const double angle : {0.01, 0.05, 0.2, 0.6}) {
+      const double v_y = v_roll * std::tan(angle);
+      const double mu_y = ratio * (0.65 + 0.10 * std::exp(-v_y * v_y));
+      const double expected = kLoad * mu_y * (1.0 - std::exp(-10.0 * std::tan(angle) / mu_y));
+      const Eigen::Vector2d force = settle(tyre, soil, v_roll, v_y, spin);
+      EXPECT_NEAR(force.y(), -expected, 1e-9 * kLoad) << "ratio " << ratio << ", angle " << angle;
+    }
+    const double mu = 0.65 + 0.10 * std::exp(-0.01);
+    EXPECT_NEAR(settle(tyre, soil, 0.9 * v_roll, 0.0, spin).x(),
+                kLoad * mu * (1.0 - std::exp(-15.0 * 0.1 / mu)), 1e-9 * kLoad);
+  }
+}
+
+// Full sliding at 45 degrees: the force lies on the ellipse of semi-axes mu and ratio mu. Each
+// bristle is stretched until v_s_i = Lambda_i xi_i, so F_i = -mu_i^2 v_i / |(mu_x v_x, mu_y v_y)|.
+TEST(Tyre, ALockedWheelSlidesOnItsFrictionEllipse) {
+  const double ratio = 0.6;
+  const Tyre tyre(TyreParams{.lateral_friction_ratio = ratio}, kRadius);
+  const Eigen::Vector2d force = settle(tyre, Soil{}, 3.0, 3.0, 0.0);
+  const double mu_x = 0.65, mu_y = ratio * 0.65;  // exp(-18) of Stribeck is left
+  const double size = std::hypot(mu_x * 3.0, mu_y * 3.0);
+  EXPECT_NEAR(force.x(), -kLoad * mu_x * mu_x * 3.0 / size, 1e-6 * kLoad);
+  EXPECT_NEAR(force.y(), -kLoad * mu_y * mu_y * 3.0 / size, 1e-6 * kLoad);
+}
+
 TEST(Tyre, SmallSlipForceBuildsUpOverTheRelaxationLength) {
   // Linear range: F(t) = F_end (1 - exp(-V t / L)).
   const Tyre tyre(TyreParams{.damping_time_s = 0.0}, kRadius);

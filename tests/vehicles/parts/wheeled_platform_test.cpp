@@ -173,6 +173,52 @@ TEST(WheeledPlatform, LoadsOnASlopeFollowStatics) {
   EXPECT_NEAR(along, weight * std::sin(angle), 1e-3 * weight);
 }
 
+TEST(WheeledPlatform, RestsWhereItIsSetDownOnASlope) {
+  for (const double angle_deg : {8.0, 20.0, 33.0}) {
+    for (const double yaw_deg : {0.0, 35.0, 90.0, 180.0, 200.0}) {
+      const double angle = rad_from_deg(angle_deg), yaw = rad_from_deg(yaw_deg);
+      Rig rig(make_slope_world(angle), rover_params(), 0.0, 0.0, yaw);
+      const Eigen::Vector3d start_W = rig.body().X_WB.p;
+      rig.step();
+      // Statics of the whole at once: weight along the slope's normal, moments about the contacts.
+      const double weight = 180.0 * kGravity;
+      const auto out = rig.platform.outputs();
+      EXPECT_NEAR(rig.total_load_N(), weight * std::cos(angle), 1e-3 * weight);
+      const double ends = out[2].load_N + out[3].load_N - out[0].load_N - out[1].load_N;
+      const double sides = out[1].load_N + out[3].load_N - out[0].load_N - out[2].load_N;
+      // The body leans downhill on its struts, which adds W cos(a) h to the moment per radian.
+      const double moment_N = 2.0 * weight * std::sin(angle) * 0.38;
+      const auto leaning = [&](double half_m) {
+        return 1.0 / (1.0 - weight * std::cos(angle) * 0.38 / (4.0 * 20000.0 * half_m * half_m));
+      };
+      if (std::fmod(yaw_deg, 90.0) == 0.0) {
+        EXPECT_NEAR(ends, moment_N * std::cos(yaw) / 1.5 * leaning(0.75), 0.015 * moment_N);
+        EXPECT_NEAR(sides, moment_N * -std::sin(yaw) / 1.0 * leaning(0.5), 0.015 * moment_N);
+      }
+      double moved = 0.0;
+      for (int i = 0; i < 1000; ++i) {
+        rig.step();
+        moved = std::max(moved, (rig.body().X_WB.p - start_W).norm());
+      }
+      EXPECT_LT(moved, 2e-5) << angle_deg << " deg, yaw " << yaw_deg;
+    }
+  }
+}
+
+TEST(WheeledPlatform, RefusesAStepThatItsWheelsAreNotMadeFor) {
+  WheeledPlatform platform(rover_params());
+  WorldModel model = make_flat_world();
+  physics::PhysicsWorld world(settings_with_step(25'000'000), model);
+  try {
+    platform.spawn(world, pose_on_ground(model, 0.0, 0.0, 0.0, 0.38));
+    FAIL() << "25 ms is taken";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "rover: physics.step_s = 0.025 s is too long for its wheels, which are valid to "
+                 "0.0025 s");
+  }
+}
+
 TEST(WheeledPlatform, BrakingMovesLoadToTheFront) {
   Rig rig(make_flat_world(), rover_params());
   rig.command(5.0, 5.0);

@@ -38,10 +38,10 @@ inline WorldModel make_box_rows(const std::vector<BoxRow>& boxes) {
   for (const BoxRow& box : boxes) {
     const int id = 10 + static_cast<int>(world.rows->rows.size());
     world.rows->rows.push_back({id,
-                               {{box.from_x_m, box.y_m, 0.0}, {box.to_x_m, box.y_m, 0.0}},
-                               2.0 * box.half_width_m,
-                               box.base_m,
-                               box.top_m});
+                                {{box.from_x_m, box.y_m, 0.0}, {box.to_x_m, box.y_m, 0.0}},
+                                2.0 * box.half_width_m,
+                                box.base_m,
+                                box.top_m});
     world.meshes.push_back(
         make_box("row",
                  Eigen::Vector3d(0.5 * (box.to_x_m - box.from_x_m), box.half_width_m,
@@ -75,7 +75,7 @@ inline const Registry& vehicle_registry() {
 
 struct PayloadRig {
   PayloadRig(const std::string& type, WorldModel model, const PayloadValues& values = {},
-             std::uint64_t seed = 1, const RowMap* map = nullptr)
+             std::uint64_t seed = 1, const RowMap* map = nullptr, double rate_Hz = 0.0)
       : world(std::move(model)), scene(world) {
     const PartSpec& spec = vehicle_registry().spec(PartKind::kPayload, type);
     ParameterSet parameters(spec.parameters, type);
@@ -85,7 +85,7 @@ struct PayloadRig {
     context.part = "rover.p";
     context.name = "p";
     context.seed = seed;
-    period = period_of_rate(spec.default_rate_Hz);
+    period = period_of_rate(rate_Hz > 0.0 ? rate_Hz : spec.default_rate_Hz);
     context.period = period;
     context.scene = &scene;
     context.world = &world;

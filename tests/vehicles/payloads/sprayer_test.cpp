@@ -74,6 +74,35 @@ TEST(Sprayer, DepositsFlowOverSpeedAndHeight) {
   }
 }
 
+// What a nozzle gives off in a tick comes out along the way since the last one: the middle of a
+// tick's deposit lies half that way behind the nozzle, and on by how far drops fly with it, which
+// is the same in a tick a hundredth as long.
+TEST(Sprayer, ATicksPortionsLieBehindTheNozzle) {
+  const auto middle_x_m = [](double rate_Hz) {
+    PayloadRig rig("sprayer", make_box_rows(high_walls()),
+                   ideal({{"row_reach_m", 3.0},
+                          {"rays_per_nozzle", std::int64_t{100}},
+                          {"spray_half_angle_deg", 1.0}}),
+                   1, nullptr, rate_Hz);
+    rig.tick(15.0, 0.0, 0.0, 1.0);  // valves open
+    const auto moment = [&] {
+      double ml = 0.0, x_ml = 0.0;
+      for (const CanopyPatch& patch : rig.patches()) {
+        ml += patch.amount * patch.area_m2;
+        x_ml += patch.amount * patch.area_m2 * patch.p_W.x();
+      }
+      return Eigen::Vector2d(ml, x_ml);
+    };
+    const Eigen::Vector2d before = moment();
+    rig.tick(15.0, 0.0, 0.0, 1.0);
+    const Eigen::Vector2d tick = moment() - before;
+    return tick.y() / tick.x();
+  };
+  // 1 m/s: half of 1 s is 0.5 m, half of 0.01 s 5 mm. Patches are 0.25 m long and share a drop
+  // linearly, which keeps its place.
+  EXPECT_NEAR(middle_x_m(1.0) - middle_x_m(100.0), -0.495, 0.01);
+}
+
 TEST(Sprayer, TwoPassesAddUp) {
   PayloadRig rig("sprayer", make_box_rows(high_walls()), ideal({{"row_reach_m", 3.0}}));
   rig.pass(-1.0, 31.0, 0.0, 1.0);

@@ -194,6 +194,22 @@ TEST(QuadrotorFlight, DriftsWithTheWind) {
   EXPECT_NEAR(rig.body().v_WB_W.x(), -4.0, 0.05);
 }
 
+TEST(QuadrotorFlight, TellsTheThrustThatItsRotorsHaveWhereItStarts) {
+  WorldModel world = make_flat_world();
+  world.wind.air_density_kgm3 = 0.98;  // 0.8 of what the coefficients hold for
+  QuadrotorRig rig(without_air(), std::move(world));
+  const Rotorcraft& craft = *rig.vehicle.description().rotorcraft;
+  EXPECT_DOUBLE_EQ(craft.thrust_coefficient_Ns2, 0.8 * rig.params.rotor.thrust_coefficient_Ns2);
+  EXPECT_DOUBLE_EQ(craft.torque_coefficient_Nms2, 0.8 * rig.params.rotor.torque_coefficient_Nms2);
+  // What a controller takes for hovering by that hovers.
+  const double hover_radps =
+      std::sqrt(rig.params.mass_kg * kGravity / 4.0 / craft.thrust_coefficient_Ns2);
+  rig.fly(50.0, hover_radps);
+  rig.actuate(hover_radps);
+  rig.run(1.0);
+  EXPECT_NEAR(rig.body().v_WB_W.z(), 0.0, 1e-9);
+}
+
 TEST(QuadrotorFlight, ThinAirCarriesLess) {
   WorldModel world = make_flat_world();
   world.wind.air_density_kgm3 = 0.98;  // 0.8 of what the coefficients hold for

@@ -121,6 +121,23 @@ TEST(WindProbe, TellsTheDensityOfTheStandardAtmosphere) {
   EXPECT_NEAR(high.air_density_kgm3(), 0.73643, 0.6e-4);
 }
 
+TEST(WindProbe, AConstantAtmosphereIsTheStandardsWhereTheWorldIs) {
+  WindRig rig(west_wind(0.0));
+  EXPECT_EQ(rig.probe->air_density_kgm3(), 1.225);
+  EXPECT_TRUE(rig.probe->calm());
+  // Table I at 1000 m and 5000 m; the same at every height above.
+  for (const auto& [altitude_m, density] : {std::pair{1'000.0, 1.1117}, {5'000.0, 0.73643}}) {
+    rig.world.origin.altitude_m = altitude_m;
+    WindProbe probe(rig.world, rig.scene, RandomStream(1, "drone", "wind"));
+    EXPECT_NEAR(probe.air_density_kgm3(), density, 0.6e-4 * density);
+    probe.sample({}, {0, 0, 300.0}, Vector3d::Zero(), kStep);
+    EXPECT_NEAR(probe.air_density_kgm3(), density, 0.6e-4 * density);
+  }
+  rig.world.wind.air_density_kgm3 = 1.1;
+  EXPECT_EQ(WindProbe(rig.world, rig.scene, RandomStream(1, "drone", "wind")).air_density_kgm3(),
+            1.1);
+}
+
 TEST(WindProbe, BlowsFromWhereItIsSaid) {
   // From north-east (45 deg clockwise from north): to the south-west.
   Wind wind = west_wind(2.0);

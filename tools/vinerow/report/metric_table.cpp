@@ -46,16 +46,31 @@ constexpr Entry kMetrics[] = {
     {"turn_deviation_max_m", "largest distance from the plan in turns",
      "Largest distance from the plan's arcs in the turns", ""},
     {"planned_length_m", "length of the plan", "Length of the planned curve", ""},
-    {"alleys_driven", "alleys worked", "Legs that were seen to their last tenth", ""},
+    {"alleys_driven", "alleys worked", "Alleys whose leg was passed from begin to end", ""},
     // Clearance and contact.
-    {"min_clearance_m", "closest to plants and posts",
-     "Least true distance from the vehicle's box to canopy, posts and trunks (looked for within 3 "
-     "m)",
+    {"min_clearance_m", "closest to plants, posts and wires",
+     "Least true distance from the vehicle's box to canopy, posts, trunks and wires (looked for "
+     "within 3 m)",
      ""},
     {"contact_count", "touches",
-     "Touches of canopy, posts, trunks, obstacles and vehicles; less than 0.5 s apart count as one",
+     "Touches of canopy, posts, trunks, wires, obstacles and vehicles; less than 0.5 s apart count "
+     "as one",
      ""},
     {"canopy_contact_count", "touches of leaves", "Touches that brushed canopy alone", ""},
+    // Place between the true rows.
+    {"alley_offset_mean_m", "mean distance to the left of the alley's middle",
+     "Mean of the signed distance from the middle between the true walls of the alley, positive to "
+     "the left of its own direction: shows a map that lies beside the vineyard",
+     ""},
+    {"alley_offset_rms_m", "typical distance from the alley's middle",
+     "Root mean square of the distance from the middle between the true walls of the alley", ""},
+    {"alley_offset_max_m", "largest distance from the alley's middle",
+     "Largest distance from the middle between the true walls of the alley", ""},
+    {"alley_height_min_m", "least height between the rows",
+     "Least height above the true ground between the true rows", ""},
+    {"alley_height_max_m", "largest height between the rows",
+     "Largest height above the true ground between the true rows", ""},
+    {"alleys_passed", "alleys passed", "True alleys passed from end to end", ""},
     // Wheels.
     {"slip_rms", "typical wheel slip",
      "Root mean square over all wheels of the slip along their rolling direction, (Rω - v) / "
@@ -231,10 +246,14 @@ constexpr Entry kMetrics[] = {
     {"rows_true", "true rows", "Rows that stand in the vineyard", ""},
     {"rows_extra", "rows that are none", "Rows of the map where no true one stands", ""},
     {"containment_share", "canopy inside the meshes",
-     "Share of the canopy's points within 1 cm of the map's meshes", "paper A, §3"},
+     "Share of the canopy's points within 1 cm of the map's meshes, whose sides are moved outward "
+     "until it is 0.985: says whether that setting was kept",
+     "paper A, §3"},
     {"reduction_share", "data saved by the map",
      "Share of the cloud's bytes that the map does without", "paper A, §3"},
-    {"mesh_MB", "size of the meshes", "Bytes of the map's meshes", "paper A, §3"},
+    {"mesh_MB", "size of the meshes",
+     "Bytes of the map's meshes; follows from the bytes per metre of row that they are allowed",
+     "paper A, §3"},
     {"direction_error_deg", "error of the rows' direction",
      "Largest angle between a row on the map and the true one", ""},
     {"spacing_error_m", "error of the distance between rows",

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
+#include <functional>
 
-#include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "tools/vinerow/report/action_plots.h"
 #include "tools/vinerow/report/canopy_strips.h"
 #include "tools/vinerow/report/estimate_plots.h"
@@ -35,6 +35,7 @@ struct Chapter {
 
 /// All that chapters are made of.
 struct PageMaterial {
+  std::function<void()> step = [] {};  ///< called before what takes time
   RunFolder run;
   std::vector<VehicleLog> vehicles;
   std::vector<Track> tracks;
@@ -42,14 +43,27 @@ struct PageMaterial {
   int picture_width = 1280;
 };
 
-PageMaterial read_material(const std::filesystem::path& folder, const Registry& registry) {
+/// Calls of PageMaterial::step for a page.
+int steps_for(std::size_t vehicles) {
+  return 6 + static_cast<int>(vehicles);
+}
+
+PageMaterial read_material(const std::filesystem::path& folder, const Registry& registry,
+                           const std::function<void(int done, int total)>& progress) {
   PageMaterial m;
   m.run = read_run_folder(folder, registry);
+  if (progress) {
+    m.step = [&progress, done = 0, total = steps_for(m.run.vehicles.size())]() mutable {
+      progress(done++, total);
+    };
+  }
+  m.step();
   m.vehicles = read_vehicles(m.run);
   for (const VehicleLog& vehicle : m.vehicles) m.tracks.push_back(make_track(vehicle));
   m.frames = frame_pictures(m.run);
   m.coverage = coverage_pictures(m.run);
   m.products = product_pictures(m.run);
+  m.step();
   std::vector<Picture> all = m.frames;
   for (const auto* more : {&m.coverage, &m.products})
     all.insert(all.end(), more->begin(), more->end());
@@ -101,6 +115,7 @@ std::string time_lines(const PageMaterial& m) {
 }
 
 std::string first_screen(const PageMaterial& m) {
+  m.step();
   const std::string description = m.run.scenario ? m.run.scenario->description : "";
   std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n",
                                 escaped(title_of(m.run.text("scenario"))), escaped(description));
@@ -109,6 +124,7 @@ std::string first_screen(const PageMaterial& m) {
 }
 
 std::string map_chapter(const PageMaterial& m) {
+  m.step();
   const auto whole = whole_view(m.run, m.vehicles);
   if (!whole) return "";
   MapStyle style;
@@ -167,6 +183,7 @@ std::string plots_chapter(const PageMaterial& m) {
   wide.width = 1200;
   out += figure(separation, wide);
   for (std::size_t i = 0; i < m.vehicles.size(); ++i) {
+    m.step();
     const VehicleLog& vehicle = m.vehicles[i];
     std::string figures = way_figures(m, vehicle, m.tracks[i]);
     for (const LinePlot& plot : motion_plots(m.run, vehicle, m.tracks[i])) figures += figure(plot);
@@ -180,6 +197,7 @@ std::string plots_chapter(const PageMaterial& m) {
 }
 
 std::string pictures_chapter(const PageMaterial& m) {
+  m.step();
   const Picture* hero = hero_picture(m.run, m.vehicles, m.frames);
   std::string out;
   for (const auto* pictures : {&m.coverage, &m.products, &m.frames}) {
@@ -198,7 +216,9 @@ std::string pictures_chapter(const PageMaterial& m) {
 }
 
 /// The run in three dimensions, to orbit, scrub and follow.
-std::string replay_chapter(const RunFolder& run) {
+std::string replay_chapter(const PageMaterial& m) {
+  const RunFolder& run = m.run;
+  m.step();
   if (!run.log || !run.world) return "";
   const LogTrace trace = read_trace(*run.log, run.vehicles);
   ReplayInput input{&*run.scenario, run.world.get(), &run.models, &trace, {}};
@@ -214,7 +234,7 @@ std::string page(const PageMaterial& m) {
       {"plots", "Plots", plots_chapter(m)},
       {"canopy", "Canopy", canopy_section(m.run)},
       {"pictures", "Pictures", pictures_chapter(m)},
-      {"replay", "Replay in three dimensions", replay_chapter(m.run)},
+      {"replay", "Replay in three dimensions", replay_chapter(m)},
       {"parameters", "Parameters and versions", facts(m.run)},
       {"timings", "Timings", timings(m.run)}};
   std::string out = fmt::format(
@@ -238,11 +258,12 @@ std::string page(const PageMaterial& m) {
 }  // namespace report
 
 void write_report(const std::filesystem::path& run_folder, const Registry& registry,
-                  const std::filesystem::path& out_file) {
-  const std::string page = report::page(report::read_material(run_folder, registry));
-  std::ofstream out(out_file, std::ios::binary);
-  out << page;
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", out_file.string()));
+                  const std::filesystem::path& out_file,
+                  const std::function<void(int done, int total)>& progress) {
+  const report::PageMaterial material = report::read_material(run_folder, registry, progress);
+  const std::string page = report::page(material);
+  write_whole_file(out_file, page);
+  if (progress) progress(1, 1);
 }
 
 }  // namespace vinerow::tools

@@ -34,6 +34,20 @@ std::string planning_table(const RunFolder& run) {
                    table({"vehicle", "number", "value", "unit"}, rows, "planning") + "</details>\n";
 }
 
+/// "its estimator error_state_kalman", "the true state: it has no estimator".
+std::string state_source(const Json& estimation) {
+  const auto estimator = estimation.find("estimator");
+  if (estimator == estimation.end() || !estimator->is_string()) {
+    return "the true state: it has no estimator";
+  }
+  if (*estimator == "truth") return "the true state, as its estimator 'truth' gives it";
+  std::string told = "its estimator " + estimator->get<std::string>();
+  for (const Json& of_truth : list_in(estimation, "truth")) {
+    told += ", with the true " + plain(of_truth);
+  }
+  return told;
+}
+
 }  // namespace
 
 std::string title_of(const std::string& scenario) {
@@ -53,6 +67,12 @@ std::string facts(const RunFolder& run) {
   for (const char* key : {"seed", "physics_step_s", "steps"}) {
     const auto found = run.summary.find(key);
     if (found != run.summary.end()) add(words_of(key), found->dump());
+  }
+  const auto estimation = run.summary.find("estimation");
+  if (estimation != run.summary.end() && estimation->is_object()) {
+    for (const auto& [vehicle, told] : estimation->items()) {
+      add(escaped(vehicle) + " acts on", state_source(told));
+    }
   }
   const auto versions = run.summary.find("versions");
   if (versions != run.summary.end() && versions->is_object()) {

@@ -110,9 +110,9 @@ Verdict make_verdict(const RunFolder& run) {
   const std::vector<Judged> criteria = all_criteria(run);
   std::vector<std::string> faults;
   for (const Json& crash : list_in(run.summary, "crashes")) {
-    faults.push_back(fmt::format("{} crashed after {}: {}", crash.value("vehicle", ""),
-                                 duration_text(number_of(crash.value("time_s", Json()))),
-                                 crash.value("text", "")));
+    faults.push_back(fmt::format(
+        "{} {} after {}: {}", crash.value("vehicle", ""), crash.value("kind", "crashed"),
+        duration_text(number_of(crash.value("time_s", Json()))), crash.value("text", "")));
   }
   for (std::string& told : phase_failures(run)) faults.push_back(std::move(told));
   std::size_t missed = 0;

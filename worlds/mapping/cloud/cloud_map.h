@@ -18,6 +18,7 @@ namespace vinerow::worlds {
 /// Of one row. Lengths in m along the row's line.
 struct MappedRowFigures {
   int row = 0;                                              ///< PlantRow::id
+  int block = 0;                                            ///< that it belongs to
   Eigen::Vector3d first_W = {0, 0, 0}, last_W = {0, 0, 0};  ///< the canopy's ends, on the ground
   double length_m = 0.0;
   double bearing_deg = 0.0;     ///< first to last point, clockwise from north
@@ -68,6 +69,10 @@ struct CloudMap {
   bool has_origin = false;
   RowMap map;  ///< rows, alleys, boundary, occupancy, meshes, accuracy, terrain
   CloudMapReport report;
+  /// Where the cloud holds several blocks of rows: each as a map of its own, its rows and alleys
+  /// counted from 0. `map` then has all of them, counted through, to look at and to measure: alleys
+  /// lie between rows of one block, and the grid has no virtual walls. Empty for one block.
+  std::vector<CloudMap> blocks;
 };
 
 }  // namespace vinerow::worlds

@@ -37,8 +37,8 @@ void check_options(const CloudMapOptions& options);
 
 /// @param cloud     gets a class for every point
 /// @param on_phase  called with each phase's name when it ends, or empty
-/// @returns the map with a report of everything but the file: file, format, crs, cloud_bytes,
-/// not_finite, reduction, phases and origin are the caller's
+/// @returns the map (CloudMap::blocks where there are several) with a report of everything but the
+/// file: file, format, crs, cloud_bytes, not_finite, reduction, phases and origin are the caller's
 /// @throws ConfigError in a sentence: no rows found (with what was seen instead), options that do
 /// not fit together
 CloudMap make_cloud_map(ParcelCloud& cloud, const CloudMapOptions& options,

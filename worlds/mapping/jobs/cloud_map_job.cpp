@@ -77,7 +77,9 @@ class CloudMapJob : public Job {
 
  private:
   JobOutcome make(const std::filesystem::path& file) const {
-    const CloudMap map = make_files(file);
+    const CloudMap made = make_files(file);
+    // Of several blocks the parcel's, or the one with the most metres of rows.
+    const CloudMap& map = made.blocks.empty() ? made : made.blocks.front();
     JobOutcome outcome;
     outcome.numbers = {
         {"points", static_cast<double>(map.report.points)},
@@ -87,14 +89,15 @@ class CloudMapJob : public Job {
         {"reduction_share", map.report.reduction},
         {"containment_share", map.report.containment},
     };
-    outcome.notes = map.report.notes;
+    outcome.notes = made.report.notes;
     if (std::filesystem::exists(truth_file_of(file))) {
       const CloudTruth truth = read_cloud_truth(truth_file_of(file));
       add_comparison(compare_with_truth(map, truth), outcome.numbers);
     }
     outcome.product.kind = ProductKind::kMap;
     outcome.product.file = context_.folder;
-    outcome.product.map = std::make_shared<RowMap>(told_map());
+    outcome.product.map = std::make_shared<RowMap>(
+        told_map(made.blocks.empty() ? context_.folder : block_folder(context_.folder, 0)));
     return outcome;
   }
 
@@ -111,13 +114,13 @@ class CloudMapJob : public Job {
   }
 
   /// From the folder, so that a run on the same folder later knows the same bits.
-  RowMap told_map() const {
+  RowMap told_map(const std::filesystem::path& folder) const {
     MapContext context;
     static_cast<PartContext&>(context) = context_;
     context.vehicle = context_.part;
     context.world = context_.world;
     context.scene = context_.scene;
-    return map_in_world(load_map(context_.folder), like_world_, context, context_.folder.string());
+    return map_in_world(load_map(folder), like_world_, context, folder.string());
   }
 
   const JobContext context_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "worlds/mapping/cloud/sampling/hidden_rows.h"
@@ -31,6 +33,11 @@ JobOutcome outcome_of(const WrittenCloud& written, const std::filesystem::path& 
                      {"mean_views", sampling.views_mean},
                      {"horizontal_noise_m", sampling.horizontal_noise_rms_m},
                      {"height_noise_m", sampling.height_noise_rms_m},
+                     {"georeference_shift_m",
+                      std::hypot(sampling.georeference_east_m, sampling.georeference_north_m)},
+                     {"georeference_height_m", sampling.georeference_up_m},
+                     {"georeference_tilt_deg", sampling.georeference_tilt_deg},
+                     {"georeference_turn_deg", sampling.georeference_turn_deg},
                      {"file_MB", 1e-6 * static_cast<double>(written.bytes)}};
   if (written.tally.missing > 0) {
     outcome.notes.push_back(

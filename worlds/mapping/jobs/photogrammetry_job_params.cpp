@@ -22,6 +22,7 @@ const ParameterTable<PhotogrammetryJobParams>& photogrammetry_job_table() {
                    between(1.0, 89.9), "of a view off the surface's normal")
           .degrees("min_baseline_deg", inside(&P::options, &Options::min_baseline_rad),
                    between(0.0, 179.0), "widest angle between a point's rays at least")
+          .include(inside(&P::options, &Options::georeference), georeference_table())
           .numbers("area_m", "m", &P::area_m, kAnyNumber,
                    "x and y of each corner, east and north of the origin, instead of the "
                    "world's parcel")

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "engine/core/error.h"
@@ -172,6 +173,198 @@ TEST(MakeCloudMap, GivesTheSameBitsTwice) {
   }
   EXPECT_EQ(one.map.occupancy.cells, two.map.occupancy.cells);
   EXPECT_EQ(a.classes, b.classes);
+}
+
+/// Points of another parcel, as if one flight had seen both.
+void add_cloud(const ParcelCloud& other, ParcelCloud& cloud) {
+  const Eigen::Vector3f shift = (other.origin_W - cloud.origin_W).cast<float>();
+  for (const Eigen::Vector3f& p : other.points) cloud.points.push_back(p + shift);
+}
+
+/// A crown from 1.5 to 6 m above level ground.
+void add_tree(const Eigen::Vector2d& middle_W, double radius_m, double ground_m,
+              ParcelCloud& cloud) {
+  RandomStream random(11, "", "tree");
+  for (int n = 0; n < static_cast<int>(400.0 * M_PI * radius_m * radius_m); ++n) {
+    const double turn = random.uniform(0.0, 2.0 * M_PI);
+    const double r = radius_m * std::sqrt(random.uniform(0.0, 1.0));
+    const Eigen::Vector3d p(middle_W.x() + r * std::cos(turn), middle_W.y() + r * std::sin(turn),
+                            ground_m + random.uniform(1.5, 5.9));
+    cloud.points.push_back((p - cloud.origin_W).cast<float>());
+  }
+}
+
+/// The row of a parcel that a mapped one lies on, -1 where it lies on none, and how far its ends
+/// are from the true ones.
+struct Match {
+  int row = -1;
+  double end_m = 0.0;
+};
+
+Match match(const PlantRow& row, const SyntheticParcel& parcel) {
+  const Eigen::Vector2d first = row.line_W.front().head<2>(), last = row.line_W.back().head<2>();
+  Match best;
+  best.end_m = 1e9;
+  for (int k = 0; k < parcel.rows; ++k) {
+    const Eigen::Vector2d a = parcel.place_W(k, 0.0, 0.0),
+                          b = parcel.place_W(k, parcel.length_m, 0.0);
+    const double end_m = std::min(std::max((first - a).norm(), (last - b).norm()),
+                                  std::max((first - b).norm(), (last - a).norm()));
+    if (end_m < best.end_m) best = {k, end_m};
+  }
+  if (best.end_m > 0.5 * parcel.spacing_m) best.row = -1;
+  return best;
+}
+
+/// Every row of the parcel is a row of the block, in order, and nothing else is.
+void expect_block(const CloudMap& block, const SyntheticParcel& parcel) {
+  ASSERT_EQ(block.map.rows.size(), static_cast<std::size_t>(parcel.rows));
+  ASSERT_EQ(block.map.alleys.size(), block.map.rows.size() - 1);
+  std::vector<int> rows;
+  for (const PlantRow& row : block.map.rows) {
+    const Match on = match(row, parcel);
+    const Eigen::Vector2d u = (parcel.place_W(0, 1.0, 0.0) - parcel.place_W(0, 0.0, 0.0));
+    EXPECT_LT(on.end_m, 0.3) << u.dot(row.line_W.front().head<2>() - parcel.place_W(0, 0.0, 0.0))
+                             << " to "
+                             << u.dot(row.line_W.back().head<2>() - parcel.place_W(0, 0.0, 0.0));
+    EXPECT_EQ(row.id, static_cast<int>(rows.size()));
+    rows.push_back(on.row);
+  }
+  const bool is_rising = rows.front() == 0;
+  for (int k = 0; k < parcel.rows; ++k) {
+    EXPECT_EQ(rows[static_cast<std::size_t>(k)], is_rising ? k : parcel.rows - 1 - k);
+  }
+  for (const Alley& alley : block.map.alleys) EXPECT_NEAR(alley.width_m, parcel.spacing_m, 0.02);
+}
+
+/// What a flight over several parcels sees: a block, another one behind a track of 7.5 m whose rows
+/// run 9 degrees off, a third at right angles to them and a tree at the ends of some rows.
+struct Estate {
+  SyntheticParcel first, behind, across;
+  ParcelCloud cloud;
+
+  Estate() {
+    first.rows = 12;
+    first.length_m = 60.0;
+    first.margin_m = 3.0;
+    behind = first;
+    behind.seed = 2;
+    behind.length_m = 50.0;
+    behind.angle_deg = first.angle_deg + 9.0;
+    behind.middle_W.head<2>() =
+        first.place_W(0, 60.0 + 7.5, 0.5 * 11.0 * first.spacing_m) + 25.0 * along(behind);
+    across = first;
+    across.seed = 3;
+    across.rows = 9;
+    across.length_m = 24.0;
+    across.spacing_m = 1.8;
+    across.angle_deg = first.angle_deg + 85.0;
+    across.middle_W.head<2>() = first.place_W(11, 30.0, 10.0 + 12.0);
+    cloud = test::make_synthetic_cloud(first).cloud;
+    add_cloud(test::make_synthetic_cloud(behind).cloud, cloud);
+    add_cloud(test::make_synthetic_cloud(across).cloud, cloud);
+    // Its crown begins 0.3 m behind the last vines of rows 4 to 7.
+    add_tree(first.place_W(5, -5.3, 0.5 * first.spacing_m), 5.0, first.middle_W.z(), cloud);
+  }
+  static Eigen::Vector2d along(const SyntheticParcel& parcel) {
+    return (parcel.place_W(0, 1.0, 0.0) - parcel.place_W(0, 0.0, 0.0)).normalized();
+  }
+};
+
+TEST(MakeCloudMap, BlocksOfAnEstateAreMapsOfTheirOwn) {
+  Estate estate;
+  CloudMapOptions options;
+  options.occupancy.cell_m = 0.2;
+  const CloudMap made = make_cloud_map(estate.cloud, options);
+  ASSERT_EQ(made.blocks.size(), 3u);
+  expect_block(made.blocks[0], estate.first);
+  expect_block(made.blocks[1], estate.behind);
+  expect_block(made.blocks[2], estate.across);
+
+  // The whole has all of them, counted through.
+  ASSERT_EQ(made.map.rows.size(), 12u + 12u + 9u);
+  ASSERT_EQ(made.map.alleys.size(), 11u + 11u + 8u);
+  ASSERT_EQ(made.report.rows.size(), made.map.rows.size());
+  double volume_m3 = 0.0;
+  std::size_t r = 0;
+  for (int b = 0; b < 3; ++b) {
+    const CloudMap& block = made.blocks[static_cast<std::size_t>(b)];
+    volume_m3 += block.report.volume_m3;
+    for (std::size_t k = 0; k < block.map.rows.size(); ++k, ++r) {
+      EXPECT_EQ(made.map.rows[r].id, static_cast<int>(r));
+      EXPECT_EQ(made.map.rows[r].line_W, block.map.rows[k].line_W);
+      EXPECT_EQ(made.report.rows[r].block, b);
+      EXPECT_EQ(made.report.rows[r].row, static_cast<int>(r));
+      EXPECT_EQ(made.report.rows[r].volume_m3, block.report.rows[k].volume_m3);
+    }
+    EXPECT_FALSE(block.map.occupancy.empty());
+    ASSERT_TRUE(block.map.terrain);
+  }
+  EXPECT_NEAR(made.report.volume_m3, volume_m3, 1e-9 * volume_m3);
+  for (const RowMesh& mesh : made.map.meshes) {
+    // Every mesh lies on the row that it is said to be of.
+    const PlantRow& row = made.map.rows[static_cast<std::size_t>(mesh.row)];
+    std::vector<Eigen::Vector2d> points;
+    for (const Eigen::Vector3d& p : row.line_W) points.push_back(p.head<2>());
+    double apart_m = 0.0;
+    RowCurve(std::move(points))
+        .nearest_s_m(mesh.mesh_W.vertices.front().head<2>().cast<double>(), &apart_m);
+    EXPECT_LT(apart_m, 1.0);
+  }
+  // And it says so, and what it has left out: the tree of 79 m2.
+  std::string notes;
+  for (const std::string& note : made.report.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("3 blocks of rows: block 0, 12 rows of 720 m in all, 67.0 deg from north, "
+                       "2.50 m apart; block 1, 12 rows of 600 m in all, 58.0 deg"),
+            std::string::npos)
+      << notes;
+  double area_m2 = 0.0;
+  const std::size_t at = notes.find("left out: ");
+  ASSERT_NE(at, std::string::npos) << notes;
+  area_m2 = std::stod(notes.substr(at + 10));
+  // Without what lies within reach of the rows' ends.
+  EXPECT_GT(area_m2, 55.0) << notes;
+  EXPECT_LT(area_m2, M_PI * 25.0 + 5.0) << notes;
+}
+
+TEST(MakeCloudMap, ABoundarySaysWhichBlockComesFirst) {
+  Estate estate;
+  CloudMapOptions options;
+  for (const double s_m : {-3.0, 27.0}) {
+    options.boundary_W.push_back(estate.across.place_W(0, s_m, -3.0));
+  }
+  for (const double s_m : {27.0, -3.0}) {
+    options.boundary_W.push_back(estate.across.place_W(8, s_m, 3.0));
+  }
+  const CloudMap made = make_cloud_map(estate.cloud, options);
+  ASSERT_EQ(made.blocks.size(), 3u);
+  expect_block(made.blocks[0], estate.across);
+  EXPECT_EQ(made.blocks[0].map.boundary_W, options.boundary_W);
+  EXPECT_NE(made.blocks[1].map.boundary_W, options.boundary_W);
+}
+
+TEST(MakeCloudMap, ThinCloudsKeepTheirRowsAndSaySo) {
+  for (const double density_per_m2 : {20.0, 31.0, 45.0}) {
+    SyntheticParcel parcel;
+    parcel.rows = 18;
+    parcel.length_m = 80.0;
+    parcel.density_per_m2 = density_per_m2;
+    parcel.noise_m = 0.03;
+    parcel.missing = 0.03;
+    ParcelCloud cloud = test::make_synthetic_cloud(parcel).cloud;
+    const CloudMap made = make_cloud_map(cloud, {});
+    SCOPED_TRACE(density_per_m2);
+    EXPECT_TRUE(made.blocks.empty());
+    ASSERT_EQ(made.map.rows.size(), 18u);
+    // To one vine: its points are some forty, of which half stand high enough.
+    for (const PlantRow& row : made.map.rows) EXPECT_LT(match(row, parcel).end_m, parcel.vine_m);
+    EXPECT_NEAR(made.report.spacing_m, 2.5, 0.02);
+    EXPECT_NEAR(made.report.bearing_deg, 67.0, 0.2);
+    const bool is_told = std::any_of(
+        made.report.notes.begin(), made.report.notes.end(),
+        [](const auto& note) { return note.find("the cloud is thin") != std::string::npos; });
+    EXPECT_TRUE(is_told);
+  }
 }
 
 TEST(MakeCloudMap, SaysWhatStandsThereWhereThereAreNoRows) {

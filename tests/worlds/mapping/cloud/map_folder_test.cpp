@@ -52,6 +52,7 @@ class MapFolder : public test::FolderTest {
 
 void expect_same(const MappedRowFigures& a, const MappedRowFigures& b) {
   EXPECT_EQ(a.row, b.row);
+  EXPECT_EQ(a.block, b.block);
   EXPECT_EQ(a.first_W, b.first_W);
   EXPECT_EQ(a.last_W, b.last_W);
   EXPECT_EQ(a.length_m, b.length_m);
@@ -163,7 +164,7 @@ TEST_F(MapFolder, WritesTheSameBytesAndNothingOfAnEarlierMap) {
     EXPECT_EQ(read(entry.path()), read(folder_ / "b" / fs::relative(entry.path(), folder_ / "a")))
         << entry.path();
   }
-  EXPECT_EQ(files, 6 + static_cast<int>(map.map.meshes.size()));
+  EXPECT_EQ(files, 7 + static_cast<int>(map.map.meshes.size()));
 
   CloudMap small = map;
   small.has_origin = false;

@@ -215,8 +215,17 @@ TEST_F(ReadCloud, TheSystemOfAFileCanBeReplaced) {
   read_parcel_cloud(file, options, report_);
   EXPECT_NEAR(deg_from_rad(report_.origin.longitude_rad), 15.5, 0.02);  // six degrees east of 9.5
   ASSERT_EQ(report_.sentences.size(), 1u);
+  // On the parallel of 45 degrees, of radius N cos 45 deg = 4517.6 km, six degrees are 472.2 km to
+  // the west and, as the parallel curves away from the tangent plane's east, 17.5 km to the north.
   EXPECT_EQ(report_.sentences[0],
-            "The coordinates were taken as EPSG:25833, as asked; the file names EPSG:25832.");
+            "The coordinates were taken as EPSG:25833, as asked; the file names EPSG:25832, which "
+            "puts them 473 km away.");
+  EXPECT_EQ(report_.crs_warning, report_.sentences[0]);
+  // The same system by another name is no conflict.
+  options.crs = "EPSG:3044";  // ETRS89 / UTM 32 with northing first, read as easting and northing
+  read_parcel_cloud(file, options, report_);
+  EXPECT_EQ(report_.crs_warning, "");
+  EXPECT_TRUE(report_.sentences.empty());
 }
 
 TEST_F(ReadCloud, StrayPointsAreLeftOut) {

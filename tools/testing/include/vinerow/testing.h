@@ -119,8 +119,8 @@ class SmallWorld {
                         const std::string& parameters = "");
 
   /// An estimator beside the one on which the vehicle acts.
-  SmallWorld& observer(const std::string& vehicle, const std::string& name,
-                       const std::string& type, const std::string& parameters = "");
+  SmallWorld& observer(const std::string& vehicle, const std::string& name, const std::string& type,
+                       const std::string& parameters = "");
   SmallWorld& observer(const std::string& vehicle, const std::string& name, PartSpec spec,
                        PartFactory<Estimator, EstimatorContext> make,
                        const std::string& parameters = "");
@@ -131,7 +131,7 @@ class SmallWorld {
                       PartFactory<Planner, PlannerContext> make,
                       const std::string& parameters = "");
 
-  /// Works for a controller: it runs only where the vehicle has one.
+  /// Works for a controller: a vehicle without one is refused.
   SmallWorld& guidance(const std::string& vehicle, const std::string& type,
                        const std::string& parameters = "");
   SmallWorld& guidance(const std::string& vehicle, PartSpec spec,

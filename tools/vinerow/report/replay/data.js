@@ -116,8 +116,11 @@
 
     /** Speed over the samples around t, m/s. */
     speedAt(at) {
-      const b = at.next === at.index ? at.index : at.next, a = Math.max(b - 1, 0);
-      if (a === b) return 0;
+      const b = at.next;
+      let a = Math.max(b - 1, 0);
+      // The last instant may be in the track twice: what is of one time tells no speed.
+      while (a > 0 && this.times[a] === this.times[b]) --a;
+      if (this.times[a] === this.times[b]) return 0;
       const p = this.positions;
       return Math.hypot(p[3 * b] - p[3 * a], p[3 * b + 1] - p[3 * a + 1], p[3 * b + 2] - p[3 * a + 2]) /
         (this.times[b] - this.times[a]);

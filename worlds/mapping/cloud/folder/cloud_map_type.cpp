@@ -150,6 +150,12 @@ std::unique_ptr<RowMap> make_map_of_folder(const ParameterSet& parameters,
   const CloudMapParams params = cloud_map_table().read(parameters, "");
   const auto read = keep<CloudMap>(context.shelf, file_mark(params.folder),
                                    [&] { return load_map(params.folder); });
+  if (const int blocks = count_blocks(*read); blocks > 1) {
+    throw ConfigError(fmt::format(
+        "map cloud_map: folder '{}' holds {} blocks of rows, must be one: give one block's map, "
+        "like '{}'",
+        params.folder.string(), blocks, block_folder(params.folder, 0).string()));
+  }
   RowMap map = map_in_world(*read, params.like_world, context, params.folder.string());
   const bool anew = params.occupancy_cell_m || params.virtual_walls || params.first_wall;
   if (anew) draw_grid_anew(params, map);

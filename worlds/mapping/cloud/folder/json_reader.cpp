@@ -31,6 +31,10 @@ JsonReader JsonReader::at(const std::string& key) const {
   return {*found, subject_, place_.empty() ? key : place_ + "." + key};
 }
 
+bool JsonReader::has(const std::string& key) const {
+  return value_.is_object() && value_.contains(key);
+}
+
 std::optional<JsonReader> JsonReader::optional_at(const std::string& key) const {
   const JsonReader found = at(key);
   if (found.value_.is_null()) return std::nullopt;

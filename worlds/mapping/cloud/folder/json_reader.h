@@ -20,6 +20,7 @@ class JsonReader {
 
   /// The value under a key of a mapping. @throws ConfigError where there is none
   JsonReader at(const std::string& key) const;
+  bool has(const std::string& key) const;
   /// Nothing where the value is null.
   std::optional<JsonReader> optional_at(const std::string& key) const;
   /// Entries of a list.

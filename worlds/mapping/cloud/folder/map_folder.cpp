@@ -6,10 +6,13 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/io/height_raster.h"
 #include "engine/io/ros_map.h"
+#include "worlds/mapping/cloud/folder/map_gis.h"
 #include "worlds/mapping/cloud/folder/map_json.h"
 #include "worlds/mapping/map_files.h"
 
@@ -17,12 +20,6 @@ namespace vinerow::worlds {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
-}
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -71,17 +68,36 @@ void check_size(const fs::path& folder, const char* file, const MapFiles::Grid& 
 
 }  // namespace
 
+fs::path block_folder(const fs::path& folder, int block) {
+  return folder / fmt::format("block_{}", block);
+}
+
+int count_blocks(const CloudMap& map) {
+  std::set<int> blocks;
+  for (const MappedRowFigures& row : map.report.rows) blocks.insert(row.block);
+  return static_cast<int>(blocks.size());
+}
+
 void save_map(const CloudMap& map, const fs::path& folder) {
   check_map(map, fmt::format("map '{}'", folder.string()));
   std::error_code error;
+  // Of an earlier map, until the first number that it did not have.
+  for (int k = 0; fs::exists(block_folder(folder, k) / "map.json", error); ++k) {
+    fs::remove_all(block_folder(folder, k), error);
+  }
+  for (const CloudMap& block : map.blocks) {
+    save_map(block, block_folder(folder, block.report.rows.front().block));
+  }
   fs::create_directories(folder, error);
   if (error) {
     throw ConfigError(fmt::format("folder '{}' cannot be made for the map: {}", folder.string(),
                                   error.message()));
   }
   // Until map.json is there again the folder is no map.
-  for (const char* file : {"map.json", "report.json", "terrain.tif", "occupancy.yaml",
-                           "occupancy.pgm", "rows.geojson", "points.json", "points.classes"}) {
+  for (const char* file :
+       {"map.json", "report.json", "terrain.tif", "occupancy.yaml", "occupancy.pgm", "rows.geojson",
+        "rows.csv", "points.json", "points.classes", "gis/dtm.tif", "gis/dsm.tif", "gis/chm.tif",
+        "gis/map.gpkg"}) {
     fs::remove(folder / file, error);
   }
   save_meshes(map.map.meshes, (folder / "meshes").string());
@@ -91,9 +107,10 @@ void save_map(const CloudMap& map, const fs::path& folder) {
                             folder / "terrain.tif");
   }
   if (!map.map.occupancy.empty()) io::save_ros_map(map.map.occupancy, folder / "occupancy.yaml");
-  if (map.has_origin) write_text(folder / "rows.geojson", map_to_geojson(map));
-  write_text(folder / "report.json", report_to_json(map.report));
-  write_text(folder / "map.json", map_to_json(map));
+  if (map.has_origin) write_whole_file(folder / "rows.geojson", map_to_geojson(map));
+  write_whole_file(folder / "rows.csv", rows_to_csv(map));
+  write_whole_file(folder / "report.json", report_to_json(map.report));
+  write_whole_file(folder / "map.json", map_to_json(map));
 }
 
 CloudMap load_map(const fs::path& folder) {

@@ -7,7 +7,10 @@
 ///     terrain.tif      ground, GeoTIFF (height_raster.h)
 ///     occupancy.yaml, occupancy.pgm   ROS map (ros_map.h)
 ///     rows.geojson     rows, ends, alleys, boundary in WGS84, where the origin is known
+///     rows.csv         a line for each row: block, length, canopy, volume, gaps
+///     gis/             layers and rasters in the cloud's reference system (map_gis.h)
 ///     points.json, points.classes   what each point is, in the map of a job (map_points.h)
+///     block_0, block_1   where there are several blocks of rows: each as such a folder
 
 #include <filesystem>
 
@@ -26,7 +29,14 @@ void save_map(const CloudMap& map, const std::filesystem::path& folder);
 /// version, files that do not belong together, what check_map() refuses
 CloudMap load_map(const std::filesystem::path& folder);
 
-/// Rows (type "row"), their end points ("row_end"), alleys ("mid_row_line") and boundary
+/// "FOLDER/block_0".
+std::filesystem::path block_folder(const std::filesystem::path& folder, int block);
+
+/// How many blocks the rows of a map are of.
+int count_blocks(const CloudMap& map);
+
+/// Rows (type "row", with the figures of row_values()), their end points ("row_end"), alleys
+/// ("mid_row_line") and boundary
 /// ("boundary") as a FeatureCollection; altitudes above the ellipsoid. The world `surveyed` reads
 /// the rows. @pre map.has_origin
 std::string map_to_geojson(const CloudMap& map);

@@ -3,6 +3,7 @@
 #include "engine/io/geo.h"
 #include "engine/math/angles.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_gis.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -35,12 +36,16 @@ std::string feature(const std::string& properties, const char* kind,
 std::string map_to_geojson(const CloudMap& map) {
   const io::LocalFrame frame(map.origin);
   std::vector<std::string> features;
-  for (const PlantRow& row : map.map.rows) {
-    features.push_back(
-        feature(fmt::format("\"type\": \"row\", \"row\": {}, \"canopy_width_m\": {:.3f}, "
-                            "\"canopy_base_m\": {:.3f}, \"canopy_top_m\": {:.3f}",
-                            row.id, row.canopy_width_m, row.canopy_base_m, row.canopy_top_m),
-                "LineString", line(frame, row.line_W)));
+  for (std::size_t k = 0; k < map.map.rows.size(); ++k) {
+    const PlantRow& row = map.map.rows[k];
+    std::string properties = fmt::format("\"type\": \"row\", \"row\": {}", row.id);
+    if (k < map.report.rows.size()) {
+      properties += fmt::format(", \"block\": {}", map.report.rows[k].block);
+      for (const auto& [name, value] : row_values(map.report.rows[k])) {
+        properties += fmt::format(", \"{}\": {:.6g}", name, value);
+      }
+    }
+    features.push_back(feature(properties, "LineString", line(frame, row.line_W)));
   }
   for (const PlantRow& row : map.map.rows) {
     for (const bool last : {false, true}) {

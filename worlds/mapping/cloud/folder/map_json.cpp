@@ -47,6 +47,7 @@ json figures_json(const MappedRowFigures& f) {
   json gaps = json::array();
   for (const auto& [from, to] : f.gaps_m) gaps.push_back(json::array({from, to}));
   return {{"row", f.row},
+          {"block", f.block},
           {"first_m", json_of(f.first_W)},
           {"last_m", json_of(f.last_W)},
           {"length_m", f.length_m},
@@ -66,6 +67,8 @@ json figures_json(const MappedRowFigures& f) {
 MappedRowFigures read_figures(const JsonReader& in) {
   MappedRowFigures f;
   f.row = static_cast<int>(in.at("row").whole(0));
+  // Maps made before there were blocks do not tell.
+  if (in.has("block")) f.block = static_cast<int>(in.at("block").whole(0));
   f.first_W = in.at("first_m").vector<3>();
   f.last_W = in.at("last_m").vector<3>();
   f.length_m = in.at("length_m").number();

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "worlds/mapping/cloud/folder/json_reader.h"
 
 namespace vinerow::worlds {
@@ -40,9 +41,7 @@ PointClass point_class(char byte, const std::filesystem::path& file) {
 }
 
 void write_bytes(const std::filesystem::path& file, const char* bytes, std::size_t count) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes, static_cast<std::streamsize>(count));
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
+  write_whole_file(file, {bytes, count});
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ json line_schema() {
 
 json row_figures() {
   return object({{"row", whole("its id")},
+                 {"block", whole("of rows side by side, the largest is 0")},
                  {"first_m", point(3, "the canopy's first point on the ground, W, m")},
                  {"last_m", point(3, "the canopy's last point on the ground, W, m")},
                  {"length_m", at_least_zero("along the line")},

@@ -15,6 +15,7 @@ void add_source(const CloudReadReport& read, CloudMap& map) {
   report.notes.insert(report.notes.begin(), read.sentences.begin(), read.sentences.end());
   map.has_origin = read.has_origin;
   map.origin = read.origin;
+  for (CloudMap& block : map.blocks) add_source(read, block);
 }
 
 }  // namespace vinerow::worlds

@@ -132,6 +132,30 @@ class Collector {
   std::uint64_t far_away_ = 0, until_next_ = 0;
 };
 
+/// How far the file's own CRS would put the cloud from where the one asked for does, in words; ""
+/// where both mean the same place. @param used  of the one asked for, about `origin`
+std::string conflict_of_crs(const std::string& asked, const CloudOutline& outline,
+                            const io::CloudFrame& used, const GeoOrigin& origin) {
+  const std::string& own = outline.info.crs;
+  if (asked.empty() || asked == "none" || own.empty() || asked == own) return "";
+  constexpr double kSamePlace_m = 1.0;  // of two realisations of one system
+  std::string elsewhere = "somewhere else";
+  try {
+    const double apart_m =
+        (io::CloudFrame(own, origin).to_local(outline.middle) - used.to_local(outline.middle))
+            .head<2>()
+            .norm();
+    if (apart_m < kSamePlace_m) return "";
+    elsewhere = apart_m < 10e3 ? fmt::format("{:.0f} m away", apart_m)
+                               : fmt::format("{:.0f} km away", 1e-3 * apart_m);
+  } catch (const ConfigError&) {
+    // The file's own system has no such place, or is none that can be read.
+  }
+  return fmt::format(
+      "The coordinates were taken as {}, as asked; the file names {}, which puts them {}.", asked,
+      own.substr(0, 60), elsewhere);
+}
+
 void add_sentences(const CloudOutline& outline, const CloudReadOptions& options,
                    CloudReadReport& report) {
   const auto say = [&](std::string sentence) { report.sentences.push_back(std::move(sentence)); };
@@ -151,11 +175,7 @@ void add_sentences(const CloudOutline& outline, const CloudReadOptions& options,
     say(fmt::format("{}{} of {} points lie exactly where another one lies.",
                     report.repeated_is_exact ? "" : "About ", report.repeated, report.given));
   }
-  if (!options.crs.empty() && options.crs != "none" && !outline.info.crs.empty() &&
-      options.crs != outline.info.crs) {
-    say(fmt::format("The coordinates were taken as {}, as asked; the file names {}.", options.crs,
-                    outline.info.crs.substr(0, 60)));
-  }
+  if (!report.crs_warning.empty()) say(report.crs_warning);
   constexpr double kNational_m = 50'000.0;
   if (report.crs.empty() && outline.middle.head<2>().norm() > kNational_m) {
     say(
@@ -202,6 +222,7 @@ ParcelCloud read_parcel_cloud(const std::filesystem::path& file, const CloudRead
         report.origin = origin_at(*exact, anywhere, outline.middle);
         exact = std::make_unique<io::CloudFrame>(report.crs, report.origin);
       }
+      report.crs_warning = conflict_of_crs(options.crs, outline, *exact, report.origin);
       middle_W = exact->to_local(outline.middle);
       frame.emplace(*exact, outline.kept);
     });

@@ -27,9 +27,12 @@ struct CloudReadOptions {
 };
 
 struct CloudReadReport {
-  std::string file;              ///< as it was given
-  std::string format;            ///< "LAS 1.4"
-  std::string crs;               ///< that was used, or ""
+  std::string file;    ///< as it was given
+  std::string format;  ///< "LAS 1.4"
+  std::string crs;     ///< that was used, or ""
+  /// One of the sentences: the CRS that was asked for puts the cloud elsewhere than the one that
+  /// the file names. Empty: it does not.
+  std::string crs_warning;
   std::uint64_t file_bytes = 0;  ///< of the file
   bool has_origin = false;       ///< false: W is nowhere on Earth, and origin is all zero
   GeoOrigin origin;              ///< of W

@@ -11,6 +11,8 @@ namespace vinerow::worlds {
 namespace {
 
 constexpr double kProfileBin_m = 0.1;
+// Of a window that rows can be taken from: where others agree, and where it stands against most.
+constexpr double kLikely = 0.12, kClear = 0.25;
 
 struct Square {
   float x, y, weight;  // from the window's middle
@@ -258,7 +260,7 @@ double median_spacing_m(const std::vector<RowPatch>& patches) {
 
 std::vector<RowPatch> agreeing_patches(const std::vector<RowPatch>& patches,
                                        const RowPatchOptions& options) {
-  constexpr double kLikely = 0.12, kWith = 0.4;
+  constexpr double kWith = 0.4;
   const double kParallel = std::cos(2.0 * 15.0 * std::numbers::pi / 180.0);
   std::vector<RowPatch> likely;
   for (const RowPatch& patch : patches) {
@@ -280,6 +282,43 @@ std::vector<RowPatch> agreeing_patches(const std::vector<RowPatch>& patches,
     if (with >= kWith * all) agreeing.push_back(patch);
   }
   return agreeing;
+}
+
+std::vector<std::vector<RowPatch>> other_patches(const std::vector<RowPatch>& patches,
+                                                 const std::vector<RowPatch>& agreeing,
+                                                 const RowPatchOptions& options) {
+  const double kParallel = std::cos(2.0 * 10.0 * std::numbers::pi / 180.0);
+  constexpr double kSameSpacing = 1.2;
+  std::vector<RowPatch> left;
+  for (const RowPatch& patch : patches) {
+    const bool is_taken = std::any_of(agreeing.begin(), agreeing.end(), [&](const RowPatch& other) {
+      return other.middle == patch.middle;
+    });
+    if (!is_taken && patch.likelihood >= kClear) left.push_back(patch);
+  }
+  const auto hang_together = [&](const RowPatch& a, const RowPatch& b) {
+    return (a.middle - b.middle).norm() < 1.5 * options.radius_m &&
+           std::cos(2.0 * (a.angle_rad - b.angle_rad)) >= kParallel &&
+           std::max(a.spacing_m, b.spacing_m) <= kSameSpacing * std::min(a.spacing_m, b.spacing_m);
+  };
+  std::vector<std::vector<RowPatch>> groups;
+  std::vector<bool> used(left.size(), false);
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (used[k]) continue;
+    used[k] = true;
+    std::vector<RowPatch> group{left[k]};
+    for (std::size_t n = 0; n < group.size(); ++n) {
+      for (std::size_t m = 0; m < left.size(); ++m) {
+        if (used[m] || !hang_together(group[n], left[m])) continue;
+        used[m] = true;
+        group.push_back(left[m]);
+      }
+    }
+    if (group.size() > 1) groups.push_back(std::move(group));
+  }
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return groups;
 }
 
 }  // namespace vinerow::worlds

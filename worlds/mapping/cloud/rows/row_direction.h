@@ -37,6 +37,14 @@ std::vector<RowPatch> find_row_patches(const CanopyRaster& raster, const RowPatc
 std::vector<RowPatch> agreeing_patches(const std::vector<RowPatch>& patches,
                                        const RowPatchOptions& options);
 
+/// Windows that agreeing_patches() has left out though they show rows clearly (bushes on a meadow
+/// do not), by groups that hang together: side by side, in one direction (within 10 degrees), of
+/// one spacing (within a fifth). Blocks that run another way than most, or stand closer. Groups of
+/// one window are left out; the largest comes first.
+std::vector<std::vector<RowPatch>> other_patches(const std::vector<RowPatch>& patches,
+                                                 const std::vector<RowPatch>& agreeing,
+                                                 const RowPatchOptions& options);
+
 /// Middle of the windows' spacings, each as heavy as its canopy is likely to be rows.
 /// @pre not empty
 double median_spacing_m(const std::vector<RowPatch>& patches);

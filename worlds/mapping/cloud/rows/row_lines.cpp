@@ -150,18 +150,52 @@ std::vector<Vector2d> smoothed(const RowCurve& line, const std::vector<Centre>& 
   return points;
 }
 
+/// Places along a line where the alleys beside it are no emptier than the row itself, and than they
+/// are elsewhere on this line: a tree's crown, or a hedge across.
+/// @param core,beside  canopy on the line and in the alleys' half beside it, step by step
+std::vector<bool> find_wide(const std::vector<double>& core, const std::vector<double>& beside,
+                            int run) {
+  constexpr double kWide = 0.6, kTimesUsual = 2.0;
+  std::vector<double> shares(core.size(), 0.0), usual;
+  for (std::size_t k = 0; k < core.size(); ++k) {
+    const auto reach = static_cast<std::size_t>(run / 2);
+    double on_line = 0.0, off_line = 0.0;
+    for (std::size_t n = k > reach ? k - reach : 0; n <= std::min(core.size() - 1, k + reach);
+         ++n) {
+      on_line += core[n];
+      off_line += beside[n];
+    }
+    if (on_line <= 0.0) continue;
+    shares[k] = off_line / on_line;
+    usual.push_back(shares[k]);
+  }
+  if (usual.empty()) return std::vector<bool>(core.size(), false);
+  const auto middle = usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2);
+  std::nth_element(usual.begin(), middle, usual.end());
+  const double least = std::max(kWide, kTimesUsual * *middle);
+  std::vector<bool> is_wide(core.size());
+  for (std::size_t k = 0; k < core.size(); ++k) is_wide[k] = shares[k] > least;
+  return is_wide;
+}
+
 /// The stretch of a line from its first canopy to its last, looked for a little beyond its ends.
 std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& raster,
-                                                        const RowCurve& line, double across_m) {
-  constexpr double kBin_along_m = 0.1, kBeyond_ends_m = 4.0, kLongest_gap_m = 2.0;
+                                                        const RowCurve& line, double across_m,
+                                                        double half_alley_m) {
+  constexpr double kBeyond_ends_m = 4.0, kLongest_gap_m = 2.0;
+  const double kBin_along_m = std::max(0.1, raster.cell_m);
   const int bins =
       static_cast<int>(std::ceil((line.length_m() + 2.0 * kBeyond_ends_m) / kBin_along_m));
   std::vector<double> weights(static_cast<std::size_t>(bins), 0.0);
+  std::vector<double> core(weights.size(), 0.0), beside(weights.size(), 0.0);
   for (int k = 0; k < bins; ++k) {
+    const auto bin = static_cast<std::size_t>(k);
     const double s_m = -kBeyond_ends_m + (k + 0.5) * kBin_along_m;
-    for_canopy(
-        raster, line.point_W(s_m), line.direction_W(s_m), 0.5 * kBin_along_m, across_m,
-        [&](double, double, double weight) { weights[static_cast<std::size_t>(k)] += weight; });
+    for_canopy(raster, line.point_W(s_m), line.direction_W(s_m), 0.5 * kBin_along_m, half_alley_m,
+               [&](double, double y, double weight) {
+                 if (std::abs(y) <= across_m) weights[bin] += weight;
+                 (std::abs(y) < 0.4 * half_alley_m ? core : beside)[bin] += weight;
+               });
   }
   std::vector<double> sorted;
   for (const double w : weights) {
@@ -174,7 +208,9 @@ std::optional<std::pair<double, double>> canopy_stretch(const CanopyRaster& rast
   // Canopy of 0.6 m in one piece counts: a vine, and not a post or the stay behind the last one.
   std::vector<bool> is_canopy(weights.size());
   for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = weights[k] >= least;
-  constexpr int kRun = 6;
+  const int kRun = std::max(3, static_cast<int>(std::lround(0.6 / kBin_along_m)));
+  const std::vector<bool> is_wide = find_wide(core, beside, kRun);
+  for (std::size_t k = 0; k < weights.size(); ++k) is_canopy[k] = is_canopy[k] && !is_wide[k];
   int first = -1, last = -1;
   const int middle = bins / 2;
   const auto run_at = [&](int from) {
@@ -255,12 +291,11 @@ bool is_row_like(const CanopyRaster& raster, const RowCurve& line, double spacin
   return covered >= kCovered * count && row > kContrast * beside;
 }
 
-std::optional<RowCurve> fit_line(const CanopyRaster& raster, const RowTrack& track,
-                                 const RowLineOptions& options) {
+/// The line through the middles of the canopy beside a first guess.
+std::optional<RowCurve> fit_curve(const CanopyRaster& raster, const RowCurve& guess,
+                                  double across_m) {
   constexpr double kStraight_m = 0.06;
-  auto line = curve_through(track);
-  if (!line) return std::nullopt;
-  double across_m = 0.4 * options.spacing_m;
+  std::optional<RowCurve> line = guess;
   for (int round = 0; round < 4; ++round) {
     const std::vector<Centre> centres = centres_along(raster, *line, across_m);
     if (centres.size() < 3) return std::nullopt;
@@ -275,7 +310,24 @@ std::optional<RowCurve> fit_line(const CanopyRaster& raster, const RowTrack& tra
       if (!line) return std::nullopt;
     }
   }
-  const auto stretch = canopy_stretch(raster, *line, across_m);
+  return line;
+}
+
+std::optional<RowCurve> fit_line(const CanopyRaster& raster, const RowTrack& track,
+                                 const RowLineOptions& options) {
+  const double across_m = 0.4 * options.spacing_m, half_alley_m = 0.5 * options.spacing_m;
+  auto line = curve_through(track);
+  if (line) line = fit_curve(raster, *line, across_m);
+  if (!line) return std::nullopt;
+  auto stretch = canopy_stretch(raster, *line, across_m, half_alley_m);
+  // What is cut off was no row, and has drawn the line to itself.
+  constexpr double kCutOff_m = 1.5;
+  if (stretch && (stretch->first > kCutOff_m || line->length_m() - stretch->second > kCutOff_m)) {
+    line = cut_to(*line, stretch->first, stretch->second);
+    if (line) line = fit_curve(raster, *line, across_m);
+    if (!line) return std::nullopt;
+    stretch = canopy_stretch(raster, *line, across_m, half_alley_m);
+  }
   if (!stretch || stretch->second - stretch->first < options.length_low_m) return std::nullopt;
   auto row = cut_to(*line, stretch->first, stretch->second);
   if (row && !is_row_like(raster, *row, options.spacing_m)) return std::nullopt;
@@ -315,7 +367,10 @@ std::vector<RowCurve> fit_row_lines(const CanopyRaster& raster, const std::vecto
   for (std::size_t k = 0; k < lines.size(); ++k) {
     if (has_neighbour(lines, k, options.spacing_m)) rows.push_back(lines[k]);
   }
-  if (rows.empty()) return rows;
+  return rows.empty() ? rows : order_block(std::move(rows));
+}
+
+std::vector<RowCurve> order_block(std::vector<RowCurve> rows) {
   // The longest first, from south to north: what order_rows() takes the direction from.
   std::stable_sort(rows.begin(), rows.end(), [](const RowCurve& a, const RowCurve& b) {
     return a.length_m() > b.length_m();

@@ -15,8 +15,11 @@ constexpr double kLocatedBeyond_m = 1.0;
 
 }  // namespace
 
-RowLocator::RowLocator(const std::vector<RowCurve>& lines, double reach_m) : reach_m_(reach_m) {
-  VINEROW_DEMAND(lines.size() < 32767);
+RowLocator::RowLocator(const std::vector<RowCurve>& lines, double reach_m)
+    : RowLocator(lines, std::vector<double>(lines.size(), reach_m)) {}
+
+RowLocator::RowLocator(const std::vector<RowCurve>& lines, const std::vector<double>& reach_m) {
+  VINEROW_DEMAND(lines.size() < 32767 && reach_m.size() == lines.size());
   Eigen::AlignedBox2d box;
   for (const RowCurve& curve : lines) {
     Line line;
@@ -29,10 +32,12 @@ RowLocator::RowLocator(const std::vector<RowCurve>& lines, double reach_m) : rea
       line.s_m.push_back(line.s_m.back() + d.norm());
     }
     for (const Eigen::Vector2d& p : line.points) box.extend(p);
+    line.reach_m = reach_m[lines_.size()];
     lines_.push_back(std::move(line));
   }
   if (lines_.empty()) return;
-  const double margin_m = reach_m + kLocatedBeyond_m + 2.0 * kSquare_m;
+  const double margin_m =
+      *std::max_element(reach_m.begin(), reach_m.end()) + kLocatedBeyond_m + 2.0 * kSquare_m;
   corner_ = box.min() - Eigen::Vector2d::Constant(margin_m);
   const Eigen::Vector2d size = box.sizes() + Eigen::Vector2d::Constant(2.0 * margin_m);
   columns_ = static_cast<int>(size.x() / kSquare_m) + 1;
@@ -49,7 +54,7 @@ RowLocator::RowLocator(const std::vector<RowCurve>& lines, double reach_m) : rea
       const Eigen::Vector2d b =
           line.points[k + 1] + (k + 1 == line.directions.size() ? kLocatedBeyond_m : 0.0) * u;
       const double length_m = (b - a).norm();
-      const double far_m = reach_m + half_diagonal_m;
+      const double far_m = line.reach_m + half_diagonal_m;
       // Long segments of straight rows are walked along in short pieces: their box would be huge.
       const int pieces = std::max(1, static_cast<int>(std::ceil(length_m / 4.0)));
       for (int piece = 0; piece < pieces; ++piece) {
@@ -105,7 +110,7 @@ RowPlace RowLocator::locate(double x, double y) const {
     place.s_m = static_cast<float>(line.s_m[n] + along_m);
     place.y_m = static_cast<float>(std::copysign(std::sqrt(square_m2), side));
   }
-  return best <= reach_m_ * reach_m_ ? place : RowPlace{};
+  return best <= line.reach_m * line.reach_m ? place : RowPlace{};
 }
 
 }  // namespace vinerow::worlds

@@ -21,6 +21,8 @@ class RowLocator {
   /// @param lines    in any frame
   /// @param reach_m  how far from a line places belong to it
   RowLocator(const std::vector<RowCurve>& lines, double reach_m);
+  /// @param reach_m  of each line
+  RowLocator(const std::vector<RowCurve>& lines, const std::vector<double>& reach_m);
 
   /// Arc length (below 0 and beyond the length behind the ends) and offset to the left of the
   /// nearest row. Places within `reach_m` across and 1 m along of a row are found.
@@ -30,6 +32,7 @@ class RowLocator {
   struct Line {
     std::vector<Eigen::Vector2d> points, directions;
     std::vector<double> s_m;
+    double reach_m = 0.0;
   };
   struct Square {
     std::int16_t row = -1;
@@ -39,7 +42,6 @@ class RowLocator {
   std::vector<Square> squares_;
   Eigen::Vector2d corner_ = {0, 0};
   int columns_ = 0, rows_ = 0;
-  double reach_m_;
 };
 
 }  // namespace vinerow::worlds

@@ -19,24 +19,27 @@ void count_up(std::uint32_t& counter) {
 
 /// Half the width that 95 % of the points of a row's body lie within.
 std::vector<float> half_widths(const ParcelCloud& cloud, const HeightAbove& above,
-                               const RowLocator& locator, std::size_t rows,
+                               const RowLocator& locator, const std::vector<double>& reach_m,
                                const RowPointOptions& options) {
   constexpr int kWidthBins = 64;
-  const float bin_m = static_cast<float>(0.5 * options.spacing_m / kWidthBins);
+  const std::size_t rows = reach_m.size();
+  std::vector<float> bin_m;
+  for (const double reach : reach_m) bin_m.push_back(static_cast<float>(reach / kWidthBins));
   std::vector<std::uint32_t> counts(rows * kWidthBins, 0);
-  for_chunks(
-      cloud.points.size(), kPointsAtOnce, [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          const Eigen::Vector3f& p = cloud.points[k];
-          const float height_m = above(p);
-          if (!(height_m > options.body_cut_m && height_m < kHighestLeaf_m)) continue;
-          const RowPlace place = locator.locate(p.x(), p.y());
-          if (place.row < 0) continue;
-          const int bin = std::min(kWidthBins - 1, static_cast<int>(std::abs(place.y_m) / bin_m));
-          count_up(counts[static_cast<std::size_t>(place.row) * kWidthBins +
-                          static_cast<std::size_t>(bin)]);
-        }
-      });
+  for_chunks(cloud.points.size(), kPointsAtOnce,
+             [&](std::size_t, std::size_t begin, std::size_t end) {
+               for (std::size_t k = begin; k < end; ++k) {
+                 const Eigen::Vector3f& p = cloud.points[k];
+                 const float height_m = above(p);
+                 if (!(height_m > options.body_cut_m && height_m < kHighestLeaf_m)) continue;
+                 const RowPlace place = locator.locate(p.x(), p.y());
+                 if (place.row < 0) continue;
+                 const auto r = static_cast<std::size_t>(place.row);
+                 const int bin =
+                     std::min(kWidthBins - 1, static_cast<int>(std::abs(place.y_m) / bin_m[r]));
+                 count_up(counts[r * kWidthBins + static_cast<std::size_t>(bin)]);
+               }
+             });
   std::vector<float> widths;
   for (std::size_t r = 0; r < rows; ++r) {
     std::uint64_t all = 0, below = 0;
@@ -48,7 +51,7 @@ std::vector<float> half_widths(const ParcelCloud& cloud, const HeightAbove& abov
       if (static_cast<double>(below) >= 0.95 * static_cast<double>(all)) break;
       ++bin;
     }
-    widths.push_back(bin_m * static_cast<float>(bin + 1));
+    widths.push_back(bin_m[r] * static_cast<float>(bin + 1));
   }
   return widths;
 }
@@ -135,8 +138,12 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
                                            const std::vector<RowCurve>& lines,
                                            const RowPointOptions& options) {
   const HeightAbove above(terrain, cloud.origin_W);
-  const RowLocator locator(lines, 0.5 * options.spacing_m);
-  const std::vector<float> widths = half_widths(cloud, above, locator, lines.size(), options);
+  std::vector<double> reach_m(lines.size(), 0.5 * options.spacing_m);
+  for (std::size_t r = 0; r < options.spacing_of_m.size(); ++r) {
+    reach_m[r] = 0.5 * options.spacing_of_m[r];
+  }
+  const RowLocator locator(lines, reach_m);
+  const std::vector<float> widths = half_widths(cloud, above, locator, reach_m, options);
   const std::vector<CanopyBase> bases = canopy_bases(cloud, above, locator, lines, widths, options);
 
   // First the classes, with the number of canopy points that every chunk has for every row, then

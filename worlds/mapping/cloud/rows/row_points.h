@@ -9,10 +9,11 @@
 namespace vinerow::worlds {
 
 struct RowPointOptions {
-  double spacing_m = 2.5;      ///< between rows: half of it is how far a canopy may reach
-  double canopy_cut_m = 0.55;  ///< above the ground
-  double body_cut_m = 1.0;     ///< what is higher is a row's as far as half the spacing
-  double ground_m = 0.15;      ///< points up to so high are ground
+  double spacing_m = 2.5;            ///< between rows: half of it is how far a canopy may reach
+  std::vector<double> spacing_of_m;  ///< of each line, where blocks differ; empty: spacing_m
+  double canopy_cut_m = 0.55;        ///< above the ground
+  double body_cut_m = 1.0;           ///< what is higher is a row's as far as half the spacing
+  double ground_m = 0.15;            ///< points up to so high are ground
 };
 
 /// Where canopy begins above the ground, for a stretch of a row.

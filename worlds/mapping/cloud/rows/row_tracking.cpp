@@ -13,6 +13,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kTrackStep_m = 1.0;
+constexpr double kRowReach = 0.4;  // of the spacing: what belongs to a row
 
 /// Canopy around a place, seen along a direction.
 struct Fit {
@@ -21,10 +22,25 @@ struct Fit {
   double slope = 0.0;
 };
 
+void take_around(const CanopyRaster& raster, const Vector2d& p, double reach_m,
+                 TakenSquares& taken) {
+  const int reach = static_cast<int>(std::ceil(reach_m / raster.cell_m));
+  const int i = static_cast<int>((p.x() - raster.corner.x()) / raster.cell_m);
+  const int j = static_cast<int>((p.y() - raster.corner.y()) / raster.cell_m);
+  for (int v = std::max(0, j - reach); v <= std::min(raster.rows - 1, j + reach); ++v) {
+    for (int h = std::max(0, i - reach); h <= std::min(raster.columns - 1, i + reach); ++h) {
+      if ((raster.middle_of(h, v) - p).norm() > reach_m) continue;
+      taken[static_cast<std::size_t>(v) * raster.columns + h] = 1;
+    }
+  }
+}
+
 class Tracker {
  public:
-  Tracker(const CanopyRaster& raster, const RowTrackingOptions& options)
-      : raster_(raster), options_(options), taken_(raster.weights.size(), 0) {}
+  Tracker(const CanopyRaster& raster, const RowTrackingOptions& options, const TakenSquares& taken)
+      : raster_(raster), options_(options), taken_(taken) {
+    taken_.resize(raster.weights.size(), 0);
+  }
 
   std::vector<RowTrack> run(const std::vector<RowPatch>& patches) {
     std::vector<const RowPatch*> order;
@@ -46,7 +62,7 @@ class Tracker {
   }
 
  private:
-  double reach_m() const { return 0.4 * options_.spacing_m; }
+  double reach_m() const { return kRowReach * options_.spacing_m; }
 
   bool is_taken(const Vector2d& p) const {
     const std::int64_t cell = raster_.cell_of(p.x(), p.y());
@@ -94,8 +110,9 @@ class Tracker {
     constexpr double kSupport = 0.2;  // of what the seed has
     RowTrack track;
     std::size_t supported = 0;
-    double gap_m = 0.0;
-    while (gap_m <= options_.longest_gap_m) {
+    double gap_m = 0.0, beside_m = 0.0;  // of it where a row beside goes on
+    while (gap_m <= options_.open_gap_m ||
+           (gap_m <= options_.longest_gap_m && beside_m >= 0.5 * gap_m)) {
       const Vector2d ahead = p + kTrackStep_m * u;
       if (raster_.cell_of(ahead.x(), ahead.y()) < 0) break;
       const Fit here = fit(ahead, u, full_weight);
@@ -107,9 +124,15 @@ class Tracker {
       track.push_back(p);
       if (here.weight >= kSupport * full_weight) {
         supported = track.size();
-        gap_m = 0.0;
+        gap_m = beside_m = 0.0;
       } else {
         gap_m += kTrackStep_m;
+        for (const double side : {-1.0, 1.0}) {
+          const Vector2d neighbour = p + side * options_.spacing_m * left_of(u);
+          if (fit(neighbour, u, full_weight).weight < kSupport * full_weight) continue;
+          beside_m += kTrackStep_m;
+          break;
+        }
       }
     }
     track.resize(supported);
@@ -152,32 +175,27 @@ class Tracker {
 
   /// Nothing else starts or goes where this row is.
   void take(const RowTrack& track) {
-    const int reach = static_cast<int>(std::ceil(reach_m() / raster_.cell_m));
     for (std::size_t k = 0; k < track.size(); ++k) {
       for (const double share : {0.0, 0.5}) {
         if (k + 1 == track.size() && share > 0.0) continue;
         const Vector2d p = share > 0.0 ? Vector2d(0.5 * (track[k] + track[k + 1])) : track[k];
-        const int i = static_cast<int>((p.x() - raster_.corner.x()) / raster_.cell_m);
-        const int j = static_cast<int>((p.y() - raster_.corner.y()) / raster_.cell_m);
-        for (int v = std::max(0, j - reach); v <= std::min(raster_.rows - 1, j + reach); ++v) {
-          for (int h = std::max(0, i - reach); h <= std::min(raster_.columns - 1, i + reach); ++h) {
-            if ((raster_.middle_of(h, v) - p).norm() > reach_m()) continue;
-            taken_[static_cast<std::size_t>(v) * raster_.columns + h] = 1;
-          }
-        }
+        take_around(raster_, p, reach_m(), taken_);
       }
     }
   }
 
   const CanopyRaster& raster_;
   const RowTrackingOptions& options_;
-  std::vector<std::uint8_t> taken_;
+  TakenSquares taken_;
 };
 
-double from_track_m(const RowTrack& track, const Vector2d& p) {
-  double best = std::numeric_limits<double>::infinity();
-  for (const Vector2d& q : track) best = std::min(best, (q - p).squaredNorm());
-  return std::sqrt(best);
+/// Whether a track passes a place at a row's distance. Its end before or behind the place does not
+/// count: there rows end beside rows that end.
+bool passes(const RowTrack& track, const Vector2d& p, const Vector2d& u, double spacing_m) {
+  return std::any_of(track.begin(), track.end(), [&](const Vector2d& q) {
+    const Vector2d d = q - p;
+    return std::abs(d.dot(u)) <= kTrackStep_m && std::abs(d.dot(left_of(u))) < 1.6 * spacing_m;
+  });
 }
 
 Vector2d end_direction(const RowTrack& track) {
@@ -197,8 +215,7 @@ bool goes_on(const RowTrack& first, const RowTrack& second, const std::vector<Ro
   if (-end_direction(reversed).dot(u) < std::cos(0.17)) return false;
   const Vector2d middle = 0.5 * (first.back() + second.front());
   return std::any_of(all.begin(), all.end(), [&](const RowTrack& other) {
-    return &other != &first && &other != &second &&
-           from_track_m(other, middle) < 1.6 * options.spacing_m;
+    return &other != &first && &other != &second && passes(other, middle, u, options.spacing_m);
   });
 }
 
@@ -244,8 +261,18 @@ std::vector<RowTrack> join_tracks(std::vector<RowTrack> tracks, const RowTrackin
 }  // namespace
 
 std::vector<RowTrack> track_rows(const CanopyRaster& raster, const std::vector<RowPatch>& patches,
-                                 const RowTrackingOptions& options) {
-  return join_tracks(Tracker(raster, options).run(patches), options);
+                                 const RowTrackingOptions& options, const TakenSquares& taken) {
+  return join_tracks(Tracker(raster, options, taken).run(patches), options);
+}
+
+void take_rows(const CanopyRaster& raster, const std::vector<RowCurve>& rows, double spacing_m,
+               TakenSquares& taken) {
+  taken.resize(raster.weights.size(), 0);
+  for (const RowCurve& row : rows) {
+    for (double s_m = 0.0; s_m <= row.length_m(); s_m += 0.5 * kTrackStep_m) {
+      take_around(raster, row.point_W(s_m), kRowReach * spacing_m, taken);
+    }
+  }
 }
 
 }  // namespace vinerow::worlds

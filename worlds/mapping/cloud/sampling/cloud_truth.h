@@ -47,6 +47,11 @@ struct CloudSampling {
   double views_mean = 0.0;
   double horizontal_noise_rms_m = 0.0;  ///< of the errors drawn, both coordinates together
   double height_noise_rms_m = 0.0;
+  /// What the whole cloud has in common: by which means (georeference.h), the error in the area's
+  /// middle, the turn about a horizontal axis and about the vertical, the scale less 1.
+  std::string georeference = "none";
+  double georeference_east_m = 0.0, georeference_north_m = 0.0, georeference_up_m = 0.0;
+  double georeference_tilt_deg = 0.0, georeference_turn_deg = 0.0, georeference_scale = 0.0;
 };
 
 struct CloudTruth {

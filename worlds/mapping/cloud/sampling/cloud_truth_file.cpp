@@ -3,9 +3,11 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/core/whole_file.h"
 #include "engine/math/angles.h"
 #include "worlds/mapping/cloud/sampling/cloud_truth.h"
 
@@ -98,6 +100,13 @@ void for_each_field(Sampling& sampling, F&& f) {
   f("views_mean", sampling.views_mean);
   f("horizontal_noise_rms_m", sampling.horizontal_noise_rms_m);
   f("height_noise_rms_m", sampling.height_noise_rms_m);
+  f("georeference", sampling.georeference);
+  f("georeference_east_m", sampling.georeference_east_m);
+  f("georeference_north_m", sampling.georeference_north_m);
+  f("georeference_up_m", sampling.georeference_up_m);
+  f("georeference_tilt_deg", sampling.georeference_tilt_deg);
+  f("georeference_turn_deg", sampling.georeference_turn_deg);
+  f("georeference_scale", sampling.georeference_scale);
 }
 
 }  // namespace
@@ -119,9 +128,7 @@ void write_cloud_truth(const CloudTruth& truth, const std::filesystem::path& fil
                   {"volume_m3", truth.volume_m3},
                   {"sampling", sampling},
                   {"rows", rows}};
-  std::ofstream out(file, std::ios::binary);
-  out << json.dump(1) << "\n";
-  if (!out.flush()) throw ConfigError(fmt::format("'{}' cannot be written", file.string()));
+  write_whole_file(file, json.dump(1) + "\n");
 }
 
 CloudTruth read_cloud_truth(const std::filesystem::path& file) {
@@ -141,8 +148,11 @@ CloudTruth read_cloud_truth(const std::filesystem::path& file) {
     json.at("spacing_m").get_to(truth.spacing_m);
     json.at("volume_m3").get_to(truth.volume_m3);
     const Json& sampling = json.at("sampling");
-    for_each_field(truth.sampling,
-                   [&](const char* key, auto& value) { sampling.at(key).get_to(value); });
+    for_each_field(truth.sampling, [&](const char* key, auto& value) {
+      // Clouds made before they had an error in common do not tell of it.
+      const bool is_new = std::string_view(key).starts_with("georeference");
+      if (!is_new || sampling.contains(key)) sampling.at(key).get_to(value);
+    });
     for (const Json& row : json.at("rows")) truth.rows.push_back(row_of(row));
   } catch (const nlohmann::json::exception& error) {
     throw ConfigError(fmt::format("'{}' is no truth of a cloud: {}", file.string(), error.what()));

@@ -40,6 +40,7 @@ struct Survey {
   const CloudTiles& tiles;
   const PointColour& colour;
   const HiddenRows& missing;
+  const Georeference& reference;
 
   std::optional<double> ground_m(const Vector2d& p) const {
     if (world.terrain) {
@@ -172,7 +173,7 @@ void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoi
     const Vector3d error =
         matcher.triangulation().error_m(survey.options.match_px, {n_x, n_y, n_z});
     SampledPoint point;
-    point.p_W = matcher.p_W() + error;
+    point.p_W = matcher.p_W() + error + survey.reference.error_m(matcher.p_W());
     point.rgb = survey.colour.of(matcher.hit(), matcher.p_W(), random.uniform());
     point.truth = class_of(matcher.hit().surface);
     if (survey.missing.hide(matcher.p_W(), point.truth)) {
@@ -276,7 +277,7 @@ PhotogrammetryReport sample_photogrammetry(const SceneQuery& scene, const WorldM
                                            const SurveyCamera& camera,
                                            const std::vector<Pose>& poses, const SurveyArea& area,
                                            const PhotogrammetryOptions& options,
-                                           const CloudSink& sink) {
+                                           const CloudSink& sink, const Georeference& reference) {
   check_options(options);
   PhotogrammetryReport report;
   const std::vector<SurveyView> views = views_of(scene, camera, poses, area, report.gsd_m);
@@ -293,7 +294,7 @@ PhotogrammetryReport sample_photogrammetry(const SceneQuery& scene, const WorldM
   const CloudTiles tiles(area, kRim_m, report.density_per_m2);
   const PointColour colour(world);
   const HiddenRows missing(world, options.missing_rows);
-  const Survey survey{scene, world, views, area, options, tiles, colour, missing};
+  const Survey survey{scene, world, views, area, options, tiles, colour, missing, reference};
   std::vector<CloudTally> tallies(static_cast<std::size_t>(tiles.count()));
   stream_points(
       tiles.count(),

@@ -19,8 +19,9 @@
 ///
 /// Its error is drawn from the covariance of forward intersection with `match_px` of error in each
 /// picture (triangulation.h), for the very pictures that see it. Errors of neighbouring points are
-/// independent; those of orientation and calibration, smoothing and gross mismatches are not
-/// modelled, poses are taken as true, a canopy is the world's closed hull and not single leaves.
+/// independent. What orientation and calibration put wrong they have in common: the similarity of
+/// georeference.h. Smoothing and gross mismatches are not modelled, a canopy is the world's closed
+/// hull and not single leaves.
 ///
 /// Cost: about 2.5 us a point and core. Memory does not grow with the number of points.
 
@@ -32,6 +33,7 @@
 #include "engine/api/scene_query.h"
 #include "engine/api/survey_camera.h"
 #include "engine/math/angles.h"
+#include "worlds/mapping/cloud/sampling/georeference.h"
 #include "worlds/mapping/cloud/sampling/sampled_point.h"
 #include "worlds/mapping/cloud/sampling/survey_area.h"
 
@@ -45,6 +47,7 @@ struct PhotogrammetryOptions {
   double max_incidence_rad = rad_from_deg(80.0);  ///< off the surface's normal
   double min_baseline_rad = rad_from_deg(3.0);    ///< between the reference's ray and some other
   std::vector<int> missing_rows;                  ///< PlantRow::id; no picture shows their canopy
+  GeoreferenceOptions georeference;
   std::uint64_t seed = 1;
 };
 
@@ -76,6 +79,7 @@ struct PhotogrammetryReport {
 void check_options(const PhotogrammetryOptions& options);
 
 /// @param poses  X_WS of each picture; those whose axis meets no ground are left out
+/// @param reference  where the block as a whole ends up
 /// @returns what was made; no points where there is no ground or no picture within the area
 /// @throws ConfigError: options out of range, no picture shows the area, a density as CloudTiles, a
 /// missing row that the world does not have
@@ -83,6 +87,7 @@ PhotogrammetryReport sample_photogrammetry(const SceneQuery& scene, const WorldM
                                            const SurveyCamera& camera,
                                            const std::vector<Pose>& poses, const SurveyArea& area,
                                            const PhotogrammetryOptions& options,
-                                           const CloudSink& sink);
+                                           const CloudSink& sink,
+                                           const Georeference& reference = {});
 
 }  // namespace vinerow::worlds

@@ -5,6 +5,7 @@
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/math/angles.h"
 
 namespace vinerow::worlds {
 namespace {
@@ -63,6 +64,33 @@ Result<WrittenCloud> write(const SceneQuery& scene, const WorldModel& world, con
   return written;
 }
 
+GeoreferenceRequest request_of(const WorldModel& world, const PictureSet& pictures,
+                               const SurveyArea& area, const PhotogrammetryOptions& options) {
+  GeoreferenceRequest request;
+  for (const Pose& X_WS : pictures.X_WS) request.cameras_W.push_back(X_WS.p);
+  request.told_W = pictures.told_W;
+  for (const Eigen::Vector2d& p :
+       control_places(area.box_W(), options.georeference.control_points)) {
+    const bool on_terrain = world.terrain && world.terrain->contains(p.x(), p.y());
+    request.marks_W.emplace_back(p.x(), p.y(),
+                                 on_terrain ? world.terrain->height_m(p.x(), p.y()) : 0.0);
+  }
+  request.seed = options.seed;
+  return request;
+}
+
+void note_georeference(const Georeference& reference, const GeoreferenceOptions& options,
+                       const Eigen::Vector3d& middle_W, CloudSampling& sampling) {
+  const Eigen::Vector3d error = reference.error_m(middle_W);
+  sampling.georeference = name_of(options.method);
+  sampling.georeference_east_m = error.x();
+  sampling.georeference_north_m = error.y();
+  sampling.georeference_up_m = error.z();
+  sampling.georeference_tilt_deg = deg_from_rad(reference.turn_rad.head<2>().norm());
+  sampling.georeference_turn_deg = deg_from_rad(reference.turn_rad.z());
+  sampling.georeference_scale = reference.scale;
+}
+
 }  // namespace
 
 SurveyArea make_survey_area(const std::vector<double>& corners_m, double margin_m,
@@ -89,11 +117,15 @@ Result<WrittenCloud> write_photogrammetry(const SceneQuery& scene, const WorldMo
                                           const PictureSet& pictures, const SurveyArea& area,
                                           const PhotogrammetryOptions& options,
                                           const CloudTarget& target) {
+  const auto reference =
+      georeference(request_of(world, pictures, area, options), options.georeference);
+  if (!reference) return Failure{"georeferencing: " + reference.reason()};
   return write(
       scene, world, area, options.seed, target,
       [&](const CloudSink& sink, CloudSampling& sampling) {
+        note_georeference(*reference, options.georeference, cloud_middle(area, world), sampling);
         const PhotogrammetryReport report = sample_photogrammetry(
-            scene, world, pictures.camera, pictures.X_WS, area, options, sink);
+            scene, world, pictures.camera, pictures.X_WS, area, options, sink, *reference);
         sampling.method = "photogrammetry";
         sampling.pictures = report.pictures;
         sampling.gsd_m = report.gsd_m;

@@ -1,0 +1,113 @@
+#include "engine/io/collada_check.h"
+
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "engine/core/error.h"
+#include "engine/core/files.h"
+#include "engine/io/point_cloud_scalar.h"
+
+namespace vinerow::io {
+namespace {
+
+constexpr std::uint64_t kMostNodes = 1'000'000;
+constexpr int kDeepestNode = 200;
+constexpr std::uint64_t kMostInputs = 100;    // numbers of one corner: position, normal, ...
+constexpr std::uint64_t kMostStride = 1'000;  // numbers of one entry of a source
+
+class ColladaCheck {
+ public:
+  ColladaCheck(const std::filesystem::path& file, std::uint64_t bytes)
+      : file_(file), bytes_(bytes) {}
+
+  void check(const tinyxml2::XMLElement& root) {
+    look_at(root);
+    for (const auto& [name, node] : nodes_) count_nodes(*node, name, 0);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& sentence) const {
+    throw ConfigError(fmt::format("mesh file '{}' is broken: {}", file_.string(), sentence));
+  }
+
+  /// Depth is tinyxml2's to limit.
+  void look_at(const tinyxml2::XMLElement& element) {
+    const std::string name = element.Name();
+    check_number(element, "count", bytes_, ", the file's bytes");
+    check_number(element, "stride", kMostStride, "");
+    check_number(element, "offset", name == "input" ? kMostInputs : bytes_, "");
+    if (name == "node") {
+      for (const char* key : {"id", "name"}) {
+        if (const char* value = element.Attribute(key)) nodes_.try_emplace(value, &element);
+      }
+    }
+    for (const auto* child = element.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      look_at(*child);
+    }
+  }
+
+  void check_number(const tinyxml2::XMLElement& element, const char* key, std::uint64_t most,
+                    const char* why) const {
+    const char* text = element.Attribute(key);
+    if (text == nullptr) return;
+    const auto number = parse_count(text);
+    if (number && *number <= most) return;
+    fail(fmt::format("{} = '{}' of <{}> in line {}, must be a whole number up to {}{}", key,
+                     std::string(text).substr(0, 40), element.Name(), element.GetLineNum(), most,
+                     why));
+  }
+
+  /// Nodes below this one, itself too, with all that instances bring.
+  std::uint64_t count_nodes(const tinyxml2::XMLElement& node, const std::string& name, int depth) {
+    if (depth > kDeepestNode) fail(fmt::format("its nodes are nested deeper than {}", kDeepestNode));
+    const auto [found, is_new] = counts_.try_emplace(&node, kBeingCounted);
+    if (!is_new) {
+      if (found->second == kBeingCounted) fail(fmt::format("the node '{}' contains itself", name));
+      return found->second;
+    }
+    std::uint64_t count = 1;
+    for (const auto* child = node.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      if (std::strcmp(child->Name(), "node") == 0) count += count_nodes(*child, name, depth + 1);
+      const char* url = child->Attribute("url");
+      if (std::strcmp(child->Name(), "instance_node") == 0 && url != nullptr) {
+        const std::string wanted = url[0] == '#' ? url + 1 : url;
+        const auto instanced = nodes_.find(wanted);
+        if (instanced != nodes_.end()) count += count_nodes(*instanced->second, wanted, depth + 1);
+      }
+      if (count > kMostNodes) {
+        fail(fmt::format("its nodes instance each other more than {} times", kMostNodes));
+      }
+    }
+    counts_[&node] = count;
+    return count;
+  }
+
+  static constexpr std::uint64_t kBeingCounted = 0;
+
+  const std::filesystem::path& file_;
+  std::uint64_t bytes_;
+  std::map<std::string, const tinyxml2::XMLElement*> nodes_;
+  std::map<const tinyxml2::XMLElement*, std::uint64_t> counts_;
+};
+
+}  // namespace
+
+void check_collada(const std::filesystem::path& file) {
+  const std::string text = read_bytes(file).value_or("");
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS ||
+      document.RootElement() == nullptr) {
+    throw ConfigError(fmt::format("mesh file '{}' cannot be read: it is no XML (line {})",
+                                  file.string(), document.ErrorLineNum()));
+  }
+  ColladaCheck(file, text.size()).check(*document.RootElement());
+}
+
+}  // namespace vinerow::io

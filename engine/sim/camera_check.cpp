@@ -1,0 +1,51 @@
+#include "engine/sim/camera_check.h"
+
+#include <fmt/format.h>
+
+#include "engine/api/world_model.h"
+#include "engine/core/error.h"
+#include "engine/sim/standing_ground.h"
+
+namespace vinerow {
+namespace {
+
+/// The mesh that surrounds a point so closely that nothing else is seen: rays to all sides and up
+/// end on it within a few metres. What lies below may be the ground that it stands on. -1: none.
+int find_surrounding(const SceneQuery& scene, const Eigen::Vector3d& p_W) {
+  constexpr double kClose_m = 3.0;
+  constexpr SurfaceMask kRigid = kAllSurfaces & ~mask_of(SurfaceClass::kCanopy);
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  int mesh = -1;
+  for (const Eigen::Vector3d& direction :
+       {x, Eigen::Vector3d(-x), y, Eigen::Vector3d(-y), Eigen::Vector3d::UnitZ().eval()}) {
+    const auto hit = scene.cast_ray(p_W, direction, kClose_m, kRigid);
+    if (!hit || hit->mesh < 0 || (mesh >= 0 && hit->mesh != mesh)) return -1;
+    mesh = hit->mesh;
+  }
+  return mesh;
+}
+
+}  // namespace
+
+void refuse_hidden_cameras(const io::PicturesConfig& pictures, const WorldModel& world,
+                           const SceneQuery& scene) {
+  const StandingGround ground(world, scene);
+  for (const io::CameraConfig& camera : pictures.cameras) {
+    if (camera.kind != io::CameraKind::kFixed) continue;
+    const auto refuse = [&](const std::string& where) {
+      throw ConfigError(fmt::format(
+          "{}: camera '{}' would stand {}; position_m = [{:g}, {:g}, {:g}] counts its height from "
+          "the ground up",
+          camera.where.text(), camera.name, where, camera.p_W.x(), camera.p_W.y(), camera.p_W.z()));
+    };
+    if (camera.p_W.z() <= 0.0) refuse(fmt::format("{:g} m below the ground", -camera.p_W.z()));
+    const double ground_m = ground.height_m(camera.p_W.x(), camera.p_W.y()).value_or(0.0);
+    const int mesh = find_surrounding(scene, camera.p_W + Eigen::Vector3d(0.0, 0.0, ground_m));
+    if (mesh >= 0) {
+      refuse(fmt::format("inside the {} '{}'", to_string(world.meshes[mesh].surface),
+                         world.meshes[mesh].name));
+    }
+  }
+}
+
+}  // namespace vinerow

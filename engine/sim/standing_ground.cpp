@@ -1,0 +1,44 @@
+#include "engine/sim/standing_ground.h"
+
+#include <algorithm>
+
+#include "engine/api/world_model.h"
+
+namespace vinerow {
+
+StandingGround::StandingGround(const WorldModel& world, const SceneQuery& scene)
+    : world_(world), scene_(scene) {
+  has_terrain_mesh_ =
+      std::any_of(world.meshes.begin(), world.meshes.end(), [](const MeshInstance& instance) {
+        return instance.collides && instance.surface == SurfaceClass::kTerrain;
+      });
+}
+
+std::optional<double> StandingGround::height_m(double x, double y) const {
+  const auto terrain = terrain_m(x, y, kFromAbove_m);
+  return terrain ? terrain : scene_.ground_height_m(x, y, kFromAbove_m);
+}
+
+std::optional<double> StandingGround::beside_m(double x, double y, double here_m, bool obstacles,
+                                               double beside_m) const {
+  constexpr double kSteepest = 1.0;  // tan 45 deg
+  const double rise_m = kSteepest * beside_m;
+  const auto height =
+      obstacles ? scene_.ground_height_m(x, y, here_m + rise_m) : terrain_m(x, y, here_m + rise_m);
+  return height && *height >= here_m - rise_m ? height : std::nullopt;
+}
+
+std::optional<double> StandingGround::terrain_m(double x, double y, double z_from) const {
+  std::optional<double> highest;
+  if (world_.terrain && world_.terrain->contains(x, y)) {
+    const double height = world_.terrain->height_m(x, y);
+    if (height <= z_from) highest = height;
+  }
+  if (!has_terrain_mesh_) return highest;
+  const auto hit = scene_.cast_ray({x, y, z_from}, -Eigen::Vector3d::UnitZ(), z_from + kFromAbove_m,
+                                   mask_of(SurfaceClass::kTerrain));
+  if (hit && hit->mesh >= 0) highest = z_from - hit->distance_m;
+  return highest;
+}
+
+}  // namespace vinerow

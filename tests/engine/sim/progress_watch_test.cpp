@@ -1,0 +1,64 @@
+#include "engine/sim/progress_watch.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/api/vehicle.h"
+
+namespace vinerow::progress_watch_test {
+namespace {
+
+VehicleDescription rover() {
+  VehicleDescription description;
+  description.wheeled.emplace();
+  description.wheeled->wheel_radius_m = 0.2;
+  description.actuators = {{"axle_front_steer_rad", "rad", -1.0, 1.0},
+                           {"wheel_l_speed_radps", "rad/s", -20.0, 20.0},
+                           {"wheel_r_speed_radps", "rad/s", -20.0, 20.0}};
+  return description;
+}
+
+/// When a vehicle is told to be stuck, s; it moves at `moved_mps` and is commanded l, r. -1: never
+/// within 100 s.
+double stuck_after_s(double moved_mps, double l, double r) {
+  ProgressWatch watch(rover());
+  const Duration dt{50'000'000};
+  for (int i = 0; i <= 2000; ++i) {
+    const Time now{i * dt.ns};
+    if (!watch.update(now, {moved_mps * now.s(), 0, 0}, {0.5, l, r}, dt).empty()) return now.s();
+  }
+  return -1.0;
+}
+
+TEST(ProgressWatch, TellsWhoDrivesFiveMetresAndStands) {
+  // Rims at 0.25 m/s drive 5 m in 20 s; faster ones wait for 10 s.
+  EXPECT_NEAR(stuck_after_s(0.0, 1.25, 1.25), 20.0, 0.051);
+  EXPECT_NEAR(stuck_after_s(0.0, -1.25, -1.25), 20.0, 0.051) << "backwards";
+  EXPECT_NEAR(stuck_after_s(0.0, 5.0, 5.0), 10.0, 0.051);
+  // Creeping on by 0.5 m in 9 s is progress, in 11 s it is none.
+  EXPECT_EQ(stuck_after_s(0.5 / 9.0, 5.0, 5.0), -1.0);
+  EXPECT_NEAR(stuck_after_s(0.5 / 11.0, 5.0, 5.0), 10.0, 0.051);
+}
+
+TEST(ProgressWatch, LeavesThoseAloneWhoStandOrPivotOrFly) {
+  EXPECT_EQ(stuck_after_s(0.0, 0.0, 0.0), -1.0);
+  EXPECT_EQ(stuck_after_s(0.0, -5.0, 5.0), -1.0);
+  VehicleDescription drone = rover();
+  drone.rotorcraft.emplace();
+  ProgressWatch watch(drone);
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_EQ(watch.update(Time{i * 50'000'000ll}, {0, 0, 0}, {0, 9, 9}, Duration{50'000'000}), "");
+  }
+}
+
+TEST(ProgressWatch, SaysHowFar) {
+  ProgressWatch watch(rover());
+  std::string told;
+  for (int i = 0; i <= 200 && told.empty(); ++i) {
+    told = watch.update(Time{i * 125'000'000ll}, {0.12 * (i > 0), 0, 0}, {0, 5, 5},
+                        Duration{125'000'000});
+  }
+  EXPECT_EQ(told, "its wheels were driven for 10.0 m in 10.0 s and it moved 0.12 m");
+}
+
+}  // namespace
+}  // namespace vinerow::progress_watch_test

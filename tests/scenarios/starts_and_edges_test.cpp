@@ -1,0 +1,170 @@
+/// Where vehicles may start, what the ends of the ground and walls that are part of it do to them,
+/// and who gets nowhere.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "engine/core/error.h"
+#include "tests/scenarios/session_support.h"
+#include "tests/support/paths.h"
+#include "vinerow/testing.h"
+
+namespace vinerow::starts_and_edges_test {
+namespace {
+
+using test::ScratchFolder;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Ground of 40 m x 40 m that rises by 0.1 to the east from z = -12 m in the middle.
+std::string hillside() {
+  return "v -20 -20 -14\nv 20 -20 -10\nv 20 20 -10\nv -20 20 -14\nf 1 2 3 4\n";
+}
+
+/// The same with a wall across it, 1.5 m high, its face at x = 6 m.
+std::string hillside_with_wall() {
+  return hillside() +
+         "v 6 -20 -12\nv 6 20 -12\nv 6 20 -9.9\nv 6 -20 -9.9\nv 6.3 -20 -9.9\nv 6.3 20 -9.9\n"
+         "v 6.3 20 -12\nv 6.3 -20 -12\nf 5 8 7 6\nf 8 9 10 7\nf 9 12 11 10\n";
+}
+
+std::string scenario(const std::string& world, const std::string& spawn, double to_x_m) {
+  return fmt::format(
+      "vinerow: 1\nname: s\nduration_s: 120\nworld: {}\nvehicles:\n  rover:\n"
+      "    include: {}/assets/vehicles/rover_paper_b.yaml\n    spawn: {}\n"
+      "    planner: {{type: waypoints, x_m: [0, {}], y_m: [0, 0]}}\n"
+      "    controller: {{type: path_follower, rate_Hz: 20}}\n"
+      "metrics: {{deviation: {{type: path_deviation}}}}\n",
+      world, VINEROW_SOURCE_DIR, spawn, to_x_m);
+}
+
+test::CommandResult run(const ScratchFolder& folder, const std::string& yaml) {
+  return test::run_vinerow("run " + folder.file("s.yaml", yaml) +
+                           " --quiet --no-log --no-report --out " +
+                           (folder.path() / "out").string());
+}
+
+std::string events(const ScratchFolder& folder) {
+  return test::read_text(folder.path() / "out" / "events.jsonl");
+}
+
+/// Drives straight until the run breaks off, fast: slowly it would come to lie on the edge.
+/// @returns why
+std::string drive_off(Session session, double radps) {
+  const NamedValues wheels{{"wheel_fl_speed_radps", "wheel_fr_speed_radps", "wheel_rl_speed_radps",
+                            "wheel_rr_speed_radps"},
+                           {radps, radps, radps, radps}};
+  session.command("rover/actuators", session.now(), wheels);
+  try {
+    while (!session.over()) session.advance_for(Duration{500'000'000});
+  } catch (const SimulationError& error) {
+    return error.what();
+  }
+  const Eigen::Vector3d p = session.signal<Odometry>("rover/truth").value().X_WB.p;
+  return fmt::format("it went on to the end at x = {:.2f} m, y = {:.2f} m", p.x(), p.y());
+}
+
+SessionOptions driven() {
+  return SessionOptions().take_over<NamedValues>("rover/actuators");
+}
+
+TEST(MeshWorldRun, ARoverDrivesBelowZeroAndItsRunEndsWhereTheMeshEnds) {
+  const ScratchFolder folder("mesh_edge");
+  folder.file("hill.obj", hillside());
+  const std::string told = drive_off(
+      open_session_text("vinerow: 1\nname: s\nduration_s: 60\n"
+                        "world: {type: mesh, items: [{file: hill.obj}]}\n"
+                        "vehicles: {rover: {type: diff_drive_rover, spawn: {x_m: 0, y_m: 0}}}\n",
+                        folder.path(), {}, driven()),
+      20.0);
+  EXPECT_THAT(told, HasSubstr("rover (diff_drive_rover)"));
+  EXPECT_THAT(told, HasSubstr("it left the terrain at x = 2"));
+  EXPECT_THAT(told, HasSubstr("the ground of world 'mesh' lies between x = -20.0 and 20.0 m, "
+                              "y = -20.0 and 20.0 m"));
+}
+
+TEST(MeshWorldRun, AWallThatIsPartOfTheTerrainIsTouchedAndHoldsWhoGoesOn) {
+  const ScratchFolder folder("mesh_wall");
+  folder.file("hill.obj", hillside_with_wall());
+  const auto result =
+      run(folder, scenario("{type: mesh, items: [{file: hill.obj, surface: terrain}]}",
+                           "{x_m: 0, y_m: 0}", 15));
+  EXPECT_EQ(result.status, 1) << result.output;
+  EXPECT_THAT(events(folder), HasSubstr("touches a wall of the terrain at x = 6.0"));
+  EXPECT_THAT(result.output, HasSubstr("rover is stuck at "));
+  EXPECT_THAT(result.output, HasSubstr("its wheels were driven for "));
+  const std::string summary = test::read_text(folder.path() / "out" / "summary.json");
+  EXPECT_THAT(summary, HasSubstr("\"status\": \"a vehicle is stuck\""));
+}
+
+TEST(Edges, LeavingAParcelNamesTheKeyThatMakesItLarger) {
+  std::string text = test::kFreeRover;
+  text.replace(text.find("duration_s: 3"), 13, "duration_s: 60");
+  const std::string told = drive_off(open_session_text(text, ".", {}, driven()), -20.0);
+  EXPECT_THAT(told, HasSubstr("it left the terrain at"));
+  EXPECT_THAT(told, HasSubstr("; a larger world.surroundings_m (6 m now) makes more of it"));
+}
+
+TEST(Starts, InsideARowOrAVehicleAreRefusedBeforeTheRun) {
+  const ScratchFolder folder("starts");
+  const std::string world = "{type: vineyard, row_count: 3, row_length_m: 20, row_bearing_deg: 90}";
+  const auto validate = [&](const std::string& spawn) {
+    return test::run_vinerow("validate " + folder.file("s.yaml", scenario(world, spawn, 5)));
+  };
+  EXPECT_EQ(validate("{alley: 0, offset_m: 3}").status, 0);
+  // The first alley's middle is at y = 37.66 m, a row 1.4 m beside it.
+  const auto inside = validate("{x_m: 67.3, y_m: 39.06}");
+  EXPECT_EQ(inside.status, 2) << inside.output;
+  EXPECT_THAT(inside.output, HasSubstr("s.yaml:8: vehicles.rover.spawn: at x = "));
+  EXPECT_THAT(inside.output, HasSubstr("the vehicle would stand in the "));
+  EXPECT_THAT(inside.output, HasSubstr("'alley: 0' to 'alley: 1' start in the middle of an alley"));
+  const auto two = test::run_vinerow(
+      "validate " + folder.file("two.yaml", scenario(world, "{alley: 0, offset_m: 3}", 5) + "") +
+      " --set 'vehicles.other={type: diff_drive_rover, spawn: {alley: 0, offset_m: 4}}'");
+  EXPECT_EQ(two.status, 2) << two.output;
+  EXPECT_THAT(two.output, HasSubstr("vehicles.other.spawn: at x = "));
+  EXPECT_THAT(two.output, HasSubstr("the vehicle would stand in vehicle 'rover', which starts at"));
+}
+
+TEST(Starts, APartForAnotherKindOfVehicleIsRefusedWithItsPlace) {
+  const ScratchFolder folder("kinds");
+  std::string yaml =
+      scenario("{type: vineyard, row_count: 2, row_length_m: 10}", "{alley: 0, offset_m: 3}", 5);
+  yaml.replace(yaml.find("path_follower"), 13, "quadrotor_pid");
+  const auto result = test::run_vinerow("validate " + folder.file("s.yaml", yaml));
+  EXPECT_EQ(result.status, 2) << result.output;
+  EXPECT_THAT(result.output,
+              HasSubstr("s.yaml:10: rover.controller (quadrotor_pid) needs a vehicle "
+                        "with rotors; vehicle type 'diff_drive_rover' has wheels"));
+}
+
+TEST(Verdicts, AMetricWithoutValueSaysWhy) {
+  const ScratchFolder folder("not_measured");
+  const auto result = run(
+      folder,
+      scenario("{type: vineyard, row_count: 2, row_length_m: 10}", "{alley: 0, offset_m: 3}", 5) +
+          "criteria:\n  - {metric: rover.turn_deviation_rms_m, max: 0.5}\n");
+  EXPECT_EQ(result.status, 1) << result.output;
+  EXPECT_THAT(result.output,
+              HasSubstr("FAILED  rover.turn_deviation_rms_m not measured (at most 0.5): "
+                        "it never drove a turn"));
+  EXPECT_THAT(result.output, Not(HasSubstr("nan")));
+}
+
+TEST(Steps, TooLongForTheWheelsAreRefused) {
+  const ScratchFolder folder("steps");
+  const auto result = test::run_vinerow(
+      "validate " +
+      folder.file("s.yaml", scenario("{type: vineyard, row_count: 2, row_length_m: 10}",
+                                     "{alley: 0, offset_m: 3}", 5)) +
+      " --set physics.step_s=0.025");
+  EXPECT_EQ(result.status, 2) << result.output;
+  EXPECT_THAT(result.output,
+              HasSubstr("rover: physics.step_s = 0.025 s is too long for its wheels, "
+                        "which are valid to 0.0025 s"));
+}
+
+}  // namespace
+}  // namespace vinerow::starts_and_edges_test

@@ -51,7 +51,7 @@ add_compile_options(-Wall -Wextra -Werror -Wshadow -Wnon-virtual-dtor -Woverload
                     -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
-  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/eigen_without_fma.h>)
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/eigen_without_fma.h>")
 endif()
 
 if(VINEROW_SANITIZE)

@@ -10,6 +10,7 @@ namespace vinerow {
 namespace {
 
 constexpr double kLeastStd_m = 1e-3;       // an ideal receiver states zero
+constexpr double kLargestTurn_rad = 0.05;  // 3 deg, up to which a baseline is a vector
 constexpr double kStandingPeriod_s = 0.2;  // between zero-velocity updates
 constexpr double kRestartVelocityStd_mps = 5.0;
 constexpr int kRestartRejections = 5;  // a receiver at 1 Hz takes as long
@@ -194,11 +195,21 @@ void ErrorStateSources::take_baseline() {
   const GnssHeading& reading = baseline_.value();
   if (!reading.valid) return;
   const Time stamp = baseline_.stamp();
+  const PastState past = filter_.past(stamp);
+  const double inflation = sources_[kHeading].inflation(stamp, options_.heading_correlation_s);
+  // Far off, the vectors' difference is no linear function of the turn: their headings' is.
+  const ScalarMeasurement heading =
+      magnetic_measurement(past, baseline_axis_B_, reading.heading_rad);
+  const double variance_rad2 = (heading.H * filter_.covariance()).dot(heading.H);
+  if (variance_rad2 > kLargestTurn_rad * kLargestTurn_rad) {
+    const double std_rad = std::max(reading.heading_std_rad, kLeastStd_m / reading.length_m);
+    correct(kHeading, stamp, heading, inflation * std_rad * std_rad);
+    return;
+  }
   const Eigen::Vector3d std_m = reading.std_m.cwiseMax(kLeastStd_m);
   correct(kHeading, stamp,
-          direction_measurement(filter_.past(stamp), reading.length_m * baseline_axis_B_,
-                                reading.baseline_W),
-          sources_[kHeading].inflation(stamp, options_.heading_correlation_s) * std_m.cwiseAbs2());
+          direction_measurement(past, reading.length_m * baseline_axis_B_, reading.baseline_W),
+          inflation * std_m.cwiseAbs2());
 }
 
 std::optional<double> ErrorStateSources::heading_rad(const Eigen::Quaterniond& q_level_B) const {

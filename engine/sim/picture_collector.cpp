@@ -1,5 +1,9 @@
 #include "engine/sim/picture_collector.h"
 
+#include <algorithm>
+
+#include "engine/sensors/mounting.h"
+
 namespace vinerow {
 
 Eigen::Vector3d told_place(const Odometry& estimate, double later_s, const Eigen::Vector3d& p_B) {
@@ -8,9 +12,15 @@ Eigen::Vector3d told_place(const Odometry& estimate, double later_s, const Eigen
 }
 
 Eigen::Vector3d place_of_sensor(const ParameterSet& parameters) {
-  if (parameters.find("position_m") == nullptr) return Eigen::Vector3d::Zero();
-  const std::vector<double>& p = parameters.numbers("position_m");
-  return {p[0], p[1], p[2]};
+  const auto& own = parameters.specs();
+  const std::vector<ParameterSpec> of_mounting = mounting_table().specs();
+  const bool has_mounting =
+      std::all_of(of_mounting.begin(), of_mounting.end(), [&](const ParameterSpec& wanted) {
+        return std::any_of(own.begin(), own.end(),
+                           [&](const ParameterSpec& spec) { return spec.name == wanted.name; });
+      });
+  if (!has_mounting) return Eigen::Vector3d::Zero();
+  return mounting_table().read(parameters, parameters.owner()).X_BS().p;
 }
 
 PictureCollector::PictureCollector(SignalBus& bus, const std::string& vehicle,

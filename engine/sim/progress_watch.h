@@ -17,7 +17,7 @@ class ProgressWatch {
   /// Of the way that the wheels' rims were commanded to go forward or back.
   static constexpr double kDriven_m = 5.0;
   /// A vehicle may spin its wheels for a while and then come free.
-  static constexpr double kPatience_s = 10.0;
+  static constexpr double kPatience_s = 30.0;
   /// Within which a vehicle that drove so far has not moved on. Whoever pivots commands no way.
   static constexpr double kMoved_m = 0.5;
 
@@ -26,7 +26,7 @@ class ProgressWatch {
 
   /// @param p_W  where the vehicle is  @param actuators  commanded, in the order of the description
   /// @param dt  since the last call
-  /// @returns "its wheels were driven for 9.1 m in 10.0 s and it moved 0.12 m", once it is stuck;
+  /// @returns "its wheels were driven for 29.1 m in 30.0 s and it moved 0.12 m", once it is stuck;
   /// empty before
   std::string update(Time now, const Eigen::Vector3d& p_W, const std::vector<double>& actuators,
                      Duration dt);

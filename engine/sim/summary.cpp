@@ -89,10 +89,9 @@ ordered_json estimation_json(const io::Scenario& scenario) {
     } else {
       const ParameterSet& parameters = vehicle.estimator->parameters;
       for (const ParameterSpec& spec : parameters.specs()) {
-        const bool is_choice = spec.kind == ParameterKind::kText && !spec.choices.empty();
-        if (is_choice && parameters.has(spec.name) && parameters.text(spec.name) == "truth") {
-          of_truth.push_back(spec.name);
-        }
+        if (spec.kind != ParameterKind::kText || spec.choices.empty()) continue;
+        const ParameterSet::Value* value = parameters.find(spec.name);
+        if (value && std::get<std::string>(*value) == "truth") of_truth.push_back(spec.name);
       }
     }
     list[vehicle.name] = {

@@ -157,7 +157,7 @@ void expect_refused(const std::string& set, const std::vector<std::string>& text
 
 TEST(FourWheelMission, RefusesWhatCannotBePlanned) {
   expect_refused("rover.spawn={x_m: 60, y_m: 18.5, yaw_deg: 10}",
-                 {"start in collision", "m of room", "the margin is 0.030 m"});
+                 {"vehicles.rover.spawn", "the vehicle would stand in the canopy", "'alley: 0' to"});
   expect_refused(
       "world.obstacles=[{name: wall, alley: 1, distance_m: 60, size_m: [0.5, 2.4, 1], mapped: "
       "true}]",

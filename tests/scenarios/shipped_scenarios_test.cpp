@@ -86,6 +86,10 @@ bool goes_by_truth(const io::VehicleConfig& vehicle) {
   if (!vehicle.controller) return false;
   if (!vehicle.estimator || vehicle.estimator->type == "truth") return true;
   const ParameterSet& parameters = vehicle.estimator->parameters;
+  const auto& specs = parameters.specs();
+  if (std::none_of(specs.begin(), specs.end(), [](const auto& s) { return s.name == "heading"; })) {
+    return false;
+  }
   const ParameterSet::Value* heading = parameters.find("heading");
   const std::string* text = heading ? std::get_if<std::string>(heading) : nullptr;
   return text && *text == "truth";

@@ -10,7 +10,7 @@ const ParameterTable<VineyardParams>& vineyard_table() {
       ParameterTable<P>()
           .integer("row_count", &P::row_count, between(1, 1000), "number of rows")
           .number("row_length_m", "m", &P::row_length_m, between(1.0, 5000.0), "length of each row")
-          .number("pitch_m", "m", &P::pitch_m, between(0.3, 100.0), "distance between rows")
+          .number("pitch_m", "m", &P::pitch_m, between(0.3, 1000.0), "distance between rows")
           .number("vine_spacing_m", "m", &P::vine_spacing_m, between(0.1, 100.0),
                   "between vines of a row")
           .number("missing_vine_share", "", &P::missing_vine_share, between(0.0, 0.9),

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/constants.h"
 #include "engine/math/angles.h"
 #include "tests/controllers/support/aircraft_loop.h"
 
@@ -88,13 +89,24 @@ TEST(AircraftPorts, DeviationIsThatOfAviationInTheWind) {
   EXPECT_NEAR(bench.follower.value().heading_error_rad, -0.15, 1e-12);
 }
 
-TEST(AircraftPorts, AnotherAirspeedShiftsTheForwardSpeed) {
+TEST(AircraftPorts, AnotherAirspeedHasATrimOfItsOwn) {
   Bench bench;
   AirReference wanted = fly_straight(0.5 * kPi, 90.0)(0.0);
-  const TrimPoint trim = bench.ports->trims().cruise().at(0.0, 0.0);
   wanted.airspeed_mps = 12.4;
-  bench.tell(moved_from_trim(trim, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
-  EXPECT_NEAR(bench.ports->deviation().lon(0), -0.4, 1e-12);
+  const Aircraft aircraft = read_aircraft(bench.description, kStandardGravity_mps2, "test");
+  TrimRequest request;
+  request.airspeed_mps = 12.4;
+  const Result<Trim> trim = find_trim(aircraft, request);
+  ASSERT_TRUE(trim) << trim.reason();
+  TrimPoint point = bench.ports->trims().cruise().at(0.0, 0.0);
+  const double cruise_u_mps = point.u_mps;
+  point.u_mps = trim->u_mps;
+  point.w_mps = trim->w_mps;
+  point.pitch_rad = trim->pitch_rad;
+  bench.tell(moved_from_trim(point, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
+  // Between tables 1 m/s apart.
+  EXPECT_NEAR(bench.ports->deviation().lon.head<4>().norm(), 0.0, 5e-3);
+  EXPECT_GT(12.4 - cruise_u_mps, 0.3) << "at the trim of the cruise speed it would deviate";
 }
 
 TEST(AircraftPorts, WritesTrimPlusDeviationWithinTheActuatorsRanges) {

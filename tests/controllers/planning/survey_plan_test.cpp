@@ -306,8 +306,8 @@ TEST(SurveyPlan, CountsLanesAndPicturesBeforeItPlansThem) {
   request.polygon_W = {{0, 0}, {30e3, 0}, {30e3, 40e3}, {0, 40e3}};
   const std::string fault = fault_of(request);
   EXPECT_EQ(fault.find("30000 m x 40000 m at "), 0u) << fault;
-  // 40 km / 45 m + 1
-  EXPECT_NE(fault.find(" would take 890 lanes 45 m apart and "), std::string::npos) << fault;
+  // 40 km / 45.3 m
+  EXPECT_NE(fault.find(" would take 883 lanes 45.3 m apart and "), std::string::npos) << fault;
   EXPECT_NE(fault.find("at most 1000 lanes and 200000 pictures are planned"), std::string::npos);
 }
 

@@ -505,7 +505,7 @@ TEST(Trajectory, TellsWhatIsWrongWithItsParameters) {
   EXPECT_EQ(refusal_of({{"height_m", 0.1}}),
             "drone.guidance (trajectory): height_m = 0.10 m is not above the 0.20 m at which the "
             "centre of mass of vehicle type 'quadrotor' stands");
-  EXPECT_THAT(refusal_of({{"acceleration_mps2", 0.0}}), HasSubstr("must be > 0"));
+  EXPECT_THAT(refusal_of({{"acceleration_mps2", 0.0}}), HasSubstr("must be >= 0.001 m/s2"));
   VehicleDescription rover = make_four_wheel_description();
   EXPECT_EQ(refusal_of({}, rover),
             "drone.guidance (trajectory) needs a vehicle with rotors; vehicle type "

@@ -275,7 +275,7 @@ TEST(ScenarioFault, NamesAreSimpleWords) {
       fault_of(with_line(10, "      truth: {type: gps}")),
       "scenario:10: vehicles.rover.sensors.truth: a sensor cannot have the name of another signal "
       "(truth, estimate, plan, reference, links, actuators, follower, command, plan_tree, "
-      "local_command, ellipsoid, estimator_state, contacts, map_edges, authority)");
+      "local_command, ellipsoid, estimator_state, contacts, map_edges, landing, authority)");
   EXPECT_EQ(fault_of(with_line(10, "      gps: {type: gps}\n      gps_truth: {type: gps}")),
             "scenario:11: vehicles.rover.sensors.gps_truth: a name cannot end in '_truth', which "
             "marks what a sensor would have read without error");
@@ -327,7 +327,7 @@ TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {
       observers("estimate: {type: filter}"),
       "scenario:11: vehicles.rover.observers.estimate: an observer cannot have the name of "
       "another signal (truth, estimate, plan, reference, links, actuators, follower, command, "
-      "plan_tree, local_command, ellipsoid, estimator_state, contacts, map_edges, authority)");
+      "plan_tree, local_command, ellipsoid, estimator_state, contacts, map_edges, landing, authority)");
   EXPECT_EQ(observers("gps: {type: filter}"),
             "scenario:11: vehicles.rover.observers.gps: its signal 'gps' has the name of the "
             "sensor 'gps'");
@@ -337,7 +337,7 @@ TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {
   EXPECT_EQ(
       observers("a: {type: gps}"),
       "scenario:11: vehicles.rover.observers.a.type = 'gps' is a sensor, must be an estimator "
-      "(known: filter)");
+      "(known: filter, fusion)");
   EXPECT_EQ(observers("a: {type: filtr}"),
             "scenario:11: vehicles.rover.observers.a.type = 'filtr': unknown estimator; did you "
             "mean 'filter'? (known: filter, fusion)");

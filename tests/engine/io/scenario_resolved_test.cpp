@@ -135,7 +135,7 @@ TEST(ResolvedScenario, LoadsAgainFromAnywhereAsTheSame) {
       "duration_s: 0.1\n"
       "seed: 9223372036854775807\n"
       "pictures: {cameras: {a: {}, b: {kind: top}, c: {kind: on_board}, d: {kind: fixed, "
-      "position_m: [0.1, 1e-7, 1e22], look_at_m: [1, 2, 3]}}}";
+      "position_m: [0.1, 1e-7, 99999.99999999999], look_at_m: [1, 2, 3]}}}";
   std::string text = with_line(2, yaml);
   text += "  - {metric: rover.x, min: -1e-300, max: 0.30000000000000004}\n";
   const Scenario s = parse_scenario(

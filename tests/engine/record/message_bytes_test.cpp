@@ -36,7 +36,7 @@ const std::map<std::string, Digests> kDigests = {
     {"LaserScan",
      {"71d1d3beca374c24df04887955cba02b", "7b9da5773057fbc69a2277707016b54b"}},
     {"PositionEllipsoid",
-     {"5114b46a4652eca5434320468fa8b445", "3cc4f413afb6d850e0789073a0c833ec"}},
+     {"ac9ee19863a37d86c05c93ca87149f4b", "5f9ca171cd65973a6dfce8eb15a9bc31"}},
     {"GnssHeading",
      {"2ce143f7cbd9e45596c64400b050af28", "b338dca0b6906339e69e486f17ee15c8"}},
     {"VelocityCommand",

@@ -82,7 +82,7 @@ TEST(Png, FailuresNameTheFile) {
     write_png("/nonexistent_folder/x.png", image);
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "/nonexistent_folder/x.png: cannot be opened for writing");
+    EXPECT_STREQ(error.what(), "'/nonexistent_folder/x.png' cannot be written: No such file or directory");
   }
   try {
     write_png(temporary_file("x.png"), Image{3, 3, {1, 2, 3}});

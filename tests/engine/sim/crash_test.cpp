@@ -58,7 +58,7 @@ TEST_F(CrashRun, EndsAtTheCrashUnlessTheScenarioSaysOtherwise) {
   EXPECT_EQ(told["exit_status"], 1);
   EXPECT_EQ(told["status"], "a vehicle crashed");
   EXPECT_EQ(told["error"], result.error);
-  EXPECT_EQ(told["crashes"], nlohmann::json::parse(R"([{"vehicle": "drone", "time_s": 0.2,
+  EXPECT_EQ(told["crashes"], nlohmann::json::parse(R"([{"vehicle": "drone", "time_s": 0.2, "kind": "crashed",
                                        "text": "hit the ground at 2.3 m/s"}])"));
   const auto crashed = events("crashed: hit the ground at 2.3 m/s");
   ASSERT_EQ(crashed.size(), 1u);

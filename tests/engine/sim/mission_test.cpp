@@ -256,9 +256,8 @@ TEST_F(MissionRun, FaultsOfPartsAreFoundBeforeAnythingRuns) {
 }
 
 TEST_F(MissionRun, HowNearOthersCameIsMeasured) {
-  const RunResult result = run();
   // Boxes of 1 m on a line, 1 m apart.
-  EXPECT_EQ(result.metrics.at("rover").at("min_vehicle_distance_m"), 0.0);
+  EXPECT_EQ(run().metrics.at("rover").at("min_vehicle_distance_m"), 0.0);
   EXPECT_EQ(run({"drone.spawn.x_m=4"}).metrics.at("drone").at("min_vehicle_distance_m"), 2.0);
 }
 

@@ -30,13 +30,13 @@ double stuck_after_s(double moved_mps, double l, double r) {
 }
 
 TEST(ProgressWatch, TellsWhoDrivesFiveMetresAndStands) {
-  // Rims at 0.25 m/s drive 5 m in 20 s; faster ones wait for 10 s.
-  EXPECT_NEAR(stuck_after_s(0.0, 1.25, 1.25), 20.0, 0.051);
-  EXPECT_NEAR(stuck_after_s(0.0, -1.25, -1.25), 20.0, 0.051) << "backwards";
-  EXPECT_NEAR(stuck_after_s(0.0, 5.0, 5.0), 10.0, 0.051);
-  // Creeping on by 0.5 m in 9 s is progress, in 11 s it is none.
-  EXPECT_EQ(stuck_after_s(0.5 / 9.0, 5.0, 5.0), -1.0);
-  EXPECT_NEAR(stuck_after_s(0.5 / 11.0, 5.0, 5.0), 10.0, 0.051);
+  // Rims at 0.1 m/s drive 5 m in 50 s; faster ones have 30 s to come free.
+  EXPECT_NEAR(stuck_after_s(0.0, 0.5, 0.5), 50.0, 0.051);
+  EXPECT_NEAR(stuck_after_s(0.0, -0.5, -0.5), 50.0, 0.051) << "backwards";
+  EXPECT_NEAR(stuck_after_s(0.0, 5.0, 5.0), 30.0, 0.051);
+  // Creeping on by 0.5 m in 29 s is progress, in 31 s it is none.
+  EXPECT_EQ(stuck_after_s(0.5 / 29.0, 5.0, 5.0), -1.0);
+  EXPECT_NEAR(stuck_after_s(0.5 / 31.0, 5.0, 5.0), 30.0, 0.051);
 }
 
 TEST(ProgressWatch, LeavesThoseAloneWhoStandOrPivotOrFly) {
@@ -53,11 +53,11 @@ TEST(ProgressWatch, LeavesThoseAloneWhoStandOrPivotOrFly) {
 TEST(ProgressWatch, SaysHowFar) {
   ProgressWatch watch(rover());
   std::string told;
-  for (int i = 0; i <= 200 && told.empty(); ++i) {
+  for (int i = 0; i <= 300 && told.empty(); ++i) {
     told = watch.update(Time{i * 125'000'000ll}, {0.12 * (i > 0), 0, 0}, {0, 5, 5},
                         Duration{125'000'000});
   }
-  EXPECT_EQ(told, "its wheels were driven for 10.0 m in 10.0 s and it moved 0.12 m");
+  EXPECT_EQ(told, "its wheels were driven for 30.0 m in 30.0 s and it moved 0.12 m");
 }
 
 }  // namespace

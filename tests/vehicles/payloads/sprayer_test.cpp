@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 /// B's plane x = 0.
 PayloadValues ideal(const PayloadValues& more = {}) {
   PayloadValues values = {{"settling_mps", 0.0},
-                          {"loss_length_m", 1e12},
+                          {"loss_length_m", 1e7},
                           {"boom_x_m", 0.0},
                           {"leaf_area_density_m2pm3", 200.0},
                           {"valve_lag_s", 0.0}};

@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "worlds/mapping/cloud/folder/cloud_map_type.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/cloud/folder/map_gis.h"
 #include "worlds/mapping/cloud/folder/map_points.h"
 #include "worlds/mapping/cloud/make_cloud_map.h"
 #include "worlds/mapping/cloud/map_comparison.h"
@@ -109,6 +110,7 @@ class CloudMapJob : public Job {
     CloudMap map = make_cloud_map(cloud, options_);
     add_source(read, map);
     save_map(map, context_.folder);
+    save_gis(map, cloud, context_.folder);
     save_map_points({reading_, options_.occupancy, std::move(cloud.classes)}, context_.folder);
     return map;
   }

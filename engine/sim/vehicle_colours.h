@@ -2,9 +2,13 @@
 /// The colours of a run's vehicles, in the scenario's order: of their trails in frames and in the
 /// replay, and of their lines in the report. The one place that tells them.
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace vinerow {
 
@@ -25,6 +29,12 @@ inline const std::array<VehicleColour, 8> kVehicleColours = {{{{1.0f, 0.72f, 0.0
 
 inline const VehicleColour& vehicle_colour(std::size_t vehicle) {
   return kVehicleColours[vehicle % kVehicleColours.size()];
+}
+
+/// "#ffb80d" of a colour of 0..1.
+inline std::string hex_colour(const Eigen::Vector3f& rgb) {
+  const auto byte = [](float share) { return static_cast<int>(std::lround(255.0f * share)); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(rgb.x()), byte(rgb.y()), byte(rgb.z()));
 }
 
 }  // namespace vinerow

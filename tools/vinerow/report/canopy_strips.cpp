@@ -150,14 +150,14 @@ std::string payload_section(const CanopyFile& canopy, const std::vector<RowFace>
     return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", value, what);
   };
   const CanopyWords words = words_for(canopy);
-  const std::string left_out = face_sentence(faces, "the " + canopy.vehicle);
+  const std::string left_out = face_sentence(faces);
   std::string out = fmt::format("<h3>{} of {}: {}</h3>\n<div class=\"cards\">\n",
                                 escaped(sentence_case(canopy.payload)), escaped(canopy.vehicle),
                                 escaped(canopy.quantity));
   out += card(percent(canopy.covered_share()), words.reached);
   if (!left_out.empty()) {
-    out += card(percent(passed_share(canopy, faces)),
-                "of it on the row sides along which the vehicle went");
+    out +=
+        card(percent(passed_share(canopy, faces)), "on the row sides along which the vehicle went");
   }
   out +=
       card(number_text(canopy.mean_amount()) + " " + escaped(canopy.unit), "mean over the canopy");
@@ -166,7 +166,7 @@ std::string payload_section(const CanopyFile& canopy, const std::vector<RowFace>
   }
   out += card(fmt::format("{} m²", number_text(canopy.area_m2())), "canopy surface in all");
   out += "</div>\n";
-  if (!left_out.empty()) out += fmt::format("<p>{}.</p>\n", escaped(sentence_case(left_out)));
+  if (!left_out.empty()) out += fmt::format("<p>{}.</p>\n", escaped(left_out));
   out += "<figure class=\"plot wide-chart\">\n<h4>Both sides of every row, unrolled</h4>\n";
   out += colour_legend(canopy, full) + strips_svg(canopy, full);
   return out +
@@ -250,15 +250,16 @@ std::string canopy_section(const RunFolder& run, const std::vector<CanopyFile>& 
 
 std::string canopy_remark(const RunFolder& run, const std::vector<CanopyFile>& canopies,
                           const std::vector<VehicleLog>& vehicles) {
-  std::string out;
+  std::string out, told;
   for (const CanopyFile& canopy : canopies) {
     const std::vector<RowFace> faces = faces_of(canopy, run, vehicles);
-    const std::string why = face_sentence(faces, "the " + canopy.vehicle);
+    const std::string why = face_sentence(faces);
     if (why.empty()) continue;
-    out += fmt::format("{}{}: {} {} ({} on the row sides along which it went), as {}.",
-                       out.empty() ? "" : " ", sentence_case(canopy.payload),
+    if (why != told) out += (out.empty() ? "" : " ") + why + ".";
+    told = why;
+    out += fmt::format(" {}: {} {}, {} on the sides passed.", sentence_case(canopy.payload),
                        percent(canopy.covered_share()), words_for(canopy).reached,
-                       percent(passed_share(canopy, faces)), why);
+                       percent(passed_share(canopy, faces)));
   }
   return out;
 }

@@ -70,6 +70,14 @@ std::string shortened(const std::string& text, std::size_t most) {
   return text.substr(0, end) + " …";
 }
 
+/// A planner's numbers fill a screen: long texts open.
+std::string folded(const std::string& text) {
+  constexpr std::size_t kFolds = 240;
+  if (text.size() <= kFolds) return escaped(text);
+  return fmt::format("<details><summary>{}</summary>{}</details>",
+                     escaped(shortened(text, kMostLetters)), escaped(text));
+}
+
 std::string time_text(double t_s) {
   return fmt::format("{:.2f}", t_s);
 }
@@ -79,7 +87,7 @@ std::string row_of(const RunEvent& event) {
       "<tr{}><td class=\"num\" title=\"{}\">{}</td><td>{}</td><td><code>{}</code></td><td "
       "class=\"words\">{}</td></tr>\n",
       is_grave(event) ? " class=\"grave\"" : "", event.t_s, time_text(event.t_s),
-      badge(event.level), escaped(event.source), escaped(event.text));
+      badge(event.level), escaped(event.source), folded(event.text));
 }
 
 }  // namespace

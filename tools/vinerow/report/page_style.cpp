@@ -2,26 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "engine/sim/vehicle_colours.h"
 
 namespace vinerow::tools::report {
 
 namespace {
 
-/// A colour of 0..1 as "#rrggbb".
-std::string hex_of(const Eigen::Vector3f& rgb) {
-  const auto byte = [](float share) { return static_cast<int>(std::lround(255.0f * share)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(rgb.x()), byte(rgb.y()), byte(rgb.z()));
-}
-
 /// --v0 and so on: the vehicles' colours, as in frames and replay.
 std::string vehicle_style() {
   std::string paper, dark, classes;
   for (std::size_t v = 0; v < kVehicleColours.size(); ++v) {
     paper += fmt::format("--v{}: {}; ", v, kVehicleColours[v].on_paper);
-    dark += fmt::format("--v{}: {}; ", v, hex_of(kVehicleColours[v].rgb));
+    dark += fmt::format("--v{}: {}; ", v, hex_colour(kVehicleColours[v].rgb));
     classes += fmt::format(".v{0} {{ --c: var(--v{0}); }}\n", v);
   }
   return fmt::format(
@@ -76,6 +68,7 @@ code { font: 13px "DejaVu Sans Mono", Menlo, Consolas, monospace; color: var(--s
 .verdict { display: flex; gap: 16px; align-items: center; border-radius: 8px; padding: 8px 20px; margin: 0 0 12px; border: 1px solid; }
 .verdict strong { font-size: 23px; line-height: 1.25; display: block; }
 .verdict p { margin: 0; color: var(--ink); }
+.verdict p.remark { color: var(--soft); font-size: 14px; }
 .verdict .mark { font-size: 40px; line-height: 1; font-weight: 700; }
 .verdict.met { background: var(--good-soft); border-color: var(--good); color: var(--good); }
 .verdict.failed, .verdict.broken { background: var(--bad-soft); border-color: var(--bad); color: var(--bad); }
@@ -160,7 +153,7 @@ table.setup td { padding: 4px 10px; } table.facts.setup td:first-child { width: 
 th .num, th.num { display: block; text-align: right; } th.num { display: table-cell; }
 table.criteria td { padding: 3px 10px; } table.criteria details { margin: 0; } table.criteria summary { padding: 1px 0; }
 table.criteria p { margin: 0 0 4px; max-width: 60em; color: var(--soft); font-size: 13.5px; }
-table.events td.words { overflow-wrap: anywhere; } table.events tr.grave td { background: var(--warn-soft); }
+table.events td.words { overflow-wrap: anywhere; } table.events details { margin: 0; } table.events summary { padding: 0; } table.events tr.grave td { background: var(--warn-soft); }
 table.events.grave-only tbody tr:not(.grave) { display: none; }
 .gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 265px), 1fr)); gap: 14px; margin: 0 0 14px; }
 .gallery figure.picture { padding: 0; overflow: hidden; } .gallery figcaption { padding: 4px 10px 7px; margin: 0; }
@@ -192,13 +185,13 @@ ul.sources { padding-left: 0; list-style: none; } ul.sources li { margin: 0 0 8p
   .wide-chart svg { width: 720px; }
   .legend { overflow-wrap: anywhere; } .legend span { white-space: normal; }
   table { font-size: 13.5px; } th, td { padding: 5px 7px; }
-  table.facts td:first-child { width: auto; } table.facts td { overflow-wrap: anywhere; }
+  table.facts td:first-child, table.facts.setup td:first-child { width: 64px; } table.facts td { overflow-wrap: anywhere; }
   table.criteria thead { display: none; }
-  table.criteria tr { display: grid; grid-template-columns: auto auto 1fr; border-bottom: 1px solid var(--line); padding: 4px 0; }
+  table.criteria tr { display: flex; flex-wrap: wrap; align-items: baseline; border-bottom: 1px solid var(--line); padding: 4px 0; }
   table.criteria td { border: 0; padding: 1px 7px; text-align: left; } table.criteria td:nth-child(1) { order: 2; }
-  table.criteria td.what { order: 1; grid-column: 1 / -1; }
-  table.criteria td:nth-child(3) { order: 3; } table.criteria td:nth-child(4) { order: 4; } table.criteria td:nth-child(5) { order: 5; grid-column: 2 / -1; }
-  table.criteria td:nth-child(5)::before { content: "limit: "; color: var(--soft); }
+  table.criteria td.what { order: 1; flex: 0 0 100%; }
+  table.criteria td:nth-child(3) { order: 3; } table.criteria td:nth-child(4) { order: 4; } table.criteria td:nth-child(5) { order: 5; }
+  table.criteria td:nth-child(5) { color: var(--soft); } table.criteria td:nth-child(4):empty { display: none; }
   table.events thead { display: none; } table.events tr { display: block; border-bottom: 1px solid var(--line); padding: 4px 0; }
   table.events td { display: inline-block; border: 0; padding: 1px 7px; } table.events td.words { display: block; }
   table.events td.num::after { content: " s"; }

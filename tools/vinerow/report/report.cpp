@@ -125,10 +125,7 @@ std::string first_screen(const PageMaterial& m) {
   std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n",
                                 escaped(title_of(m.run.text("scenario"))), escaped(description));
   Verdict verdict = make_verdict(m.run);
-  if (verdict.kind == Verdict::Kind::kMet) {
-    const std::string remark = canopy_remark(m.run, m.canopies, m.vehicles);
-    if (!remark.empty()) verdict.sentence += " " + remark;
-  }
+  verdict.remark = canopy_remark(m.run, m.canopies, m.vehicles);
   return out + verdict_box(verdict) + event_notice(m.events) + key_numbers(m.run, m.vehicles) +
          hero(m) + time_lines(m) + setup_table(m.run);
 }

@@ -102,16 +102,16 @@ std::string faces_left_out(const std::vector<RowFace>& faces) {
   return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
 }
 
-std::string face_sentence(const std::vector<RowFace>& faces, const std::string& vehicle) {
+std::string face_sentence(const std::vector<RowFace>& faces) {
   const auto passed =
       std::count_if(faces.begin(), faces.end(), [](const RowFace& face) { return face.passed; });
   if (passed == 0 || static_cast<std::size_t>(passed) == faces.size()) return "";
   const bool no_way = std::none_of(faces.begin(), faces.end(), [](const RowFace& face) {
     return !face.passed && face.has_alley;
   });
-  return fmt::format("{} went along {} of {} row sides; {} {}", vehicle, passed, faces.size(),
-                     no_way ? "no alley runs beside the others:" : "not along",
-                     faces_left_out(faces));
+  return fmt::format(
+      "{} {} of the {} row sides: {}", no_way ? "No alley runs beside" : "The plan left out",
+      faces.size() - static_cast<std::size_t>(passed), faces.size(), faces_left_out(faces));
 }
 
 }  // namespace vinerow::tools::report

@@ -23,8 +23,9 @@ std::vector<RowFace> row_faces(const RunFolder& run, const VehicleLog& vehicle);
 /// "row 0 (right) and row 3 (left)", of the faces that were not passed; "" where all were.
 std::string faces_left_out(const std::vector<RowFace>& faces);
 
-/// "the rover went along 6 of 8 row sides; no alley runs beside the others, row 0 (right) and row 3
-/// (left)"; "" where there is nothing to explain: it passed all, or none.
-std::string face_sentence(const std::vector<RowFace>& faces, const std::string& vehicle);
+/// "No alley runs beside 2 of the 8 row sides: row 0 (right) and row 3 (left)", or "The plan left
+/// out
+/// ..."; "" where there is nothing to explain: all were passed, or none.
+std::string face_sentence(const std::vector<RowFace>& faces);
 
 }  // namespace vinerow::tools::report

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/api/map.h"
@@ -90,13 +92,23 @@ std::string type_text(std::string type) {
   return type;
 }
 
+/// "imu, gnss, 4 × ultrasound", in the order of their first one.
 std::string sensors_text(const io::VehicleConfig& vehicle) {
-  std::string out;
+  std::vector<std::pair<std::string, int>> types;
   for (const io::NamedPart& sensor : vehicle.sensors) {
-    out += out.empty() ? "" : ", ";
-    out += sensor.name == sensor.part.type
-               ? type_text(sensor.name)
-               : fmt::format("{} ({})", sensor.name, type_text(sensor.part.type));
+    const auto known = std::find_if(types.begin(), types.end(), [&](const auto& type) {
+      return type.first == sensor.part.type;
+    });
+    if (known == types.end()) {
+      types.emplace_back(sensor.part.type, 1);
+    } else {
+      ++known->second;
+    }
+  }
+  std::string out;
+  for (const auto& [type, count] : types) {
+    out += (out.empty() ? "" : ", ") + (count > 1 ? fmt::format("{} × ", count) : "") +
+           type_text(type);
   }
   return out.empty() ? "none" : out;
 }

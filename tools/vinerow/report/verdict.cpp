@@ -164,7 +164,7 @@ Verdict make_verdict(const RunFolder& run) {
   const bool failed = run.number("exit_status") == 1.0 || missed > 0;
   if (broke_off) {
     verdict = {Verdict::Kind::kBrokenOff, "The simulation broke off",
-               sentence_case(run.text("error")) + "."};
+               sentence_case(run.text("error")) + ".", ""};
   } else if (failed) {
     verdict.kind = Verdict::Kind::kFailed;
     const std::string phases = failed_phases(run);
@@ -179,7 +179,7 @@ Verdict make_verdict(const RunFolder& run) {
         faults.empty() ? sentence_case(run.text("status")) + "." : sentence_of(faults);
   } else if (criteria.empty()) {
     verdict = {Verdict::Kind::kOpen, "The run came to its end",
-               "Its scenario sets no requirement, so there is nothing to judge."};
+               "Its scenario sets no requirement, so there is nothing to judge.", ""};
   } else {
     verdict.kind = Verdict::Kind::kMet;
     verdict.headline = criteria.size() == 1
@@ -200,8 +200,9 @@ std::string verdict_box(const Verdict& verdict) {
   const auto k = static_cast<std::size_t>(verdict.kind);
   return fmt::format(
       "<div class=\"verdict {}\"><span class=\"mark\">{}</span><div><strong>{}</strong>"
-      "<p>{}</p></div></div>\n",
-      kinds[k], marks[k], escaped(verdict.headline), escaped(verdict.sentence));
+      "<p>{}</p>{}</div></div>\n",
+      kinds[k], marks[k], escaped(verdict.headline), escaped(verdict.sentence),
+      verdict.remark.empty() ? "" : "<p class=\"remark\">" + escaped(verdict.remark) + "</p>");
 }
 
 std::string criteria_table(const RunFolder& run) {

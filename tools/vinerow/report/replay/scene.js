@@ -3,14 +3,16 @@
 (function (root) {
   const Replay = (root.VinerowReplay = root.VinerowReplay || {});
 
-  // Trails as in the run's pictures; more vehicles start again.
-  Replay.kColours = ["#ffb80d", "#ff4db3", "#4df2e6", "#7db4ff", "#b6f24d", "#ff8a5c"];
   // Nearer than this the finest leaves are drawn, then the middle ones.
   const kLevels = [22, 320];
   // Lines hover this much above what they follow.
   const kHover = 0.07;
   // Rotors turn so fast, as far as the eye can tell.
   const kSpinTurns = 7.3;
+  // Trails of the others while the eye goes with one vehicle.
+  const kFaint = 0.3;
+  // Farther from where it began a vehicle has set out.
+  const kSetOut = 0.3;
 
   function worldMaterial(own, materials, cards) {
     if (cards) return materials.leaves[cards].material;
@@ -44,7 +46,39 @@
       this.levels = [];
       this.lineMaterials = [];
       this.arrangeWorld(gltf, index, textures);
+      this.focus = null;  // vehicle that the eye goes with
       this.vehicles = tracks.map((track, v) => this.addVehicle(track, v));
+    }
+
+    /** {vehicle, t} of who moves first, s since the run's start; null where nobody does. */
+    firstMove() {
+      let first = null;
+      for (const vehicle of this.vehicles) {
+        const { positions: p, times } = vehicle.track;
+        for (let i = 1; i < times.length && (first === null || times[i] < first.t); ++i) {
+          if (Math.hypot(p[3 * i] - p[0], p[3 * i + 1] - p[1], p[3 * i + 2] - p[2]) < kSetOut) continue;
+          first = { vehicle, t: times[i] };
+        }
+      }
+      return first;
+    }
+
+    /** Lines of the others do not run through the one that is looked at. */
+    setFocus(vehicle, t) {
+      if (vehicle === this.focus) return;
+      this.focus = vehicle;
+      for (const each of this.vehicles) {
+        const faint = vehicle !== null && each !== vehicle, material = each.trail.material;
+        material.transparent = faint;
+        material.opacity = faint ? kFaint : 1;
+        material.needsUpdate = true;
+        this.showPlan(each, t);
+      }
+    }
+
+    showPlan(vehicle, t) {
+      const current = this.focus === null || this.focus === vehicle ? vehicle.track.planAt(t) : -1;
+      vehicle.plans.forEach((line, i) => (line.visible = i === current));
     }
 
     arrangeWorld(gltf, index, textures) {
@@ -94,7 +128,7 @@
 
     addVehicle(track, v) {
       const vehicle = {
-        track, name: track.name, colour: Replay.kColours[track.entry.index % Replay.kColours.length],
+        track, name: track.name, colour: track.entry.colour,
         group: new THREE.Group(), links: [], position: new THREE.Vector3(), quaternion: new THREE.Quaternion(),
         yaw: 0, speed: 0,
       };
@@ -173,8 +207,7 @@
         const passed = Math.min(at.index + (at.share > 0.5 ? 1 : 0), vehicle.track.times.length - 1);
         vehicle.trail.geometry.maxInstancedCount = passed;
         vehicle.trail.visible = passed > 0;
-        const current = vehicle.track.planAt(t);
-        vehicle.plans.forEach((line, i) => (line.visible = i === current));
+        this.showPlan(vehicle, t);
       }
     }
 

@@ -62,6 +62,12 @@ render::Pixels strip_pixels(const std::vector<const CanopyPatchAmount*>& patches
   return pixels;
 }
 
+/// "3 ml/m²", "1 picture".
+std::string amount_text(double amount, std::string unit) {
+  if (amount == 1.0 && unit.ends_with("pictures")) unit.pop_back();
+  return number_text(amount) + " " + unit;
+}
+
 std::string strips_svg(const CanopyFile& canopy, double full) {
   const Strips strips = strips_of(canopy);
   int columns = 1, bands = 1;
@@ -101,7 +107,7 @@ std::string colour_legend(const CanopyFile& canopy, double full) {
   svg.image(kStripLeft + 8, 8, 260, 18, render::encode_png(bar));
   const bool is_wanted = canopy.wanted > 0.0;
   svg.text(kStripLeft + 276, 22,
-           fmt::format("{} {} {}", number_text(full), canopy.unit,
+           fmt::format("{} {}", amount_text(full, canopy.unit),
                        is_wanted ? "or more: target reached" : "(the most)"),
            "tick");
   return svg.finish();
@@ -159,10 +165,9 @@ std::string payload_section(const CanopyFile& canopy, const std::vector<RowFace>
     out +=
         card(percent(passed_share(canopy, faces)), "on the row sides along which the vehicle went");
   }
-  out +=
-      card(number_text(canopy.mean_amount()) + " " + escaped(canopy.unit), "mean over the canopy");
+  out += card(escaped(amount_text(canopy.mean_amount(), canopy.unit)), "mean over the canopy");
   if (canopy.wanted > 0.0) {
-    out += card(number_text(canopy.wanted) + " " + escaped(canopy.unit), words.target);
+    out += card(escaped(amount_text(canopy.wanted, canopy.unit)), words.target);
   }
   out += card(fmt::format("{} m²", number_text(canopy.area_m2())), "canopy surface in all");
   out += "</div>\n";

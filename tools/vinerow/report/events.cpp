@@ -143,7 +143,7 @@ std::string event_table(const std::vector<RunEvent>& events) {
         "only</label></p>\n";
   }
   out +=
-      "<div class=\"scroll\"><table class=\"events\">\n<thead><tr><th class=\"num\">time, "
+      "<div class=\"scroll tall\"><table class=\"events\">\n<thead><tr><th class=\"num\">time, "
       "s</th><th>level</th><th>source</th><th>what happened</th></tr></thead>\n<tbody>\n" +
       rows + "</tbody></table></div>\n";
   if (shown < events.size()) {

@@ -45,7 +45,7 @@ constexpr const char* kStyle = R"(
     --ground: #f7f5ee; --row: #7ba05b; --parcel: #b9a27a; --turn: #e4dfd0;
     --s0: #1f6fb4; --s1: #d1495b; --s2: #2a9d6f; --s3: #c27c0e; --s4: #7b53b5; --s5: #0d8a94; --s6: #a8548e; --s7: #6b705c;
   }
-  nav { display: none !important; }
+  nav, p.hint { display: none !important; } .tall { max-height: none !important; }
   body { font-size: 11pt; }
   figure, .card, tr, .verdict { break-inside: avoid; }
   h2, h3, h4 { break-after: avoid; }
@@ -153,7 +153,7 @@ table.setup td { padding: 4px 10px; } table.facts.setup td:first-child { width: 
 th .num, th.num { display: block; text-align: right; } th.num { display: table-cell; }
 table.criteria td { padding: 3px 10px; } table.criteria details { margin: 0; } table.criteria summary { padding: 1px 0; }
 table.criteria p { margin: 0 0 4px; max-width: 60em; color: var(--soft); font-size: 13.5px; }
-table.events td.words { overflow-wrap: anywhere; } table.events details { margin: 0; } table.events summary { padding: 0; } table.events tr.grave td { background: var(--warn-soft); }
+table.events td.words { overflow-wrap: anywhere; } table.events code { white-space: nowrap; } .tall { max-height: 640px; overflow: auto; } table.events details { margin: 0; } table.events summary { padding: 0; } table.events tr.grave td { background: var(--warn-soft); }
 table.events.grave-only tbody tr:not(.grave) { display: none; }
 .gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 265px), 1fr)); gap: 14px; margin: 0 0 14px; }
 .gallery figure.picture { padding: 0; overflow: hidden; } .gallery figcaption { padding: 4px 10px 7px; margin: 0; }

@@ -135,7 +135,7 @@ std::string map_chapter(const PageMaterial& m) {
   const auto whole = whole_view(m.run, m.vehicles);
   if (!whole) return "";
   MapStyle style;
-  style.most_height = 680;
+  style.most_height = 480;
   const auto map = [&](const MapView& view, const std::string& label, const std::string& caption) {
     style.label = label;
     return fmt::format(

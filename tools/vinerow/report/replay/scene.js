@@ -24,6 +24,15 @@
     return materials.plain.get(own);
   }
 
+  /** Of a line: its shader reads a uniform of its own. */
+  function setOpacity(material, opacity) {
+    material.transparent = opacity < 1;
+    material.opacity = opacity;
+    if (material.uniforms.opacity) material.uniforms.opacity.value = opacity;
+    else material.uniforms.opacity = { value: opacity };
+    material.needsUpdate = true;
+  }
+
   /** Moves what hangs in the file's tree to where it stands in W. */
   function settle(object, parent) {
     object.matrix.copy(object.matrixWorld);
@@ -69,9 +78,7 @@
       this.focus = vehicle;
       for (const each of this.vehicles) {
         const faint = vehicle !== null && each !== vehicle, material = each.trail.material;
-        material.transparent = faint;
-        material.opacity = faint ? kFaint : 1;
-        material.needsUpdate = true;
+        setOpacity(material, faint ? kFaint : 1);
         this.showPlan(each, t);
       }
     }
@@ -149,8 +156,7 @@
       const geometry = new THREE.LineSegmentsGeometry();
       geometry.setPositions(pairs);
       const material = new THREE.LineMaterial({ color: new THREE.Color(colour).getHex(), linewidth: width });
-      material.transparent = opacity < 1;
-      material.opacity = opacity;
+      setOpacity(material, opacity);
       material.fog = false;
       // Lines are signs: their colours are those of the screen.
       material.fragmentShader = material.fragmentShader.replace("#include <tonemapping_fragment>", "").replace("#include <encodings_fragment>", "");

@@ -74,7 +74,7 @@ code { font: 13px "DejaVu Sans Mono", Menlo, Consolas, monospace; color: var(--s
 .verdict.failed, .verdict.broken { background: var(--bad-soft); border-color: var(--bad); color: var(--bad); }
 .verdict.open { background: var(--card); border-color: var(--line); color: var(--soft); }
 .cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(140px, 1fr)); gap: 10px; margin: 0 0 12px; }
-.card { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 9px 14px; }
+.card { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 9px 14px; min-width: 0; overflow: hidden; }
 .card b { font-size: 21px; line-height: 1.25; display: block; white-space: nowrap; }
 .card > span { font-size: 13.5px; color: var(--soft); display: block; line-height: 1.3; }
 .hero { display: grid; grid-template-columns: 1fr; gap: 14px; margin: 0 0 8px; }
@@ -175,13 +175,13 @@ ul.sources { padding-left: 0; list-style: none; } ul.sources li { margin: 0 0 8p
   main { padding: 12px 12px 48px; } nav div { padding: 7px 12px; }
   h1 { font-size: 25px; } p.lead { font-size: 16px; }
   .verdict { padding: 8px 12px; gap: 10px; } .verdict strong { font-size: 20px; } .verdict .mark { font-size: 30px; }
-  .cards { grid-template-columns: repeat(auto-fit, minmax(130px, 1fr)); } .card { padding: 7px 10px; } .card b { font-size: 19px; }
+  .cards { grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); } .card { padding: 7px 10px; } .card b { font-size: 18px; }
   figure.plot { padding: 10px 8px; } figure.picture, .hero figure, figure.plot, .figures { min-width: 0; }
   .gallery { grid-template-columns: 1fr 1fr; gap: 10px; } .gallery figcaption { font-size: 12.5px; }
-  svg.plot, svg.map, svg.canopy { overflow: visible; }
+  svg.plot, svg.map, svg.canopy { overflow: visible; } figure.plot { overflow-x: clip; }
   svg.plot .tick, svg.map .tick, svg.plot .label, svg.map .label { font-size: 18px; }
   svg.plot .tick:nth-of-type(even):not(.end) { visibility: hidden; }
-  .wide-chart { overflow-x: auto; }
+  figure.wide-chart { overflow-x: auto; }
   .wide-chart svg { width: 720px; }
   .legend { overflow-wrap: anywhere; } .legend span { white-space: normal; }
   table { font-size: 13.5px; } th, td { padding: 5px 7px; }

@@ -144,6 +144,8 @@ constexpr Entry kMetrics[] = {
      "Root mean square of the true distance from the lane in the plane, while straight", kAir},
     {"straight_cross_track_max_m", "largest distance from the lane",
      "Largest true distance from the lane in the plane, while straight", kAir},
+    {"landing_distance_m", "distance from the planned touchdown",
+     "True distance from where it should land, once it lies on the ground", kAir},
     {"bank_max_deg", "largest bank", "Largest true roll angle", kAir},
     {"load_factor_max", "largest load factor", "Largest specific force along body z, over g", ""},
     {"limit_steps_lon_states", "ticks beyond limits: pitch plane, states",

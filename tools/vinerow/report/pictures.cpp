@@ -28,7 +28,7 @@ constexpr std::uintmax_t kSmall_bytes = 250'000;
 constexpr double kMoves_mps = 0.05;
 constexpr int kPhotoQuality = 90;
 /// Bytes of a frame as JPEG of that quality over those of its PNG file, about.
-constexpr double kPhotoShare = 0.15;
+constexpr double kPhotoShare = 0.12;
 
 std::vector<fs::path> png_files(const fs::path& folder) {
   std::vector<fs::path> files;

@@ -84,6 +84,8 @@ TRIAL = """<script>(function () {
     dialog.querySelector('img').click();
     told.closes = !dialog.open;
   }
+  const slider = document.querySelector('.vr-slider');
+  if (slider) told.slider = slider.clientWidth;
   console.log('TRIAL ' + JSON.stringify(told) + ' END');
 }());</script>
 """
@@ -136,6 +138,8 @@ def telephone_faults(browser: str, page: pathlib.Path, folder: pathlib.Path) -> 
         told = try_page(browser, page, folder, width)
         if told.get("window") != width:
             faults.append(f"{page.name}: the window is {told.get('window')} wide, not {width}")
+        elif told.get("slider", width) < 0.7 * width:
+            faults.append(f"{page.name}: the replay's slider is {told['slider']} px long in a window of {width}")
         elif told["width"] > width:
             faults.append(f"{page.name} is {told['width']} px wide in a window of {width}: {told['beyond']}")
     return faults

@@ -86,6 +86,9 @@ constexpr const char* kTrial = R"(<script>
     check("canopy", player.scene.canopy.visible);
     const slider = stage.querySelector(".vr-slider"); slider.value = "3"; slider.dispatchEvent(new Event("input"));
     check("slider", player.t);
+    const simple = stage.querySelector(".vr-simple"); check("simple", simple.checked + " " + player.quality);
+    simple.click(); check("full", player.quality + " " + player.scene.sun.castShadow);
+    player.setQuality(0); player.draw();
     stage.dataset.trial = results.join(";");
   }, 100);
 })();
@@ -165,7 +168,7 @@ TEST_F(ReplayBrowser, ObeysKeysListsAndSlider) {
   EXPECT_EQ(dom.substr(at + 12, dom.find('"', at + 12) - at - 12),
             "opened=true;right=5;left=0;end=true;play=true "
             "0;pause=false;speed=8;follow=drone;behind=true;"
-            "moved=true;free=true;canopy=false;slider=3");
+            "moved=true;free=true;canopy=false;slider=3;simple=true 0;full=2 true");
 }
 
 TEST_F(ReplayBrowser, SaysSoWhereNothingCanBeDrawn) {

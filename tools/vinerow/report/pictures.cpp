@@ -26,9 +26,9 @@ constexpr std::size_t kMostFrames = 36;
 /// A file as small as this is taken as it is.
 constexpr std::uintmax_t kSmall_bytes = 250'000;
 constexpr double kMoves_mps = 0.05;
-constexpr int kPhotoQuality = 90;
+constexpr int kPhotoQuality = 84;
 /// Bytes of a frame as JPEG of that quality over those of its PNG file, about.
-constexpr double kPhotoShare = 0.12;
+constexpr double kPhotoShare = 0.1;
 
 std::vector<fs::path> png_files(const fs::path& folder) {
   std::vector<fs::path> files;

@@ -28,10 +28,12 @@
 #include "tools/vinerow/report/line_plot.h"
 #include "tools/vinerow/report/metric_table.h"
 #include "tools/vinerow/report/mission_map.h"
+#include "tools/vinerow/report/motion_plots.h"
 #include "tools/vinerow/report/page_style.h"
 #include "tools/vinerow/report/papers.h"
 #include "tools/vinerow/report/pictures.h"
 #include "tools/vinerow/report/row_faces.h"
+#include "tools/vinerow/report/setup.h"
 #include "tools/vinerow/report/units.h"
 #include "tools/vinerow/report/verdict.h"
 
@@ -251,11 +253,11 @@ TEST(ReportMeanings, AreThereForEveryMetricOfTheProgram) {
 std::optional<render::Pixels> seen_by_browser(const test::ScratchFolder& folder,
                                               const std::string& jpeg, int width, int height) {
   if (std::system("command -v chromium > /dev/null") != 0) return std::nullopt;
-  const std::string page =
-      folder.file("jpeg.html",
-                  "<!DOCTYPE html><style>body{margin:0}img{display:block}</style><img src=\"data:image/"
-                  "jpeg;base64," +
-                      base64(jpeg) + "\"/>");
+  const std::string page = folder.file(
+      "jpeg.html",
+      "<!DOCTYPE html><style>body{margin:0}img{display:block}</style><img src=\"data:image/"
+      "jpeg;base64," +
+          base64(jpeg) + "\"/>");
   const std::string shot = (folder.path() / "shot.png").string();
   const std::string command =
       "timeout 200 chromium --headless --no-sandbox --hide-scrollbars --force-color-profile=srgb "
@@ -398,6 +400,72 @@ TEST(ReportFaces, TellWhichSidesOfRowsLieBesideNoAlley) {
   // The outer side alone: the alley was there to be driven.
   EXPECT_THAT(face_sentence(row_faces(run, driving({{-3, -1}, {23, -1}}))),
               HasSubstr("The plan left out 3 of the 4 row sides"));
+}
+
+TEST(ReportSetup, TellsSlopeAndSensorsOfTheScenario) {
+  RunFolder run = two_rows();
+  // z = 0.15 x + 0.08 y: 17 % in all, 15 % along the rows, which point east, 8 % across.
+  HeightField field;
+  field.columns = field.rows = 61;
+  field.corner_W = {-20, -30};
+  for (int j = 0; j < 61; ++j) {
+    for (int i = 0; i < 61; ++i) {
+      field.heights_m.push_back(static_cast<float>(0.15 * (i - 20) + 0.08 * (j - 30)));
+    }
+  }
+  run.world->terrain = field;
+  run.world->soil.name = "wet_soil";
+  run.scenario.emplace();
+  io::VehicleConfig rover;
+  rover.name = "<rover>";
+  rover.vehicle.type = "diff_drive_rover";
+  for (const auto& [name, type] :
+       {std::pair{"imu", "imu"}, {"left", "ultrasound"}, {"right", "ultrasound"}}) {
+    io::NamedPart sensor;
+    sensor.name = name;
+    sensor.part.type = type;
+    rover.sensors.push_back(sensor);
+  }
+  run.scenario->vehicles = {rover};
+  const std::string table = setup_table(run);
+  EXPECT_THAT(table, HasSubstr("2 rows of 20 m, 2.0 m apart"));
+  EXPECT_THAT(table, HasSubstr("slope 17 % (15 % along the rows, 8 % across)"));
+  EXPECT_THAT(table, HasSubstr("soil wet soil"));
+  EXPECT_THAT(table, HasSubstr("wind calm"));
+  EXPECT_THAT(table, HasSubstr("&lt;rover&gt;"));
+  EXPECT_THAT(table, HasSubstr("sensors: imu, 2 × ultrasound"));
+  EXPECT_EQ(setup_table(RunFolder{}), "");
+}
+
+TEST(ReportPlot, ShowsHeadingsBetweenMinusAndPlus180Degrees) {
+  // Twice around to the left: the heading goes on to 720 degrees.
+  Track track;
+  for (int i = 0; i <= 72; ++i) {
+    track.t_s.push_back(i);
+    track.heading_rad.push_back(2.0 * 2.0 * std::numbers::pi * i / 72.0);
+    track.plan_heading_rad.push_back(track.heading_rad.back());
+    track.lateral_m.push_back(0.0);
+    track.speed_mps.push_back(1.0);
+    track.height_error_m.push_back(0.0);
+    track.p_W.emplace_back(0, 0, 0);
+    track.in_turn.push_back(0);
+  }
+  VehicleLog vehicle;
+  vehicle.name = "rover";
+  bool found = false;
+  for (const LinePlot& plot : motion_plots(RunFolder{}, vehicle, track)) {
+    if (plot.title != "Heading") continue;
+    found = true;
+    int gaps = 0;
+    for (const double y : plot.lines.front().samples.y) {
+      gaps += std::isnan(y) ? 1 : 0;
+      if (!std::isnan(y)) {
+        EXPECT_LE(std::abs(y), 180.0 + 1e-9);
+      }
+    }
+    EXPECT_EQ(gaps, 2);
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST(ReportPlot, CutsABandThatWouldFlattenTheLine) {

@@ -10,6 +10,7 @@
 #include "engine/physics/world_scene.h"
 #include "engine/render/cameras.h"
 #include "engine/sim/estimate_drawing.h"
+#include "engine/sim/vehicle_colours.h"
 
 namespace vinerow {
 namespace {
@@ -17,9 +18,6 @@ namespace {
 const Eigen::Vector3f kPlanColour{0.05f, 0.45f, 1.0f};
 const Eigen::Vector3f kTreeColour{0.95f, 0.97f, 0.86f};
 const Eigen::Vector3f kRayColour{1.0f, 0.25f, 0.1f};
-/// Trails of the first vehicles; more vehicles start again.
-const Eigen::Vector3f kTrailColours[] = {
-    {1.0f, 0.72f, 0.05f}, {1.0f, 0.3f, 0.7f}, {0.3f, 0.95f, 0.9f}};
 /// A chasing eye comes no nearer to the ground behind what flies.
 constexpr double kLeastEyeHeight_m = 0.5;
 /// Beams of a laser scan that are drawn, at most; every echo is.
@@ -157,7 +155,7 @@ void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::F
     const Trace<Odometry>& truth = trace_of(config.name).truth;
     if (truth.empty() || looks_out_of(camera, config.name)) continue;
     render::Polyline trail;
-    trail.colour = kTrailColours[v % std::size(kTrailColours)];
+    trail.colour = vehicle_colour(v).rgb;
     trail.width_px = camera.kind == io::CameraKind::kTop ? 3.0f : 4.0f;
     trail.alpha = 0.9f;
     const double down_m = vehicles_[v]->description().height_above_ground_m - kHover_m;

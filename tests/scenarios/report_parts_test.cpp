@@ -1,25 +1,39 @@
 /// What a report is drawn with: axes, lines, pictures, tables of meanings, verdicts.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <regex>
 #include <sstream>
 
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/deviation.h"
 #include "engine/render/png.h"
+#include "engine/sim/vehicle_colours.h"
 #include "tests/scenarios/command.h"
 #include "tools/parts/register_all.h"
 #include "tools/vinerow/report/axis.h"
+#include "tools/vinerow/report/base64.h"
 #include "tools/vinerow/report/canopy_strips.h"
+#include "tools/vinerow/report/events.h"
 #include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/jpeg.h"
 #include "tools/vinerow/report/line_plot.h"
 #include "tools/vinerow/report/metric_table.h"
 #include "tools/vinerow/report/mission_map.h"
+#include "tools/vinerow/report/motion_plots.h"
+#include "tools/vinerow/report/page_style.h"
+#include "tools/vinerow/report/papers.h"
 #include "tools/vinerow/report/pictures.h"
+#include "tools/vinerow/report/row_faces.h"
+#include "tools/vinerow/report/setup.h"
 #include "tools/vinerow/report/units.h"
 #include "tools/vinerow/report/verdict.h"
 
@@ -235,6 +249,249 @@ TEST(ReportMeanings, AreThereForEveryMetricOfTheProgram) {
   EXPECT_EQ(metric_meaning("grapes_eaten").title, "grapes eaten");
 }
 
+/// The picture through a browser's decoder: what it shows at each pixel, or nothing without one.
+std::optional<render::Pixels> seen_by_browser(const test::ScratchFolder& folder,
+                                              const std::string& jpeg, int width, int height) {
+  if (std::system("command -v chromium > /dev/null") != 0) return std::nullopt;
+  const std::string page = folder.file(
+      "jpeg.html",
+      "<!DOCTYPE html><style>body{margin:0}img{display:block}</style><img src=\"data:image/"
+      "jpeg;base64," +
+          base64(jpeg) + "\"/>");
+  const std::string shot = (folder.path() / "shot.png").string();
+  const std::string command =
+      "timeout 200 chromium --headless --no-sandbox --hide-scrollbars --force-color-profile=srgb "
+      "--user-data-dir=" +
+      (folder.path() / "profile").string() + " --screenshot=" + shot +
+      fmt::format(" --window-size={},{} 'file://{}' > /dev/null 2>&1", width, height, page);
+  if (std::system(command.c_str()) != 0) return std::nullopt;
+  const auto pixels = render::read_png(shot);
+  return pixels ? std::optional(*pixels) : std::nullopt;
+}
+
+/// Leaves and sky: a smooth part, edges, and sides that are no multiples of 16.
+render::Pixels test_photo() {
+  render::Pixels pixels(531, 317);
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      std::uint8_t* p = pixels.at(x, y);
+      const bool leaf = (x / 13 + y / 9) % 3 == 0 && y > 120;
+      p[0] = static_cast<std::uint8_t>(leaf ? 60 : 90 + x / 8);
+      p[1] = static_cast<std::uint8_t>(leaf ? 120 : 130 + y / 4);
+      p[2] = static_cast<std::uint8_t>(leaf ? 40 : 230 - y / 3);
+      p[3] = 255;
+    }
+  }
+  return pixels;
+}
+
+TEST(ReportPictures, AreJpegThatABrowserShowsAsTheyWere) {
+  const render::Pixels pixels = test_photo();
+  const std::string fine = encode_jpeg(pixels, 95), coarse = encode_jpeg(pixels, 40);
+  EXPECT_EQ(fine, encode_jpeg(pixels, 95));
+  EXPECT_LT(coarse.size(), fine.size() / 2);
+  // T.81: start of image, end of image; a frame header with the size.
+  EXPECT_EQ(fine.substr(0, 4), "\xFF\xD8\xFF\xE0");
+  EXPECT_EQ(fine.substr(fine.size() - 2), "\xFF\xD9");
+  EXPECT_EQ(encode_jpeg(render::Pixels(1, 1), 90).substr(0, 2), "\xFF\xD8");
+
+  const test::ScratchFolder folder("report_jpeg");
+  const auto seen = seen_by_browser(folder, fine, pixels.width, pixels.height);
+  if (!seen) GTEST_SKIP() << "no chromium that takes a screenshot on this machine";
+  ASSERT_EQ(seen->width, pixels.width);
+  ASSERT_EQ(seen->height, pixels.height);
+  double sum = 0.0;
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      for (int c = 0; c < 3; ++c) sum += std::abs(pixels.at(x, y)[c] - seen->at(x, y)[c]);
+    }
+  }
+  // Quanta of 95 are 1 to 12; halved colours cost the rest at edges. Wrong tables give tens.
+  EXPECT_LT(sum / (3.0 * pixels.width * pixels.height), 4.0);
+  // In the smooth sky nothing is lost but rounding.
+  for (const auto& [x, y] : {std::pair{20, 30}, {300, 60}, {500, 100}, {530, 5}}) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixels.at(x, y)[c], seen->at(x, y)[c], 6) << x << y;
+  }
+}
+
+TEST(ReportEvents, StandInOrderWithTheGraveOnesFirst) {
+  const test::ScratchFolder folder("report_events");
+  folder.file("events.jsonl",
+              "{\"t_s\":0.0,\"level\":\"info\",\"source\":\"run\",\"text\":\"started\"}\n"
+              "{\"t_s\":61.5,\"level\":\"warning\",\"source\":\"rover\",\"text\":\"touches trunk "
+              "<7>\"}\n"
+              "{\"t_s\":80.25,\"level\":\"error\",\"source\":\"drone\",\"text\":\"crashed\"}\n"
+              "{\"t_s\":90.0,\"level\":\"in");  // a run that was killed
+  RunFolder run;
+  run.path = folder.path();
+  const std::vector<RunEvent> events = read_events(run);
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[1].t_s, 61.5);
+  EXPECT_EQ(events[1].source, "rover");
+  const std::string notice = event_notice(events);
+  EXPECT_THAT(notice, HasSubstr("1 error, 1 warning during the run"));
+  EXPECT_THAT(notice, HasSubstr("touches trunk &lt;7&gt;"));
+  EXPECT_LT(notice.find("crashed"), notice.find("touches trunk"));
+  EXPECT_THAT(notice, Not(HasSubstr("started")));
+  EXPECT_EQ(event_notice({events[0]}), "");
+  const std::string chapter = event_table(events);
+  EXPECT_LT(chapter.find("started"), chapter.find("touches trunk"));
+  EXPECT_LT(chapter.find("touches trunk"), chapter.find("crashed"));
+  EXPECT_EQ(event_table({}), "");
+}
+
+TEST(ReportPapers, AreNamedInFullOnceWhereTheyAreCited) {
+  const std::string page = with_citations("As paper A, figure 3. And paper A, section 2.");
+  EXPECT_EQ(page,
+            "As <a class=\"cite\" href=\"#paper-A\">[A]</a>, figure 3. And <a class=\"cite\" "
+            "href=\"#paper-A\">[A]</a>, section 2.");
+  const std::string sources = source_list(page);
+  EXPECT_THAT(sources, HasSubstr("id=\"paper-A\""));
+  EXPECT_THAT(sources, HasSubstr("M. Mammarella et al."));
+  EXPECT_THAT(sources, Not(HasSubstr("AgriEngineering")));
+  EXPECT_EQ(source_list("nothing cited"), "");
+}
+
+/// Two rows from west to east, 2 m apart, one alley between them.
+RunFolder two_rows() {
+  RunFolder run;
+  run.world = std::make_unique<WorldModel>();
+  for (const int i : {0, 1}) {
+    PlantRow row;
+    row.id = i;
+    row.line_W = {{0, 2.0 * i, 0}, {20, 2.0 * i, 0}};
+    run.world->rows->rows.push_back(row);
+  }
+  Alley alley;
+  alley.width_m = 2.0;
+  alley.line_W = {{0, 1, 0}, {20, 1, 0}};
+  run.world->rows->alleys = {alley};
+  return run;
+}
+
+VehicleLog driving(const std::vector<Eigen::Vector2d>& places) {
+  VehicleLog vehicle;
+  vehicle.name = "rover";
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    for (int k = 0; k <= 100; ++k) {
+      const Eigen::Vector2d p = places[i] + 0.01 * k * (places[i + 1] - places[i]);
+      Odometry truth;
+      truth.X_WB.p = {p.x(), p.y(), 0.5};
+      vehicle.truth.times.push_back(Time{} + duration_from_s(static_cast<double>(100 * i) + k));
+      vehicle.truth.values.push_back(truth);
+    }
+  }
+  return vehicle;
+}
+
+TEST(ReportFaces, TellWhichSidesOfRowsLieBesideNoAlley) {
+  const RunFolder run = two_rows();
+  // Rows point east: north of row 0 is its left side, south of row 1 its right side.
+  const auto faces = row_faces(run, driving({{-3, 1}, {23, 1}}));
+  ASSERT_EQ(faces.size(), 4u);
+  EXPECT_EQ(face_sentence(faces),
+            "No alley runs beside 2 of the 4 row sides: row 0 (right) and row 1 (left)");
+  // Around the whole block: nothing to explain.
+  const auto all =
+      row_faces(run, driving({{-3, 1}, {23, 1}, {23, 3}, {-3, 3}, {-3, -1}, {23, -1}}));
+  EXPECT_EQ(face_sentence(all), "");
+  // It turned back at a quarter of the alley, so it passed no side.
+  EXPECT_EQ(face_sentence(row_faces(run, driving({{-3, 1}, {5, 1}}))), "");
+  // The outer side alone: the alley was there to be driven.
+  EXPECT_THAT(face_sentence(row_faces(run, driving({{-3, -1}, {23, -1}}))),
+              HasSubstr("The plan left out 3 of the 4 row sides"));
+}
+
+TEST(ReportSetup, TellsSlopeAndSensorsOfTheScenario) {
+  RunFolder run = two_rows();
+  // z = 0.15 x + 0.08 y: 17 % in all, 15 % along the rows, which point east, 8 % across.
+  HeightField field;
+  field.columns = field.rows = 61;
+  field.corner_W = {-20, -30};
+  for (int j = 0; j < 61; ++j) {
+    for (int i = 0; i < 61; ++i) {
+      field.heights_m.push_back(static_cast<float>(0.15 * (i - 20) + 0.08 * (j - 30)));
+    }
+  }
+  run.world->terrain = field;
+  run.world->soil.name = "wet_soil";
+  run.scenario.emplace();
+  io::VehicleConfig rover;
+  rover.name = "<rover>";
+  rover.vehicle.type = "diff_drive_rover";
+  for (const auto& [name, type] :
+       {std::pair{"imu", "imu"}, {"left", "ultrasound"}, {"right", "ultrasound"}}) {
+    io::NamedPart sensor;
+    sensor.name = name;
+    sensor.part.type = type;
+    rover.sensors.push_back(sensor);
+  }
+  run.scenario->vehicles = {rover};
+  const std::string table = setup_table(run);
+  EXPECT_THAT(table, HasSubstr("2 rows of 20 m, 2.0 m apart"));
+  EXPECT_THAT(table, HasSubstr("slope 17 % (15 % along the rows, 8 % across)"));
+  EXPECT_THAT(table, HasSubstr("soil wet soil"));
+  EXPECT_THAT(table, HasSubstr("wind calm"));
+  EXPECT_THAT(table, HasSubstr("&lt;rover&gt;"));
+  EXPECT_THAT(table, HasSubstr("sensors: imu, 2 × ultrasound"));
+  EXPECT_EQ(setup_table(RunFolder{}), "");
+}
+
+TEST(ReportPlot, ShowsHeadingsBetweenMinusAndPlus180Degrees) {
+  // Twice around to the left: the heading goes on to 720 degrees.
+  Track track;
+  for (int i = 0; i <= 72; ++i) {
+    track.t_s.push_back(i);
+    track.heading_rad.push_back(2.0 * 2.0 * std::numbers::pi * i / 72.0);
+    track.plan_heading_rad.push_back(track.heading_rad.back());
+    track.lateral_m.push_back(0.0);
+    track.speed_mps.push_back(1.0);
+    track.height_error_m.push_back(0.0);
+    track.p_W.emplace_back(0, 0, 0);
+    track.in_turn.push_back(0);
+  }
+  VehicleLog vehicle;
+  vehicle.name = "rover";
+  bool found = false;
+  for (const LinePlot& plot : motion_plots(RunFolder{}, vehicle, track)) {
+    if (plot.title != "Heading") continue;
+    found = true;
+    int gaps = 0;
+    for (const double y : plot.lines.front().samples.y) {
+      gaps += std::isnan(y) ? 1 : 0;
+      if (!std::isnan(y)) {
+        EXPECT_LE(std::abs(y), 180.0 + 1e-9);
+      }
+    }
+    EXPECT_EQ(gaps, 2);
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(ReportPlot, CutsABandThatWouldFlattenTheLine) {
+  LinePlot plot;
+  plot.title = "error";
+  plot.lines = {{"error", {{0, 1, 2}, {-0.1, 0.0, 0.1}}, "s0"}};
+  plot.bands = {{"2 sigma", {0, 1, 2}, {-9, -9, -9}, {9, 9, 9}, "s0"}};
+  // The lines' own span on either side, and the margin of a twentieth.
+  EXPECT_NEAR(y_range(plot).high, 0.3 + 0.05 * 0.6, 1e-12);
+  plot.bands = {{"2 sigma", {0, 1, 2}, {-0.15, -0.15, -0.15}, {0.15, 0.15, 0.15}, "s0"}};
+  EXPECT_NEAR(y_range(plot).high, 0.15 + 0.05 * 0.3, 1e-12);
+  LinePlot charge;
+  charge.lines = {{"charge", {{0, 1}, {100.0, 90.0}}, "s0"}};
+  charge.most = 100.0;
+  EXPECT_EQ(y_range(charge).high, 100.0);
+}
+
+TEST(ReportColours, AreThoseOfTheFrames) {
+  EXPECT_EQ(hex_colour(vehicle_colour(0).rgb), "#ffb80d");
+  EXPECT_EQ(hex_colour(vehicle_colour(8).rgb), "#ffb80d");
+  for (std::size_t v = 0; v < kVehicleColours.size(); ++v) {
+    EXPECT_THAT(page_style(), HasSubstr(hex_colour(vehicle_colour(v).rgb)));
+    EXPECT_THAT(page_style(), HasSubstr(vehicle_colour(v).on_paper));
+  }
+}
+
 RunFolder folder_of(const std::string& summary) {
   RunFolder run;
   run.summary = Json::parse(summary);
@@ -246,6 +503,15 @@ TEST(ReportVerdict, SaysInASentenceWhatFailed) {
       R"({"exit_status": 0, "finished": true, "criteria": [{"metric": "rover.slip_max", "kind": "max", "value": 0.01, "limit": 0.1, "met": true}]})"));
   EXPECT_EQ(met.kind, Verdict::Kind::kMet);
   EXPECT_EQ(met.headline, "The one requirement is met");
+
+  // A requirement with two limits is one requirement.
+  const std::string both =
+      R"({"exit_status": 0, "finished": true, "criteria": [
+      {"name": "o", "metric": "rover.alley_offset_mean_m", "kind": "max", "value": 0.01, "limit": 0.03, "met": true},
+      {"name": "o", "metric": "rover.alley_offset_mean_m", "kind": "min", "value": 0.01, "limit": -0.03, "met": true},
+      {"name": "p", "metric": "rover.slip_max", "kind": "max", "value": 0.01, "limit": 0.1, "met": true}]})";
+  EXPECT_EQ(make_verdict(folder_of(both)).headline, "All 2 requirements met");
+  EXPECT_THAT(criteria_table(folder_of(both)), HasSubstr("−0.03 to 0.03"));
 
   const Verdict failed = make_verdict(folder_of(R"({"exit_status": 1, "criteria": [
       {"metric": "rover.cross_track_max_m", "kind": "max", "value": 0.13, "limit": 0.1, "met": false},

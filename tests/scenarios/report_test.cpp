@@ -41,10 +41,10 @@ TEST(ReportCommand, MakesOnePageOfARun) {
   EXPECT_THAT(made.output, HasSubstr("report.html"));
   check_page(run);
   const std::string page = read_text(run / "report.html");
-  for (const char* part :
-       {"Orchard rover", "Paper B's orchard mission",
-        "Failed: ", "Distance from the plan, sideways", "The first turn",
-        "Control actions: wheel speeds", "Timings", "paper B, eq. 8", "lookahead_m: 0.75"}) {
+  for (const char* part : {"Orchard rover", "Paper B's orchard mission",
+                           "Failed: ", "Distance from the plan, sideways", "The first turn",
+                           "Control actions: wheel speeds", "Timings", "</a>, eq. 8",
+                           "S. Martelli, F. Mocera, A. Somà", "lookahead_m: 0.75"}) {
     EXPECT_THAT(page, HasSubstr(part));
   }
 

@@ -69,7 +69,8 @@ constexpr const char* kTrial = R"(<script>
     if (stage.dataset.state !== "ready") return;
     clearInterval(wait);
     const player = VinerowReplay.player;
-    key("ArrowRight"); check("right", player.t);
+    check("opened", player.t <= player.scene.firstMove().t && player.scene.firstMove().t <= player.t + 2);
+    key("Home"); key("ArrowRight"); check("right", player.t);
     key("ArrowLeft"); key("ArrowLeft"); check("left", player.t);
     key("End"); check("end", player.t === player.index.duration_s);
     key(" "); check("play", player.playing + " " + player.t);
@@ -85,6 +86,9 @@ constexpr const char* kTrial = R"(<script>
     check("canopy", player.scene.canopy.visible);
     const slider = stage.querySelector(".vr-slider"); slider.value = "3"; slider.dispatchEvent(new Event("input"));
     check("slider", player.t);
+    const simple = stage.querySelector(".vr-simple"); check("simple", simple.checked + " " + player.quality);
+    simple.click(); check("full", player.quality + " " + player.scene.sun.castShadow);
+    player.setQuality(0); player.draw();
     stage.dataset.trial = results.join(";");
   }, 100);
 })();
@@ -162,8 +166,9 @@ TEST_F(ReplayBrowser, ObeysKeysListsAndSlider) {
   const std::size_t at = dom.find("data-trial=\"");
   ASSERT_NE(at, std::string::npos) << dom.substr(0, 2000);
   EXPECT_EQ(dom.substr(at + 12, dom.find('"', at + 12) - at - 12),
-            "right=5;left=0;end=true;play=true 0;pause=false;speed=8;follow=drone;behind=true;"
-            "moved=true;free=true;canopy=false;slider=3");
+            "opened=true;right=5;left=0;end=true;play=true "
+            "0;pause=false;speed=8;follow=drone;behind=true;"
+            "moved=true;free=true;canopy=false;slider=3;simple=true 0;full=2 true");
 }
 
 TEST_F(ReplayBrowser, SaysSoWhereNothingCanBeDrawn) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "engine/api/map.h"
 #include "tools/vinerow/canvas.h"
@@ -20,15 +22,14 @@ using Eigen::Vector2d;
 
 constexpr Rgb kPlainGround = {232, 229, 220}, kNone = {190, 92, 76}, kTrack = {255, 255, 255};
 constexpr Rgb kShot = {20, 24, 26}, kParcelEdge = {20, 24, 26};
-constexpr int kPanelMargin = 32, kPanelGap = 36, kTitle = 34, kScales = 86, kNumbers = 150;
+constexpr int kPanelMargin = 32, kPanelGap = 36, kTitle = 34, kScales = 86, kNumbers = 174;
 constexpr int kTallestPanel = 900;
 
-/// What both maps show of the world.
+/// What both maps show of the world: the parcel. Where the plane turns is of no interest.
 Eigen::AlignedBox2d extent_of(const SurveyCoverage& coverage) {
   Eigen::AlignedBox2d box;
   for (const Vector2d& p : coverage.options.parcel_W) box.extend(p);
-  for (const LaneShot& taken : coverage.shots) box.extend(Vector2d(taken.shot.X_WS.p.head<2>()));
-  const Vector2d margin = Vector2d::Constant(0.06 * box.sizes().maxCoeff());
+  const Vector2d margin = Vector2d::Constant(0.08 * box.sizes().maxCoeff());
   return {Vector2d(box.min() - margin), Vector2d(box.max() + margin)};
 }
 
@@ -89,21 +90,55 @@ struct Layout {
 /// A value's colour; nothing where the ground shows through.
 using Paint = std::function<std::optional<Rgb>(std::size_t cell)>;
 
-void draw_cells(Canvas& canvas, const Panel& panel, const CoverageMap& map, const Paint& paint) {
+/// The cell's colour; of a cell outside the parcel that of a neighbour inside it, so that colours
+/// reach the parcel's edge.
+std::optional<Rgb> colour_near(const CoverageMap& map, const Paint& paint, int i, int j) {
+  if (i >= 0 && j >= 0 && i < map.columns && j < map.rows) {
+    if (const auto colour = paint(map.cell(i, j))) return colour;
+  }
+  for (const auto& [di, dj] :
+       {std::pair{0, 1}, {1, 0}, {0, -1}, {-1, 0}, {1, 1}, {1, -1}, {-1, -1}, {-1, 1}}) {
+    const int k = i + di, l = j + dj;
+    if (k < 0 || l < 0 || k >= map.columns || l >= map.rows) continue;
+    if (const auto colour = paint(map.cell(k, l))) return colour;
+  }
+  return std::nullopt;
+}
+
+/// Cells with all their neighbours inside the parcel: no need to look where its edge is.
+std::vector<char> inner_cells(const CoverageMap& map) {
+  std::vector<char> inner(map.pictures.size(), 0);
+  for (int j = 1; j + 1 < map.rows; ++j) {
+    for (int i = 1; i + 1 < map.columns; ++i) {
+      bool all = true;
+      for (int k = 0; k < 9; ++k)
+        all = all && map.pictures[map.cell(i + k % 3 - 1, j + k / 3 - 1)] >= 0;
+      inner[map.cell(i, j)] = all;
+    }
+  }
+  return inner;
+}
+
+void draw_cells(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage,
+                const Paint& paint) {
   constexpr int kSamples = 3;
+  const CoverageMap& map = coverage.map;
+  const std::vector<char> inner = inner_cells(map);
   for (int y = static_cast<int>(panel.top); y < panel.top + panel.height; ++y) {
     for (int x = static_cast<int>(panel.left); x < panel.left + panel.width; ++x) {
       std::array<int, 3> sum = {0, 0, 0};
       int painted = 0;
       for (int s = 0; s < kSamples * kSamples; ++s) {
-        const Vector2d cell =
-            (panel.world(x + (s % kSamples + 0.5) / kSamples, y + (s / kSamples + 0.5) / kSamples) -
-             map.corner_W) /
-            map.cell_m;
+        const Vector2d p_W =
+            panel.world(x + (s % kSamples + 0.5) / kSamples, y + (s / kSamples + 0.5) / kSamples);
+        const Vector2d cell = (p_W - map.corner_W) / map.cell_m;
         const int i = static_cast<int>(std::floor(cell.x()));
         const int j = static_cast<int>(std::floor(cell.y()));
-        if (i < 0 || j < 0 || i >= map.columns || j >= map.rows) continue;
-        const std::optional<Rgb> colour = paint(map.cell(i, j));
+        if (i < -1 || j < -1 || i > map.columns || j > map.rows) continue;
+        const bool on_map = i >= 0 && j >= 0 && i < map.columns && j < map.rows;
+        const bool is_inner = on_map && inner[map.cell(i, j)];
+        if (!is_inner && !contains(coverage.options.parcel_W, p_W)) continue;
+        const std::optional<Rgb> colour = colour_near(map, paint, i, j);
         if (!colour) continue;
         ++painted;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += (*colour)[c];
@@ -128,6 +163,7 @@ void draw_world(Canvas& canvas, const Panel& panel, const SurveyCoverage& covera
     canvas.line(panel(a), panel(b), 1.6, over_parcel ? kTrack : kFaint, 0.85);
   }
   for (const LaneShot& taken : coverage.shots) {
+    if (!panel.contains(taken.shot.X_WS.p.head<2>())) continue;
     const Vector2d at = panel(Vector2d(taken.shot.X_WS.p.head<2>()));
     Polygon dot, rim;
     for (int k = 0; k < 12; ++k) {
@@ -176,7 +212,7 @@ void draw_counts(Canvas& canvas, const Panel& panel, const SurveyCoverage& cover
   const auto colour_of = [most](int count) {
     return viridis(most > 1 ? (count - 1.0) / (most - 1.0) : 1.0);
   };
-  draw_cells(canvas, panel, map, [&](std::size_t cell) -> std::optional<Rgb> {
+  draw_cells(canvas, panel, coverage, [&](std::size_t cell) -> std::optional<Rgb> {
     const int count = map.pictures[cell];
     if (count < 0) return std::nullopt;
     return count == 0 ? kNone : colour_of(count);
@@ -202,14 +238,15 @@ void draw_overlaps(Canvas& canvas, const Panel& panel, const SurveyCoverage& cov
     if (overlap > 0.0f) least = std::min(least, static_cast<double>(overlap));
   }
   const double from = std::max(0.0, std::floor((least - 0.051) * 20.0) / 20.0);
-  draw_cells(canvas, panel, map, [&](std::size_t cell) -> std::optional<Rgb> {
+  draw_cells(canvas, panel, coverage, [&](std::size_t cell) -> std::optional<Rgb> {
     const double overlap = map.forward_overlap[cell];
     if (overlap < 0.0) return std::nullopt;
     return overlap == 0.0 ? kNone : viridis((overlap - from) / (1.0 - from));
   });
   draw_world(canvas, panel, coverage);
-  canvas.text("Forward overlap that all pictures in a row keep there, on the best lane", 20,
-              {panel.left, panel.top - 12}, kInk);
+  canvas.text(
+      "Forward overlap that every pair of consecutive pictures keeps there, on the best lane", 20,
+      {panel.left, panel.top - 12}, kInk);
   const double top = panel.top + panel.height + 14, width = panel.width - 190;
   draw_bar(canvas, panel.left, top, width, viridis);
   const auto x_of = [&](double value) { return panel.left + (value - from) / (1 - from) * width; };
@@ -219,7 +256,7 @@ void draw_overlaps(Canvas& canvas, const Panel& panel, const SurveyCoverage& cov
   }
   canvas.line({x_of(wanted), top - 5}, {x_of(wanted), top + 16}, 2.5, kInk);
   draw_tick(canvas, x_of(wanted), top, fmt::format("{:g} % wanted", 100 * wanted), true);
-  draw_patch(canvas, panel.left + panel.width, top, kNone, "no such pair");
+  draw_patch(canvas, panel.left + panel.width, top, kNone, "no overlap");
 }
 
 std::string percent(double share) {
@@ -240,13 +277,15 @@ void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& co
   if (number("shots_off_ground") > 0) {
     lines.back() += fmt::format("; {:.0f} look beyond the ground", number("shots_off_ground"));
   }
-  lines.push_back(
-      fmt::format("forward overlap at least {}, mean {}; {:g} % cover {} of the parcel "
-                  "and are held over {}; side overlap at least {}, mean {}",
-                  percent(number("forward_overlap_min")), percent(number("forward_overlap_mean")),
-                  100 * coverage.options.wanted_overlap, percent(number("overlap_covered_share")),
-                  percent(number("overlap_held_share")), percent(number("side_overlap_min")),
-                  percent(number("side_overlap_mean"))));
+  lines.push_back(fmt::format(
+      "forward overlap: mean {}, least {}; the wanted {:g} % is reached by at least one pair on {} "
+      "of the parcel, and kept by every pair on {}",
+      percent(number("forward_overlap_mean")), percent(number("forward_overlap_min")),
+      100 * coverage.options.wanted_overlap, percent(number("overlap_covered_share")),
+      percent(number("overlap_held_share"))));
+  lines.push_back(fmt::format("side overlap: mean {}, least {}",
+                              percent(number("side_overlap_mean")),
+                              percent(number("side_overlap_min"))));
   if (std::isfinite(number("gsd_mean_m"))) {
     lines.push_back(fmt::format(
         "GSD {:.1f} mm, from {:.1f} to {:.1f} mm; {:.2f} % above that of a picture straight down",
@@ -256,8 +295,14 @@ void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& co
   for (std::size_t i = 0; i < lines.size(); ++i) {
     canvas.text(lines[i], 16, {left, top + 34 + 24 * static_cast<double>(i)}, kFaint);
   }
-  canvas.text("thin lines: plant rows; white and grey: track; dots: pictures, red off the lanes",
-              14, {left, top + 34 + 24 * static_cast<double>(lines.size())}, kFaint);
+  const auto outside =
+      std::count_if(coverage.shots.begin(), coverage.shots.end(), [&](const LaneShot& taken) {
+        return !layout.panels[0].contains(taken.shot.X_WS.p.head<2>());
+      });
+  std::string key =
+      "thin lines: plant rows; white and grey: track; dots: pictures, red off the lanes";
+  if (outside > 0) key += fmt::format("; {} pictures were taken outside this frame", outside);
+  canvas.text(key, 14, {left, top + 34 + 24 * static_cast<double>(lines.size())}, kFaint);
 }
 
 }  // namespace

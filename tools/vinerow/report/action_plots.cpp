@@ -126,7 +126,7 @@ std::vector<LinePlot> wrench_plots(const VehicleLog& vehicle, const Track& track
 std::vector<LinePlot> trim_input_plots(const VehicleLog& vehicle, const Track& track) {
   const Columns* columns = vehicle.find("deviation");
   if (columns == nullptr) return {};
-  const std::string caption = "Control less its value in trim. As paper A, figure 11.";
+  const std::string caption = "Control minus its value in trim. As paper A, figure 11.";
   LinePlot throttle =
       plot_of(track, "Control actions: throttle ΔT", "share of full throttle", caption);
   add_column(*columns, "throttle", "ΔT", "s0", track, throttle);
@@ -214,7 +214,8 @@ LinePlot limit_plot(const VehicleLog& vehicle, const Track& track) {
 
 std::vector<LinePlot> energy_plots(const VehicleLog& vehicle, const Track& track) {
   if (vehicle.battery.empty() || track.empty()) return {};
-  LinePlot charge = plot_of(track, "Battery charge", "% of the capacity", "What is left.");
+  LinePlot charge =
+      plot_of(track, "Battery charge", "% of the capacity", "Battery charge remaining.");
   LinePlot power = plot_of(track, "Power drawn", "W", "Electric power drawn from the battery.");
   charge.least_span = 1.0;
   Samples left, drawn;
@@ -225,6 +226,10 @@ std::vector<LinePlot> energy_plots(const VehicleLog& vehicle, const Track& track
     drawn.add(t_s, vehicle.battery.values[i].power_W);
   }
   if (left.size() < 2) return {};
+  charge.most = std::max(100.0, *std::max_element(left.y.begin(), left.y.end()));
+  if (*std::min_element(drawn.y.begin(), drawn.y.end()) < 0.0) {
+    power.caption += " Negative: the motors brake and charge it.";
+  }
   charge.lines = {{"charge", std::move(left), vehicle.style}};
   power.lines = {{"power", std::move(drawn), vehicle.style}};
   return {charge, power};

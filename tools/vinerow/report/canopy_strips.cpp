@@ -13,6 +13,7 @@
 #include "tools/vinerow/colour_scale.h"
 #include "tools/vinerow/report/axis.h"
 #include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/row_faces.h"
 #include "tools/vinerow/report/svg.h"
 #include "tools/vinerow/report/units.h"
 
@@ -61,6 +62,12 @@ render::Pixels strip_pixels(const std::vector<const CanopyPatchAmount*>& patches
   return pixels;
 }
 
+/// "3 ml/m²", "1 picture".
+std::string amount_text(double amount, std::string unit) {
+  if (amount == 1.0 && unit.ends_with("pictures")) unit.pop_back();
+  return number_text(amount) + " " + unit;
+}
+
 std::string strips_svg(const CanopyFile& canopy, double full) {
   const Strips strips = strips_of(canopy);
   int columns = 1, bands = 1;
@@ -100,13 +107,47 @@ std::string colour_legend(const CanopyFile& canopy, double full) {
   svg.image(kStripLeft + 8, 8, 260, 18, render::encode_png(bar));
   const bool is_wanted = canopy.wanted > 0.0;
   svg.text(kStripLeft + 276, 22,
-           fmt::format("{} {} {}", number_text(full), canopy.unit,
-                       is_wanted ? "or more: enough" : "(the most)"),
+           fmt::format("{} {}", amount_text(full, canopy.unit),
+                       is_wanted ? "or more: target reached" : "(the most)"),
            "tick");
   return svg.finish();
 }
 
-std::string payload_section(const CanopyFile& canopy) {
+/// What a side of a row gets of a payload, in words.
+struct CanopyWords {
+  const char* reached;  ///< "of the canopy surface received the target dose"
+  const char* target;
+};
+
+CanopyWords words_for(const CanopyFile& canopy) {
+  if (canopy.quantity == "deposit") {
+    return {"of the canopy surface received the target dose", "target dose"};
+  }
+  if (canopy.quantity == "seen") return {"of the canopy surface was seen", "wanted"};
+  return {"of the canopy surface reached the target", "target"};
+}
+
+std::vector<RowFace> faces_of(const CanopyFile& canopy, const RunFolder& run,
+                              const std::vector<VehicleLog>& vehicles) {
+  for (const VehicleLog& vehicle : vehicles) {
+    if (vehicle.name == canopy.vehicle) return row_faces(run, vehicle);
+  }
+  return {};
+}
+
+double passed_share(const CanopyFile& canopy, const std::vector<RowFace>& faces) {
+  return canopy.covered_share([&](int row, int side) {
+    return std::any_of(faces.begin(), faces.end(), [&](const RowFace& face) {
+      return face.passed && face.row == row && face.side == side;
+    });
+  });
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.1f} %", 100.0 * share);
+}
+
+std::string payload_section(const CanopyFile& canopy, const std::vector<RowFace>& faces) {
   double full = canopy.wanted;
   for (const CanopyPatchAmount& patch : canopy.patches) {
     if (canopy.wanted <= 0.0) full = std::max(full, patch.amount);
@@ -114,22 +155,28 @@ std::string payload_section(const CanopyFile& canopy) {
   const auto card = [](const std::string& value, const std::string& what) {
     return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", value, what);
   };
+  const CanopyWords words = words_for(canopy);
+  const std::string left_out = face_sentence(faces);
   std::string out = fmt::format("<h3>{} of {}: {}</h3>\n<div class=\"cards\">\n",
                                 escaped(sentence_case(canopy.payload)), escaped(canopy.vehicle),
                                 escaped(canopy.quantity));
-  out += card(fmt::format("{:.1f} %", 100.0 * canopy.covered_share()),
-              "of the canopy has enough of it");
-  out +=
-      card(number_text(canopy.mean_amount()) + " " + escaped(canopy.unit), "mean over the canopy");
+  out += card(percent(canopy.covered_share()), words.reached);
+  if (!left_out.empty()) {
+    out +=
+        card(percent(passed_share(canopy, faces)), "on the row sides along which the vehicle went");
+  }
+  out += card(escaped(amount_text(canopy.mean_amount(), canopy.unit)), "mean over the canopy");
   if (canopy.wanted > 0.0) {
-    out += card(number_text(canopy.wanted) + " " + escaped(canopy.unit), "is enough");
+    out += card(escaped(amount_text(canopy.wanted, canopy.unit)), words.target);
   }
   out += card(fmt::format("{} m²", number_text(canopy.area_m2())), "canopy surface in all");
-  out += "</div>\n<figure class=\"plot\">\n<h4>Both sides of every row, unrolled</h4>\n";
+  out += "</div>\n";
+  if (!left_out.empty()) out += fmt::format("<p>{}.</p>\n", escaped(left_out));
+  out += "<figure class=\"plot wide-chart\">\n<h4>Both sides of every row, unrolled</h4>\n";
   out += colour_legend(canopy, full) + strips_svg(canopy, full);
   return out +
          "<figcaption>Each strip is one side of a row as it is seen from its alley, bottom of "
-         "the canopy below; left and right are those of who looks along the row from its "
+         "the canopy below; left and right are those of someone who looks along the row from its "
          "first point. Heights are stretched. Clear: no canopy there.</figcaption>\n</figure>\n";
 }
 
@@ -141,12 +188,14 @@ double CanopyFile::area_m2() const {
   return sum_m2;
 }
 
-double CanopyFile::covered_share() const {
-  double covered_m2 = 0.0;
+double CanopyFile::covered_share(const std::function<bool(int row, int side)>& counts) const {
+  double covered_m2 = 0.0, all_m2 = 0.0;
   for (const CanopyPatchAmount& patch : patches) {
+    if (counts && !counts(patch.row, patch.side)) continue;
+    all_m2 += patch.area_m2;
     if (patch.amount >= wanted && patch.amount > 0.0) covered_m2 += patch.area_m2;
   }
-  return patches.empty() ? std::numeric_limits<double>::quiet_NaN() : covered_m2 / area_m2();
+  return all_m2 > 0.0 ? covered_m2 / all_m2 : std::numeric_limits<double>::quiet_NaN();
 }
 
 double CanopyFile::mean_amount() const {
@@ -182,16 +231,41 @@ CanopyFile read_canopy(const fs::path& file) {
   return canopy;
 }
 
-std::string canopy_section(const RunFolder& run) {
+std::vector<CanopyFile> read_canopies(const RunFolder& run) {
   const fs::path folder = run.path / "canopy";
-  if (!fs::is_directory(folder)) return "";
+  if (!fs::is_directory(folder)) return {};
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
+  std::vector<CanopyFile> canopies;
+  for (const fs::path& file : files) canopies.push_back(read_canopy(file));
+  return canopies;
+}
+
+std::string canopy_section(const RunFolder& run, const std::vector<CanopyFile>& canopies,
+                           const std::vector<VehicleLog>& vehicles) {
   std::string out;
-  for (const fs::path& file : files) out += payload_section(read_canopy(file));
+  for (const CanopyFile& canopy : canopies) {
+    out += payload_section(canopy, faces_of(canopy, run, vehicles));
+  }
+  return out;
+}
+
+std::string canopy_remark(const RunFolder& run, const std::vector<CanopyFile>& canopies,
+                          const std::vector<VehicleLog>& vehicles) {
+  std::string out, told;
+  for (const CanopyFile& canopy : canopies) {
+    const std::vector<RowFace> faces = faces_of(canopy, run, vehicles);
+    const std::string why = face_sentence(faces);
+    if (why.empty()) continue;
+    if (why != told) out += (out.empty() ? "" : " ") + why + ".";
+    told = why;
+    out += fmt::format(" {}: {} {}, {} on the sides passed.", sentence_case(canopy.payload),
+                       percent(canopy.covered_share()), words_for(canopy).reached,
+                       percent(passed_share(canopy, faces)));
+  }
   return out;
 }
 

@@ -3,10 +3,12 @@
 /// amount.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "tools/vinerow/report/run_folder.h"
+#include "tools/vinerow/report/vehicle_log.h"
 
 namespace vinerow::tools::report {
 
@@ -22,8 +24,8 @@ struct CanopyFile {
   std::vector<CanopyPatchAmount> patches;
 
   double area_m2() const;
-  /// Of the area with at least the wanted amount.
-  double covered_share() const;
+  /// Of the area with at least the wanted amount; of the sides of rows that are asked for.
+  double covered_share(const std::function<bool(int row, int side)>& counts = nullptr) const;
   /// Mean over the area.
   double mean_amount() const;
 };
@@ -31,7 +33,16 @@ struct CanopyFile {
 /// @throws ConfigError "x/canopy/y.json: is no canopy coverage: ..."
 CanopyFile read_canopy(const std::filesystem::path& file);
 
-/// All payloads of a run; nothing where canopy/ is absent.
-std::string canopy_section(const RunFolder& run);
+/// Every payload's file of a run, by name; none where canopy/ is absent.
+std::vector<CanopyFile> read_canopies(const RunFolder& run);
+
+/// The chapter; nothing where no payload worked on the canopy.
+std::string canopy_section(const RunFolder& run, const std::vector<CanopyFile>& canopies,
+                           const std::vector<VehicleLog>& vehicles);
+
+/// How much of the canopy each payload reached, and which sides of the rows its vehicle left out,
+/// in a sentence each for the verdict; "" where every side was passed.
+std::string canopy_remark(const RunFolder& run, const std::vector<CanopyFile>& canopies,
+                          const std::vector<VehicleLog>& vehicles);
 
 }  // namespace vinerow::tools::report

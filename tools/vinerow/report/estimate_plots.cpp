@@ -85,10 +85,11 @@ std::vector<LinePlot> estimate_plots(const VehicleLog& vehicle, const WorldModel
   LinePlot lateral, longitudinal;
   lateral.title = "Estimation error across the rows";
   longitudinal.title = "Estimation error along the rows";
-  lateral.y_label = longitudinal.y_label = "estimate less truth, m";
+  lateral.y_label = longitudinal.y_label = "estimate minus truth, m";
   lateral.caption = longitudinal.caption =
       "Error of the estimated position, and the band of two standard deviations that the estimator "
-      "states of itself: about 95 % of the line should lie inside. As paper C, figure 8.";
+      "states of itself: about 95 % of the line should lie inside; a "
+      "band wider than the plot is cut at its edge. As paper C, figure 8.";
   lateral.least_span = longitudinal.least_span = 0.01;
   std::size_t colour = 0;
   for (const auto& [name, estimate] : vehicle.estimates) {

@@ -81,9 +81,9 @@ void add_waits(const VehicleLog& vehicle, std::vector<PlotSpan>& spans) {
 
 std::string key_numbers(const RunFolder& run, const std::vector<VehicleLog>& vehicles) {
   std::string out = "<div class=\"cards\">\n";
-  out += card(duration_text(std::max(0.0, run.end_s())), "of mission simulated");
+  out += card(duration_text(std::max(0.0, run.end_s())), "simulated");
   out += card("<span data-from=\"real-time-factor\">see Timings</span>",
-              "real time (speed of the simulation)");
+              "real time: speed of the simulation");
   std::string names;
   for (const std::string& name : run.vehicles) names += (names.empty() ? "" : ", ") + name;
   out += card(std::to_string(run.vehicles.size()),
@@ -96,7 +96,7 @@ std::string key_numbers(const RunFolder& run, const std::vector<VehicleLog>& veh
   }
   const double contacts = sum_of(run, "contact_count");
   if (std::isfinite(contacts)) {
-    out += card(fmt::format("{:.0f}", contacts), "touches of plants, posts or vehicles");
+    out += card(fmt::format("{:.0f}", contacts), "contacts with plants, posts or vehicles");
   }
   const double clearance_m = least_of(run, "min_clearance_m");
   if (std::isfinite(clearance_m)) {
@@ -110,7 +110,7 @@ std::string key_numbers(const RunFolder& run, const std::vector<VehicleLog>& veh
   if (!measured) separation_m = least_separation_m(vehicles);
   if (std::isfinite(separation_m)) {
     out += card(fmt::format("{:.1f} m", separation_m),
-                measured ? "closest two vehicles came" : "closest two vehicles came (middles)");
+                measured ? "closest two vehicles came" : "closest two vehicles came (centres)");
   }
   return out + "</div>\n";
 }
@@ -119,9 +119,9 @@ LinePlot separation_plot(const std::vector<VehicleLog>& vehicles,
                          const std::vector<Track>& tracks) {
   LinePlot plot;
   plot.title = "Distance between the vehicles";
-  plot.y_label = "middle to middle, m";
+  plot.y_label = "centre to centre, m";
   plot.caption =
-      "True distance between their middles while both are at work. Shaded: one waits for an alley "
+      "True distance between their centres while both are at work. Shaded: one waits for an alley "
       "that another one has.";
   plot.spans_label = "a vehicle waits for another";
   plot.least_span = 1.0;
@@ -135,7 +135,7 @@ LinePlot separation_plot(const std::vector<VehicleLog>& vehicles,
     }
   }
   if (plot.spans.empty())
-    plot.caption = "True distance between their middles while both are at work.";
+    plot.caption = "True distance between their centres while both are at work.";
   return plot;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/papers.h"
 #include "tools/vinerow/report/svg.h"
 
 namespace vinerow::tools::report {
@@ -17,9 +18,25 @@ constexpr double kFarLimit = 3.0;
 Range line_range(const LinePlot& plot) {
   Range range;
   for (const PlotLine& line : plot.lines) range.include(line.samples.y);
+  if (!range.empty()) return range;
   for (const PlotBand& band : plot.bands) {
     range.include(band.low);
     range.include(band.high);
+  }
+  return range;
+}
+
+/// A band widens the plot up to so many times the lines' own span, and is cut there.
+Range with_bands(const Range& lines, const LinePlot& plot) {
+  constexpr double kMostWider = 1.0;
+  const double reach = kMostWider * std::max(lines.span(), plot.least_span);
+  Range range = lines;
+  for (const PlotBand& band : plot.bands) {
+    for (const auto* side : {&band.low, &band.high}) {
+      for (const double y : *side) {
+        if (std::isfinite(y)) range.include(std::clamp(y, lines.low - reach, lines.high + reach));
+      }
+    }
   }
   return range;
 }
@@ -65,12 +82,15 @@ void draw_line(const PlotLine& line, const Axis& x, const Axis& y, Svg& svg) {
 
 void draw_band(const PlotBand& band, const Axis& x, const Axis& y, Svg& svg) {
   const Samples low = decimate({band.x, band.low}), high = decimate({band.x, band.high});
+  const auto inside = [&](double value) {
+    return y.px(std::clamp(value, y.range().low, y.range().high));
+  };
   std::vector<Eigen::Vector2d> outline;
   for (std::size_t i = 0; i < low.size(); ++i) {
-    if (std::isfinite(low.y[i])) outline.emplace_back(x.px(low.x[i]), y.px(low.y[i]));
+    if (std::isfinite(low.y[i])) outline.emplace_back(x.px(low.x[i]), inside(low.y[i]));
   }
   for (std::size_t i = high.size(); i-- > 0;) {
-    if (std::isfinite(high.y[i])) outline.emplace_back(x.px(high.x[i]), y.px(high.y[i]));
+    if (std::isfinite(high.y[i])) outline.emplace_back(x.px(high.x[i]), inside(high.y[i]));
   }
   svg.polygon(outline, "band " + band.style);
 }
@@ -113,11 +133,15 @@ Range x_range(const LinePlot& plot) {
 
 Range y_range(const LinePlot& plot) {
   const Range lines = line_range(plot);
-  Range range = lines;
+  Range range = lines.empty() ? lines : with_bands(lines, plot);
   for (const PlotLimit& limit : plot.limits) {
     if (is_near(limit, lines, plot.least_span)) range.include(limit.y);
   }
-  return range.padded(0.05, plot.least_span);
+  range = range.padded(0.05, plot.least_span);
+  // No room beyond what there can be: a charge of 100.2 %.
+  const double most = std::max(plot.most, lines.empty() ? plot.most : lines.high);
+  if (range.high > most) range = {std::min(range.low, most - plot.least_span), most};
+  return range;
 }
 
 std::string draw(const LinePlot& plot, const PlotFrame& frame) {
@@ -147,8 +171,9 @@ std::string draw(const LinePlot& plot, const PlotFrame& frame) {
 std::string figure(const LinePlot& plot, const PlotFrame& frame) {
   if (plot.empty()) return "";
   return fmt::format(
-      "<figure class=\"plot\">\n<h4>{}</h4>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
-      escaped(plot.title), legend(plot), draw(plot, frame), plot.caption);
+      "<figure class=\"plot{}\">\n<h4>{}</h4>\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
+      frame.width > PlotFrame{}.width ? " wide-chart" : "", escaped(plot.title), legend(plot),
+      draw(plot, frame), with_citations(plot.caption));
 }
 
 }  // namespace vinerow::tools::report

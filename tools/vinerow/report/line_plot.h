@@ -48,6 +48,7 @@ struct LinePlot {
   std::string spans_label;  ///< what the shaded stretches are
   std::vector<PlotLimit> limits;
   double least_span = 1e-3;  ///< of y: what is less is no event, in y's unit
+  double most = std::numeric_limits<double>::infinity();  ///< of y: 100 for a share in per cent
 
   /// Whether there is anything to draw.
   bool empty() const;
@@ -58,8 +59,8 @@ struct PlotFrame {
   double width = 640, height = 300, left = 70, right = 16, top = 12, bottom = 46;
 };
 
-/// Ranges that hold everything of a plot. Limits count where they lie less than `3 x` the lines'
-/// own span outside of it, so that a far one does not flatten the lines.
+/// Ranges that hold every line of a plot. Limits count where they lie less than `3 x` the lines'
+/// own span outside of it, bands as far as that span, so that a far one does not flatten the lines.
 Range x_range(const LinePlot& plot);
 Range y_range(const LinePlot& plot);
 

@@ -44,6 +44,19 @@ void cut_to(const Track& track, LinePlot& plot) {
   }
 }
 
+/// From -180 to 180 degrees, with a gap where the angle passes from one end to the other.
+Samples wrapped(const Samples& turning) {
+  Samples out;
+  double before = kNone;
+  for (std::size_t i = 0; i < turning.size(); ++i) {
+    const double now = std::remainder(turning.y[i], 360.0);
+    if (std::abs(now - before) > 180.0) out.add(turning.x[i], kNone);
+    out.add(turning.x[i], now);
+    before = now;
+  }
+  return out;
+}
+
 double ground_m(const RunFolder& run, const Eigen::Vector3d& p) {
   return run.world && run.world->terrain ? run.world->terrain->height_m(p.x(), p.y()) : kNone;
 }
@@ -92,13 +105,14 @@ LinePlot altitude(const RunFolder& run, const VehicleLog& vehicle, const Track& 
 }
 
 LinePlot heading(const VehicleLog& vehicle, const Track& track) {
-  LinePlot plot = plot_of(track, vehicle.has_wings ? "Heading ψ" : "Heading", "from east, °");
+  LinePlot plot =
+      plot_of(track, vehicle.has_wings ? "Heading ψ" : "Heading", "from east, left positive, °");
   plot.caption = vehicle.has_wings ? "True heading (line) and reference (dashed). As paper A, "
                                      "figure 10."
                                    : "True heading (line) and the plan's at the nearest place "
                                      "(dashed). As paper A, figure 19 a.";
   plot.least_span = 1.0;
-  plot.lines = {{"true", {track.t_s, in_degrees(track.heading_rad)}, vehicle.style}};
+  plot.lines = {{"true", wrapped({track.t_s, in_degrees(track.heading_rad)}), vehicle.style}};
   Samples wanted;
   if (vehicle.has_wings) {
     double near_rad = track.heading_rad.empty() ? 0.0 : track.heading_rad.front();
@@ -113,7 +127,7 @@ LinePlot heading(const VehicleLog& vehicle, const Track& track) {
   } else {
     wanted = {track.t_s, in_degrees(track.plan_heading_rad)};
   }
-  plot.lines.push_back({vehicle.has_wings ? "reference" : "plan", std::move(wanted), "ref"});
+  plot.lines.push_back({vehicle.has_wings ? "reference" : "plan", wrapped(wanted), "ref"});
   return plot;
 }
 
@@ -181,7 +195,7 @@ LinePlot speed(const VehicleLog& vehicle, const Track& track) {
 LinePlot lateral_error(const RunFolder& run, const VehicleLog& vehicle, const Track& track) {
   LinePlot plot = plot_of(track, "Distance from the plan, sideways", "left of the plan, m");
   plot.caption =
-      "True distance from the planned way in the plane, left positive. As paper B, figure 14.";
+      "True distance from the planned path in the plane, left positive. As paper B, figure 14.";
   plot.least_span = 0.01;
   if (vehicle.has_wings) {
     plot.caption =
@@ -191,18 +205,18 @@ LinePlot lateral_error(const RunFolder& run, const VehicleLog& vehicle, const Tr
   plot.lines = {{"true", {track.t_s, track.lateral_m}, vehicle.style}};
   for (const char* metric :
        {"cross_track_max_m", "straight_cross_track_max_m", "deviation_max_m"}) {
-    add_limits(allowed(run, vehicle, metric), "most that is allowed", plot);
+    add_limits(allowed(run, vehicle, metric), "allowed at most", plot);
   }
   return plot;
 }
 
 LinePlot height_error(const RunFolder& run, const VehicleLog& vehicle, const Track& track) {
   LinePlot plot = plot_of(track, "Distance from the plan, upwards", "above the plan, m");
-  plot.caption = "True height less the plan's at the nearest place, on the rows or lanes.";
+  plot.caption = "True height minus planned height at the nearest place, on the rows or lanes.";
   plot.least_span = 0.01;
   plot.lines = {{"true", {track.t_s, track.height_error_m}, vehicle.style}};
   for (const char* metric : {"altitude_error_max_m", "height_error_max_m"}) {
-    add_limits(allowed(run, vehicle, metric), "most that is allowed", plot);
+    add_limits(allowed(run, vehicle, metric), "allowed at most", plot);
   }
   return plot;
 }

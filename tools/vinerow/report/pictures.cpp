@@ -13,6 +13,7 @@
 #include "engine/render/png.h"
 #include "tools/vinerow/report/base64.h"
 #include "tools/vinerow/report/html.h"
+#include "tools/vinerow/report/jpeg.h"
 #include "tools/vinerow/report/map_captions.h"
 #include "tools/vinerow/report/units.h"
 
@@ -25,6 +26,9 @@ constexpr std::size_t kMostFrames = 36;
 /// A file as small as this is taken as it is.
 constexpr std::uintmax_t kSmall_bytes = 250'000;
 constexpr double kMoves_mps = 0.05;
+constexpr int kPhotoQuality = 84;
+/// Bytes of a frame as JPEG of that quality over those of its PNG file, about.
+constexpr double kPhotoShare = 0.1;
 
 std::vector<fs::path> png_files(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -122,7 +126,7 @@ std::vector<Picture> frame_pictures(const RunFolder& run) {
   const std::size_t count = run.frames.size(), shown = std::min(count, kMostFrames);
   for (std::size_t i = 0; i < shown; ++i) {
     const fs::path& file = run.frames[i * count / shown];
-    pictures.push_back({file, frame_caption(run, file)});
+    pictures.push_back({file, frame_caption(run, file), true});
   }
   return pictures;
 }
@@ -133,7 +137,8 @@ std::vector<Picture> coverage_pictures(const RunFolder& run) {
     if (!file.filename().string().starts_with("coverage")) continue;
     pictures.push_back({file,
                         "How many pictures of the survey see each place of the parcel, and "
-                        "with what forward overlap"});
+                        "with what forward overlap",
+                        false});
   }
   return pictures;
 }
@@ -155,7 +160,7 @@ std::vector<Picture> product_pictures(const RunFolder& run) {
     for (const fs::path& file : files) {
       std::string caption = map_picture_caption(file.stem().string());
       if (caption.ends_with('.')) caption.pop_back();
-      pictures.push_back({file, fmt::format("{} ({})", caption, name)});
+      pictures.push_back({file, fmt::format("{} ({})", caption, name), false});
     }
   }
   return pictures;
@@ -176,16 +181,16 @@ const Picture* hero_picture(const RunFolder& run, const std::vector<VehicleLog>&
 }
 
 int fitting_width(const std::vector<Picture>& pictures, std::size_t budget_bytes) {
-  std::uintmax_t bytes = 0;
+  double bytes = 0.0;
   for (const Picture& picture : pictures) {
     std::error_code failed;
     const std::uintmax_t size = fs::file_size(picture.file, failed);
-    if (!failed) bytes += size;
+    if (!failed) bytes += (picture.is_photo ? kPhotoShare : 1.0) * static_cast<double>(size);
   }
   for (const int width : {1280, 1024, 800, 640}) {
     // Bytes go with the area of pictures that are 1280 wide.
     const double share = std::pow(width / 1280.0, 2);
-    if (share * static_cast<double>(bytes) <= static_cast<double>(budget_bytes)) return width;
+    if (share * bytes <= static_cast<double>(budget_bytes)) return width;
   }
   return 480;
 }
@@ -193,20 +198,18 @@ int fitting_width(const std::vector<Picture>& pictures, std::size_t budget_bytes
 std::string embedded(const Picture& picture, int most_width) {
   auto pixels = render::read_png(picture.file.string());
   if (!pixels) throw ConfigError(pixels.reason());
-  std::string bytes;
-  int width = pixels->width, height = pixels->height;
-  if (width > most_width) {
-    const render::Pixels small = shrunk(*pixels, most_width);
-    width = small.width;
-    height = small.height;
-    bytes = render::encode_png(small);
+  const bool is_wide = pixels->width > most_width;
+  const render::Pixels shown = is_wide ? shrunk(*pixels, most_width) : std::move(*pixels);
+  const bool as_it_is = !is_wide && fs::file_size(picture.file) <= kSmall_bytes;
+  std::string bytes, type = "png";
+  if (picture.is_photo) {
+    type = "jpeg";
+    bytes = encode_jpeg(shown, kPhotoQuality);
   } else {
-    bytes = fs::file_size(picture.file) <= kSmall_bytes ? bytes_of(picture.file)
-                                                        : render::encode_png(*pixels);
+    bytes = as_it_is ? bytes_of(picture.file) : render::encode_png(shown);
   }
-  return fmt::format(
-      "<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"/>", width,
-      height, escaped(picture.caption), base64(bytes));
+  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/{};base64,{}\"/>",
+                     shown.width, shown.height, escaped(picture.caption), type, base64(bytes));
 }
 
 std::string picture_figure(const Picture& picture, int most_width) {

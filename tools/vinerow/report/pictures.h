@@ -13,12 +13,13 @@
 namespace vinerow::tools::report {
 
 struct Picture {
-  std::filesystem::path file;
+  std::filesystem::path file;  ///< PNG
   std::string caption;
+  bool is_photo = false;  ///< put into the page as JPEG; drawings stay PNG, with sharp edges
 };
 
-/// Pictures of all that a page holds together, PNG files.
-constexpr std::size_t kPictureBudget_bytes = 5'000'000;
+/// Pictures of all that a page holds together.
+constexpr std::size_t kPictureBudget_bytes = 6'000'000;
 
 /// frames/*.png, coverage*.png, and those in products/*/, each with what it shows. Of more than 36
 /// frames as many, evenly.

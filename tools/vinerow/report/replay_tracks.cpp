@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "engine/api/world_model.h"
+#include "engine/sim/vehicle_colours.h"
 #include "tools/vinerow/report/replay_plans.h"
 
 namespace vinerow::tools {
@@ -191,6 +192,7 @@ json vehicle_index(const ReplayInput& input, std::size_t v, double rate_Hz, std:
       {"name", config.name},
       {"type", config.vehicle.type},
       {"index", v},
+      {"colour", hex_colour(vehicle_colour(v).rgb)},
       {"flies", description.flies()},
       {"foot_m", description.height_above_ground_m},
       {"size_m", 2.0 * description.collision_half_extents_m.head<2>().maxCoeff()},

@@ -9,16 +9,19 @@
 #include "tools/vinerow/report/action_plots.h"
 #include "tools/vinerow/report/canopy_strips.h"
 #include "tools/vinerow/report/estimate_plots.h"
+#include "tools/vinerow/report/events.h"
 #include "tools/vinerow/report/fleet.h"
 #include "tools/vinerow/report/html.h"
 #include "tools/vinerow/report/mission_map.h"
 #include "tools/vinerow/report/motion_plots.h"
 #include "tools/vinerow/report/page_style.h"
+#include "tools/vinerow/report/papers.h"
 #include "tools/vinerow/report/pictures.h"
 #include "tools/vinerow/report/replay.h"
 #include "tools/vinerow/report/replay_run.h"
 #include "tools/vinerow/report/run_facts.h"
 #include "tools/vinerow/report/run_folder.h"
+#include "tools/vinerow/report/setup.h"
 #include "tools/vinerow/report/time_line.h"
 #include "tools/vinerow/report/units.h"
 #include "tools/vinerow/report/verdict.h"
@@ -39,6 +42,8 @@ struct PageMaterial {
   RunFolder run;
   std::vector<VehicleLog> vehicles;
   std::vector<Track> tracks;
+  std::vector<CanopyFile> canopies;
+  std::vector<RunEvent> events;
   std::vector<Picture> frames, coverage, products;
   int picture_width = 1280;
 };
@@ -60,6 +65,8 @@ PageMaterial read_material(const std::filesystem::path& folder, const Registry& 
   m.step();
   m.vehicles = read_vehicles(m.run);
   for (const VehicleLog& vehicle : m.vehicles) m.tracks.push_back(make_track(vehicle));
+  m.canopies = read_canopies(m.run);
+  m.events = read_events(m.run);
   m.frames = frame_pictures(m.run);
   m.coverage = coverage_pictures(m.run);
   m.products = product_pictures(m.run);
@@ -78,7 +85,7 @@ std::string hero(const PageMaterial& m) {
   std::string out;
   if (picture != nullptr) {
     out +=
-        fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+        fmt::format("<figure class=\"opens\">{}<figcaption>{}</figcaption></figure>\n",
                     embedded(*picture, m.picture_width), escaped(sentence_case(picture->caption)));
   }
   MapStyle style;
@@ -105,13 +112,11 @@ std::string hero(const PageMaterial& m) {
 std::string time_lines(const PageMaterial& m) {
   const std::vector<TimeRow> phases = phase_rows(m.run);
   if (!phases.empty()) {
-    return "<div class=\"scroll\">" + time_line(phases, m.run.end_s(), "phases of the mission") +
-           "</div>\n";
+    return time_line(phases, m.run.end_s(), "phases of the mission");
   }
   const std::vector<TimeRow> rows = activity_rows(m.vehicles, m.tracks);
   if (rows.empty()) return "";
-  return "<div class=\"scroll\">" + time_line(rows, m.run.end_s(), "what the vehicles did when") +
-         "</div>\n" + activity_legend(rows);
+  return time_line(rows, m.run.end_s(), "what the vehicles did when") + activity_legend(rows);
 }
 
 std::string first_screen(const PageMaterial& m) {
@@ -119,8 +124,10 @@ std::string first_screen(const PageMaterial& m) {
   const std::string description = m.run.scenario ? m.run.scenario->description : "";
   std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n",
                                 escaped(title_of(m.run.text("scenario"))), escaped(description));
-  return out + verdict_box(make_verdict(m.run)) + key_numbers(m.run, m.vehicles) + hero(m) +
-         time_lines(m);
+  Verdict verdict = make_verdict(m.run);
+  verdict.remark = canopy_remark(m.run, m.canopies, m.vehicles);
+  return out + verdict_box(verdict) + event_notice(m.events) + key_numbers(m.run, m.vehicles) +
+         hero(m) + time_lines(m) + setup_table(m.run);
 }
 
 std::string map_chapter(const PageMaterial& m) {
@@ -128,16 +135,17 @@ std::string map_chapter(const PageMaterial& m) {
   const auto whole = whole_view(m.run, m.vehicles);
   if (!whole) return "";
   MapStyle style;
-  style.most_height = 680;
+  style.most_height = 480;
   const auto map = [&](const MapView& view, const std::string& label, const std::string& caption) {
     style.label = label;
-    return fmt::format("<figure class=\"plot map\">\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
-                       map_legend(m.run, m.vehicles, style),
-                       mission_map(m.run, m.vehicles, view, style), caption);
+    return fmt::format(
+        "<figure class=\"plot map wide-chart\">\n{}{}<figcaption>{}</figcaption>\n</figure>\n",
+        map_legend(m.run, m.vehicles, style), mission_map(m.run, m.vehicles, view, style),
+        with_citations(caption));
   };
   std::string out =
       map(*whole, "map of the mission: rows, plans and tracks, north up",
-          "True tracks over the planned ways, to scale, north up. As paper A, figures 9, "
+          "True tracks over the planned paths, to scale, north up. As paper A, figures 9, "
           "18 a and 20 a.");
   if (const auto parcel = parcel_view(m.run, m.vehicles)) {
     out += map(*parcel, "map of the parcel: rows, plans and tracks, north up",
@@ -146,9 +154,10 @@ std::string map_chapter(const PageMaterial& m) {
   return out;
 }
 
-std::string way_figures(const PageMaterial& m, const VehicleLog& vehicle, const Track& track) {
+std::vector<std::string> way_figures(const PageMaterial& m, const VehicleLog& vehicle,
+                                     const Track& track) {
   const std::vector<VehicleLog> alone = {vehicle};
-  std::string out;
+  std::vector<std::string> out;
   MapStyle style;
   style.width = 640;
   style.least_height = style.most_height = 330;
@@ -156,20 +165,36 @@ std::string way_figures(const PageMaterial& m, const VehicleLog& vehicle, const 
                        const std::string& caption) {
     if (!view) return;
     style.label = title;
-    out += fmt::format(
+    out.push_back(fmt::format(
         "<figure class=\"plot\">\n<h4>{}</h4>\n{}{}<figcaption>{}</figcaption>\n</figure>\n", title,
-        map_legend(m.run, alone, style), mission_map(m.run, alone, *view, style), caption);
+        map_legend(m.run, alone, style), mission_map(m.run, alone, *view, style),
+        with_citations(caption)));
   };
   if (m.vehicles.size() > 1) {
     add(own_view(vehicle), "Plan and track",
-        "Planned way (dashed) and true track (line). As paper A, figures 18 a and 20 a.");
+        "Planned path (dashed) and true track (line). As paper A, figures 18 a and 20 a.");
   }
   if (!vehicle.has_wings) {
     style.with_ends = false;
     add(first_turn_view(track), "The first turn",
-        "Planned way (dashed) and true track (line), enlarged. As paper A, figures 18 b and 20 c.");
+        "Planned path (dashed) and true track (line), enlarged. As paper A, figures 18 b and 20 "
+        "c.");
   }
   return out;
+}
+
+/// The first ones, and a line that opens the others: a page of three vehicles has sixty.
+std::string figure_grid(const std::vector<std::string>& figures) {
+  constexpr std::size_t kOpen = 4;
+  if (figures.empty()) return "<p>It never began its work.</p>\n";
+  std::string first, more;
+  for (std::size_t i = 0; i < figures.size(); ++i) (i < kOpen ? first : more) += figures[i];
+  std::string out = "<div class=\"figures\">\n" + first + "</div>\n";
+  if (more.empty()) return out;
+  return out + fmt::format(
+                   "<details class=\"more\"><summary>{}</summary>\n<div "
+                   "class=\"figures\">\n{}</div></details>\n",
+                   counted(static_cast<long>(figures.size() - kOpen), "more plot"), more);
 }
 
 std::string plots_chapter(const PageMaterial& m) {
@@ -185,13 +210,14 @@ std::string plots_chapter(const PageMaterial& m) {
   for (std::size_t i = 0; i < m.vehicles.size(); ++i) {
     m.step();
     const VehicleLog& vehicle = m.vehicles[i];
-    std::string figures = way_figures(m, vehicle, m.tracks[i]);
-    for (const LinePlot& plot : motion_plots(m.run, vehicle, m.tracks[i])) figures += figure(plot);
-    for (const LinePlot& plot : estimate_plots(vehicle, m.run.world.get())) figures += figure(plot);
-    for (const LinePlot& plot : action_plots(vehicle, m.tracks[i])) figures += figure(plot);
-    if (figures.empty()) figures = "<p>It never began its work.</p>\n";
-    out += fmt::format("<h3>{}</h3>\n<div class=\"figures\">\n{}</div>\n", escaped(vehicle.name),
-                       figures);
+    std::vector<std::string> figures = way_figures(m, vehicle, m.tracks[i]);
+    for (auto make :
+         {motion_plots(m.run, vehicle, m.tracks[i]), estimate_plots(vehicle, m.run.world.get()),
+          action_plots(vehicle, m.tracks[i])}) {
+      for (const LinePlot& plot : make) figures.push_back(figure(plot));
+    }
+    std::erase(figures, "");
+    out += fmt::format("<h3>{}</h3>\n{}", escaped(vehicle.name), figure_grid(figures));
   }
   return out;
 }
@@ -207,7 +233,8 @@ std::string pictures_chapter(const PageMaterial& m) {
     }
   }
   if (out.empty()) return "";
-  out = "<div class=\"figures\">\n" + out + "</div>\n";
+  out = "<p class=\"hint\">Click a picture to see it large.</p>\n<div class=\"gallery\">\n" + out +
+        "</div>\n";
   if (m.frames.size() < m.run.frames.size()) {
     out += fmt::format("<p>{} of the run's {} frames; the others are in its folder frames.</p>\n",
                        m.frames.size(), m.run.frames.size());
@@ -227,30 +254,37 @@ std::string replay_chapter(const PageMaterial& m) {
 }
 
 std::string page(const PageMaterial& m) {
-  const std::vector<Chapter> chapters = {
+  const std::string first = first_screen(m);
+  std::vector<Chapter> chapters = {
+      {"replay", "Replay", replay_chapter(m)},
       {"verdicts", "Verdicts", criteria_table(m.run) + metrics_table(m.run)},
+      {"events", "Events", event_table(m.events)},
       {"phases", "Phases", phase_table(m.run)},
-      {"map", "Map of the mission", map_chapter(m)},
-      {"plots", "Plots", plots_chapter(m)},
-      {"canopy", "Canopy", canopy_section(m.run)},
+      {"map", "Map", map_chapter(m)},
+      {"canopy", "Canopy", canopy_section(m.run, m.canopies, m.vehicles)},
       {"pictures", "Pictures", pictures_chapter(m)},
-      {"replay", "Replay in three dimensions", replay_chapter(m)},
+      {"plots", "Plots", plots_chapter(m)},
       {"parameters", "Parameters and versions", facts(m.run)},
       {"timings", "Timings", timings(m.run)}};
+  std::string content, links;
+  for (const Chapter& chapter : chapters) {
+    content += section(chapter.id, chapter.title, chapter.content);
+  }
+  const Chapter sources = {"sources", "Sources", source_list(content)};
+  content += section(sources.id, sources.title, sources.content);
+  chapters.push_back(sources);
+  for (const Chapter& chapter : chapters) {
+    if (chapter.content.empty()) continue;
+    links += fmt::format("<a href=\"#{}\">{}</a>\n", chapter.id, chapter.title);
+  }
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>{}: report of the run</title>\n<style>{}</style>\n</head>\n<body>\n<nav><div>\n",
       escaped(title_of(m.run.text("scenario"))), page_style());
-  for (const Chapter& chapter : chapters) {
-    if (chapter.content.empty()) continue;
-    out += fmt::format("<a href=\"#{}\">{}</a>\n", chapter.id, chapter.title);
-  }
-  out += "</div></nav>\n<main>\n" + first_screen(m);
-  for (const Chapter& chapter : chapters) {
-    out += section(chapter.id, chapter.title, chapter.content);
-  }
-  return out + "</main>\n<script>//<![CDATA[" + page_script() +
+  out += links + "</div></nav>\n<main>\n" + first;
+  out += content;
+  return out + "</main>\n" + picture_dialog() + "<script>//<![CDATA[" + page_script() +
          "//]]></script>\n</body>\n</html>\n";
 }
 

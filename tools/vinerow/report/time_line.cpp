@@ -15,6 +15,8 @@ namespace vinerow::tools::report {
 namespace {
 
 constexpr double kLabels = 150, kNote = 120, kRow = 26, kTimes = 42, kTop = 4, kBorder = 16;
+/// Of a page as narrow as a telephone, where names stand above the bars.
+constexpr double kNarrowChart = 360, kNameRow = 20;
 constexpr double kSliver_px = 5.0;
 
 std::string listed(const Json& names) {
@@ -128,15 +130,17 @@ std::vector<TimeBar> bars_of(const VehicleLog& vehicle, const Track& track) {
   return bars;
 }
 
-}  // namespace
-
-std::string time_line(const std::vector<TimeRow>& rows, double end_s, const std::string& label) {
-  if (rows.empty() || !(end_s > 0.0)) return "";
-  const double bottom = kTop + kRow * static_cast<double>(rows.size());
-  Svg svg(kWideChart, bottom + kTimes, "time", label);
+std::string draw_time_line(const std::vector<TimeRow>& rows, double end_s, const std::string& label,
+                           double width) {
+  const bool narrow = width < kWideChart;
+  const double row_height = kRow + (narrow ? kNameRow - 4 : 0.0),
+               name = narrow ? kNameRow - 4 : 0.0;
+  const double bottom = kTop + row_height * static_cast<double>(rows.size());
+  Svg svg(width, bottom + kTimes, "time", label);
   const bool has_notes =
       std::any_of(rows.begin(), rows.end(), [](const TimeRow& row) { return !row.note.empty(); });
-  const Axis x({0.0, end_s}, kLabels, kWideChart - (has_notes ? kNote : kBorder), 10);
+  const Axis x({0.0, end_s}, narrow ? kBorder : kLabels,
+               width - (has_notes && !narrow ? kNote : kBorder), narrow ? 5 : 10);
   for (const double tick : x.ticks()) {
     svg.line(x.px(tick), kTop, x.px(tick), bottom + 4, "grid");
     svg.text(x.px(tick), bottom + 18, x.text(tick), "tick mid");
@@ -144,19 +148,31 @@ std::string time_line(const std::vector<TimeRow>& rows, double end_s, const std:
   svg.text(0.5 * (x.from_px() + x.to_px()), bottom + 36, "simulated time, s", "label mid");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const TimeRow& row = rows[i];
-    const double y = kTop + kRow * static_cast<double>(i);
-    svg.text(kLabels - 10, y + 17, row.label, "label end");
+    const double y = kTop + row_height * static_cast<double>(i) + name;
+    svg.text(narrow ? x.from_px() : kLabels - 10, narrow ? y - 1 : y + 17, row.label,
+             narrow ? "label" : "label end");
     svg.rect(x.from_px(), y + 4, x.to_px() - x.from_px(), kRow - 8, "lane");
     for (const TimeBar& bar : row.bars) {
       const double from = x.px(std::clamp(bar.from_s, 0.0, end_s));
       const double to = x.px(std::clamp(bar.to_s, 0.0, end_s));
-      const double width = std::max(to - from, row.bars.size() == 1 ? kSliver_px : 0.5);
-      svg.rect(std::min(from, x.to_px() - width), y + 4, width, kRow - 8, "bar " + bar.style,
-               bar.tip);
+      const double bar_width = std::max(to - from, row.bars.size() == 1 ? kSliver_px : 0.5);
+      svg.rect(std::min(from, x.to_px() - bar_width), y + 4, bar_width, kRow - 8,
+               "bar " + bar.style, bar.tip);
     }
-    if (has_notes) svg.text(x.to_px() + 10, y + 17, row.note, "note " + row.note_style);
+    if (!has_notes) continue;
+    svg.text(narrow ? x.to_px() : x.to_px() + 10, narrow ? y - 1 : y + 17, row.note,
+             "note " + row.note_style + (narrow ? " end" : ""));
   }
   return svg.finish();
+}
+
+}  // namespace
+
+std::string time_line(const std::vector<TimeRow>& rows, double end_s, const std::string& label) {
+  if (rows.empty() || !(end_s > 0.0)) return "";
+  return "<div class=\"wide-only\">" + draw_time_line(rows, end_s, label, kWideChart) +
+         "</div>\n<div class=\"narrow-only\">" + draw_time_line(rows, end_s, label, kNarrowChart) +
+         "</div>\n";
 }
 
 std::vector<TimeRow> phase_rows(const RunFolder& run) {

@@ -23,7 +23,8 @@ struct TimeRow {
   std::vector<TimeBar> bars;
 };
 
-/// Bars over [0, end_s] as SVG; nothing without rows.
+/// Bars over [0, end_s] as SVG, twice: for a wide page with names beside the bars, for a narrow one
+/// above them; the page's style shows one. Nothing without rows.
 std::string time_line(const std::vector<TimeRow>& rows, double end_s, const std::string& label);
 
 /// The phases of summary.json. A bar of a phase that took no simulated time is a sliver.

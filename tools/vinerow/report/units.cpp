@@ -60,6 +60,9 @@ std::string words_of(const std::string& name) {
 }
 
 std::string sentence_case(std::string words) {
+  // A name with a line in it, as build_map, stays as its file spells it.
+  const std::string first = words.substr(0, words.find_first_of(" :"));
+  if (first.find('_') != std::string::npos) return words;
   if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] -= 'a' - 'A';
   return words;
 }

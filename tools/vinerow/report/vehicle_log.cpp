@@ -4,13 +4,14 @@
 
 #include <algorithm>
 
+#include "engine/sim/vehicle_colours.h"
+
 namespace vinerow::tools::report {
 namespace {
 
 /// Signals that are plotted; others of the same type are left in the log.
 constexpr const char* kColumns[] = {"actuators", "wheels", "deviation", "steering",
                                     "wrench",    "rotors", "air"};
-constexpr int kColours = 8;
 
 template <class T>
 void read_into(const record::LogReader& log, const std::string& topic, Trace<T>& trace) {
@@ -120,7 +121,7 @@ std::vector<VehicleLog> read_vehicles(const RunFolder& run) {
   for (const std::string& name : run.vehicles) {
     VehicleLog& vehicle = vehicles.emplace_back();
     vehicle.name = name;
-    vehicle.style = fmt::format("s{}", (vehicles.size() - 1) % kColours);
+    vehicle.style = fmt::format("v{}", (vehicles.size() - 1) % kVehicleColours.size());
     // Without a scenario nothing is known but the signals.
     if (!run.models.empty()) describe(run.models[vehicles.size() - 1]->description(), vehicle);
     const std::string prefix = "/" + name + "/";

@@ -34,7 +34,7 @@ struct FlightReference {
 
 struct VehicleLog {
   std::string name;
-  std::string style;  ///< class of its colour, "s0"
+  std::string style;  ///< class of its colour, "v0" (engine/sim/vehicle_colours.h)
   bool flies = false;
   bool has_wings = false;
   std::vector<ActuatorSpec> actuators;

@@ -2,35 +2,73 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "tools/vinerow/report/html.h"
 #include "tools/vinerow/report/metric_table.h"
+#include "tools/vinerow/report/papers.h"
 #include "tools/vinerow/report/units.h"
 
 namespace vinerow::tools::report {
 namespace {
 
-/// A criterion and the phase whose it is.
+/// A requirement and the phase whose it is. One with two limits is two criteria in the summary.
 struct Judged {
-  Json criterion;
+  std::vector<Json> criteria;  ///< one or two, of one metric
   std::string phase;
+
+  bool is_met() const {
+    return std::all_of(criteria.begin(), criteria.end(),
+                       [](const Json& criterion) { return criterion.value("met", false); });
+  }
+  /// The one that was missed, else the first.
+  const Json& decisive() const {
+    const auto missed = std::find_if(criteria.begin(), criteria.end(), [](const Json& criterion) {
+      return !criterion.value("met", false);
+    });
+    return missed == criteria.end() ? criteria.front() : *missed;
+  }
 };
+
+void add_criteria(const Json& list, const std::string& phase, std::vector<Judged>& all) {
+  for (const Json& criterion : list) {
+    const std::string name = criterion.value("name", "");
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Judged& judged) {
+      const Json& first = judged.criteria.front();
+      return !name.empty() && judged.phase == phase && judged.criteria.size() == 1 &&
+             first.value("name", "") == name &&
+             first.value("kind", "") != criterion.value("kind", "");
+    });
+    if (same == all.end()) {
+      all.push_back({{criterion}, phase});
+    } else {
+      same->criteria.push_back(criterion);
+    }
+  }
+}
 
 std::vector<Judged> all_criteria(const RunFolder& run) {
   std::vector<Judged> all;
-  for (const Json& criterion : list_in(run.summary, "criteria")) all.push_back({criterion, ""});
+  add_criteria(list_in(run.summary, "criteria"), "", all);
   for (const Json& phase : list_in(run.summary, "phases")) {
-    for (const Json& criterion : list_in(phase, "criteria")) {
-      all.push_back({criterion, phase.value("name", "")});
-    }
+    add_criteria(list_in(phase, "criteria"), phase.value("name", ""), all);
   }
   return all;
 }
 
-bool is_met(const Json& criterion) {
-  return criterion.value("met", false);
+/// "at most 5", "at least 5", "−1 to 1", "exactly 4".
+std::string limit_text(const Judged& judged) {
+  const auto limit = [](const Json& c) { return number_of(c.value("limit", Json())); };
+  const Json& first = judged.criteria.front();
+  if (judged.criteria.size() == 1) {
+    return (first.value("kind", "") == "max" ? "at most " : "at least ") +
+           number_text(limit(first));
+  }
+  const double a = limit(first), b = limit(judged.criteria.back());
+  if (a == b) return "exactly " + number_text(a);
+  return number_text(std::min(a, b)) + " to " + number_text(std::max(a, b));
 }
 
 bool is_share(const std::string& name) {
@@ -51,10 +89,11 @@ std::string metric_part(const std::string& metric) {
 
 /// "rover: largest wheel slip is 12 %, at most 5 % is allowed".
 std::string failure(const Judged& judged) {
-  const std::string metric = judged.criterion.value("metric", ""), name = metric_part(metric);
-  const double value = number_of(judged.criterion.value("value", Json()));
-  const double limit = number_of(judged.criterion.value("limit", Json()));
-  const bool most = judged.criterion.value("kind", "") == "max";
+  const Json& c = judged.decisive();
+  const std::string metric = c.value("metric", ""), name = metric_part(metric);
+  const double value = number_of(c.value("value", Json()));
+  const double limit = number_of(c.value("limit", Json()));
+  const bool most = c.value("kind", "") == "max";
   const bool flag = limit == 1.0 && !most && (name == "finished" || name == "estimate_consistent");
   const std::string where = judged.phase.empty() ? "" : " (phase " + judged.phase + ")";
   if (flag && value == 0.0) return criterion_title(metric) + ": no" + where;
@@ -117,7 +156,7 @@ Verdict make_verdict(const RunFolder& run) {
   for (std::string& told : phase_failures(run)) faults.push_back(std::move(told));
   std::size_t missed = 0;
   for (const Judged& judged : criteria) {
-    if (is_met(judged.criterion)) continue;
+    if (judged.is_met()) continue;
     ++missed;
     faults.push_back(failure(judged));
   }
@@ -125,7 +164,7 @@ Verdict make_verdict(const RunFolder& run) {
   const bool failed = run.number("exit_status") == 1.0 || missed > 0;
   if (broke_off) {
     verdict = {Verdict::Kind::kBrokenOff, "The simulation broke off",
-               sentence_case(run.text("error")) + "."};
+               sentence_case(run.text("error")) + ".", ""};
   } else if (failed) {
     verdict.kind = Verdict::Kind::kFailed;
     const std::string phases = failed_phases(run);
@@ -140,7 +179,7 @@ Verdict make_verdict(const RunFolder& run) {
         faults.empty() ? sentence_case(run.text("status")) + "." : sentence_of(faults);
   } else if (criteria.empty()) {
     verdict = {Verdict::Kind::kOpen, "The run came to its end",
-               "Its scenario sets no requirement, so there is nothing to judge."};
+               "Its scenario sets no requirement, so there is nothing to judge.", ""};
   } else {
     verdict.kind = Verdict::Kind::kMet;
     verdict.headline = criteria.size() == 1
@@ -148,8 +187,9 @@ Verdict make_verdict(const RunFolder& run) {
                            : fmt::format("All {} requirements met", criteria.size());
     const auto finished = run.summary.find("finished");
     const bool done = finished != run.summary.end() && finished->is_boolean() && *finished;
-    verdict.sentence = done ? "Every vehicle did what it was told to do, within its limits."
-                            : "The time was over before every vehicle had said that it was done.";
+    verdict.sentence =
+        done ? "Every vehicle finished its task, and every measured value is within its limit."
+             : "The time was over before every vehicle reported that it had finished.";
   }
   return verdict;
 }
@@ -160,35 +200,37 @@ std::string verdict_box(const Verdict& verdict) {
   const auto k = static_cast<std::size_t>(verdict.kind);
   return fmt::format(
       "<div class=\"verdict {}\"><span class=\"mark\">{}</span><div><strong>{}</strong>"
-      "<p>{}</p></div></div>\n",
-      kinds[k], marks[k], escaped(verdict.headline), escaped(verdict.sentence));
+      "<p>{}</p>{}</div></div>\n",
+      kinds[k], marks[k], escaped(verdict.headline), escaped(verdict.sentence),
+      verdict.remark.empty() ? "" : "<p class=\"remark\">" + escaped(verdict.remark) + "</p>");
 }
 
 std::string criteria_table(const RunFolder& run) {
   std::vector<std::vector<std::string>> rows;
   for (const Judged& judged : all_criteria(run)) {
-    const Json& c = judged.criterion;
+    const Json& c = judged.decisive();
     const std::string metric = c.value("metric", ""), name = metric_part(metric);
     const MetricMeaning meaning = metric_meaning(name);
     const std::string unit = unit_of(name);
+    const std::string source =
+        meaning.source.empty() ? "" : fmt::format(" ({})", escaped(meaning.source));
+    const std::string title =
+        escaped(sentence_case(criterion_title(metric))) +
+        (judged.phase.empty() ? "" : " <em>in " + escaped(judged.phase) + "</em>");
     rows.push_back(
-        {is_met(c) ? "<span class=\"badge met\">met</span>"
-                   : "<span class=\"badge failed\">failed</span>",
-         fmt::format("{}{}<br/><code>{}</code>", escaped(sentence_case(criterion_title(metric))),
-                     judged.phase.empty() ? "" : " <em>in " + escaped(judged.phase) + "</em>",
-                     escaped(metric)),
-         number_cell(number_of(c.value("value", Json()))),
-         fmt::format("<td class=\"num\">{} {}</td>",
-                     c.value("kind", "") == "max" ? "at most" : "at least",
-                     number_text(number_of(c.value("limit", Json())))),
-         escaped(unit.empty() ? "–" : unit),
-         fmt::format("{}{}", escaped(meaning.definition),
-                     meaning.source.empty()
-                         ? ""
-                         : " <span class=\"source\">" + escaped(meaning.source) + "</span>")});
+        {judged.is_met() ? "<span class=\"badge met\">met</span>"
+                         : "<span class=\"badge failed\">failed</span>",
+         fmt::format("<td class=\"what\"><details><summary>{}</summary><p>{}{} "
+                     "<code>{}</code></p></details></td>",
+                     title, escaped(meaning.definition.empty() ? "" : meaning.definition + "."),
+                     with_citations(source), escaped(metric)),
+         number_cell(number_of(c.value("value", Json()))), escaped(unit),
+         fmt::format("<td class=\"num\">{}</td>", limit_text(judged))});
   }
   if (rows.empty()) return "<p>The scenario sets no criterion.</p>\n";
-  return table({"", "requirement", "value", "limit", "unit", "what is measured, and its source"},
+  return "<p class=\"hint\">Click a requirement to see what is measured.</p>\n" +
+         table({"", "requirement", "<span class=\"num\">value</span>", "unit",
+                "<span class=\"num\">limit</span>"},
                rows, "criteria");
 }
 
@@ -202,7 +244,7 @@ std::string metrics_table(const RunFolder& run) {
       const MetricMeaning meaning = metric_meaning(name);
       rows.push_back({"<code>" + escaped(name) + "</code>", number_cell(number_of(value)),
                       escaped(unit_of(name)), escaped(meaning.definition),
-                      escaped(meaning.source)});
+                      with_citations(escaped(meaning.source))});
     }
     out += fmt::format("<details><summary>All {} metrics of {}</summary>\n{}</details>\n",
                        rows.size(), escaped(vehicle),

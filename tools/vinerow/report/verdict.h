@@ -12,6 +12,7 @@ struct Verdict {
   Kind kind = Kind::kOpen;
   std::string headline;  ///< "All 7 requirements met"
   std::string sentence;  ///< what failed, or what was done
+  std::string remark;    ///< what a reader may ask next, or ""
 };
 
 Verdict make_verdict(const RunFolder& run);

@@ -128,6 +128,13 @@
       this.go(target.clone().addScaledVector(direction, behind ? 2.6 * size + 1.6 : 4.2 * size + 2.5), target, at_once);
     }
 
+    /** Whether a place lies in the picture. */
+    sees(place) {
+      this.camera.updateMatrixWorld();
+      const at = place.clone().project(this.camera);
+      return Math.abs(at.x) < 1 && Math.abs(at.y) < 1 && Math.abs(at.z) < 1;
+    }
+
     aimOf(vehicle) {
       const up = vehicle.track.entry.flies ? 0 : 0.35 * vehicle.track.entry.size_m;
       return vehicle.position.clone().add(new THREE.Vector3(0, 0, up));

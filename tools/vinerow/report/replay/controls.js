@@ -21,8 +21,10 @@
       this.player = player;
       this.find = player.find;
       const index = player.index;
-      this.find("title").textContent = index.name;
-      this.find("notes").textContent = index.notes.length ? "Note: " + index.notes.join("; ") + "." : "";
+      const words = index.name.replace(/_/g, " ");
+      this.find("title").textContent = words.charAt(0).toUpperCase() + words.slice(1);
+      this.find("notes").hidden = index.notes.length === 0;
+      this.find("notes").querySelector("p").textContent = index.notes.join("; ") + ".";
       this.find("length").textContent = "/ " + Replay.clock(index.duration_s);
       const slider = this.find("slider");
       slider.max = String(index.duration_s);
@@ -99,6 +101,11 @@
       press("whole", () => this.whole());
       press("above", () => this.above());
       press("full", () => this.fullScreen());
+      this.find("menu").addEventListener("click", () => {
+        const open = player.stage.classList.toggle("vr-open");
+        this.find("menu").setAttribute("aria-expanded", String(open));
+      });
+      this.find("simple").addEventListener("change", () => player.setQuality(this.find("simple").checked ? 0 : 2));
       const speeds = this.find("speed");
       for (const speed of Replay.kSpeeds) speeds.append(new Option(speed + "×", String(speed)));
       speeds.addEventListener("change", () => {
@@ -208,6 +215,7 @@
       find("time").textContent = Replay.clock(player.index.first_s + player.t);
       find("play").classList.toggle("vr-playing", player.playing);
       find("speed").value = String(player.speed);
+      find("simple").checked = player.quality === 0;
       const running = player.index.phases.filter((phase) => phase.begin <= player.t && player.t < phase.end);
       find("now").textContent = running.map((phase) => phase.name).join(" · ");
       player.scene.vehicles.forEach((vehicle, v) => {
@@ -223,7 +231,7 @@
     /** Names stand over the vehicles, or at the edge of the picture towards those out of sight. */
     placeLabels(camera) {
       const { player } = this, width = player.stage.clientWidth, height = player.stage.clientHeight;
-      const foot = this.find("bar").offsetHeight;
+      const foot = this.find("foot").offsetHeight, placed = [];
       const tangent = Math.tan((0.5 * camera.fov * Math.PI) / 180);
       player.scene.vehicles.forEach((vehicle, v) => {
         const label = this.labels[v], top = vehicle.position.clone();
@@ -241,11 +249,15 @@
         }
         label.classList.toggle("vr-away", away);
         let left = (0.5 + 0.5 * x) * width, low = (0.5 - 0.5 * y) * height - 9;
-        if (away) {
-          const reach = 0.5 * label.offsetWidth + 6;
-          left = Math.min(Math.max(left, reach), width - reach);
-          low = Math.min(Math.max(low, 30), height - foot - 12);
+        const reach = 0.5 * label.offsetWidth + 6, tall = label.offsetHeight;
+        left = Math.min(Math.max(left, reach), width - reach);
+        low = Math.min(Math.max(low, 30), height - foot - 18);
+        // Above those that would lie under it.
+        for (let k = 0; k < placed.length; ++k) {
+          const other = placed.find((at) => Math.abs(at.left - left) < at.reach + reach - 8 && Math.abs(at.low - low) < tall + 2);
+          if (other) low = other.low - tall - 3;
         }
+        placed.push({ left, low, reach });
         label.style.transform = "translate(" + left.toFixed(1) + "px," + low.toFixed(1) + "px) translate(-50%,-100%)";
       });
     }

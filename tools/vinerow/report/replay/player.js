@@ -5,6 +5,8 @@
 
   const kSpeeds = [1, 2, 4, 8, 16, 32, 64];
   const kStep_s = 5;
+  const kLead_s = 1;  // before the first move
+  const kLongest_s = 1;  // of a step while playing: a page that lay in the background does not jump
 
   class Player {
     constructor(stage) {
@@ -16,7 +18,7 @@
       this.speed = 4;
       this.dirty = true;
       this.costs = [];
-      this.quality = 2;  // 2: shadows, full resolution; 1: coarser leaves and pixels; 0: no shadows
+      this.quality = 2;  // 2: shadows, full resolution; 1: coarser leaves and pixels; 0: no shadows, fewer pixels
       this.show = { canopy: true, plans: true, trails: true, labels: true };
     }
 
@@ -40,9 +42,18 @@
         (error) => this.fail("The scene cannot be read: " + error.message + "."));
     }
 
+    /** Whether a program draws in place of a graphics card, tens of times as slowly. */
+    drawsInSoftware() {
+      const context = document.createElement("canvas").getContext("webgl");
+      const names = context && context.getExtension("WEBGL_debug_renderer_info");
+      const name = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : "";
+      return /swiftshader|llvmpipe|software|basic render/i.test(name);
+    }
+
     openCanvas() {
-      const options = { canvas: this.canvas, antialias: true, powerPreference: "high-performance" };
-      const attributes = { antialias: true, alpha: false, depth: true };
+      const plain = this.drawsInSoftware();
+      const options = { canvas: this.canvas, antialias: !plain, powerPreference: "high-performance" };
+      const attributes = { antialias: !plain, alpha: false, depth: true };
       const context = this.canvas.getContext("webgl", attributes);
       if (!context) {
         this.fail("This browser draws no 3D graphics (WebGL is off or missing), so the replay cannot be shown.");
@@ -50,9 +61,7 @@
       }
       options.context = context;
       this.renderer = new THREE.WebGLRenderer(options);
-      const names = context.getExtension("WEBGL_debug_renderer_info");
-      const name = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : "";
-      if (/swiftshader|llvmpipe|software|basic render/i.test(name)) this.quality = 1;
+      if (plain) this.quality = 0;
       this.renderer.gammaOutput = true;
       this.renderer.gammaFactor = 2.2;
       this.renderer.toneMapping = THREE.ACESFilmicToneMapping;
@@ -71,9 +80,9 @@
       this.eye = new Replay.Eye(this.canvas, this.scene);
       this.controls = new Replay.Controls(this);
       this.resize();
-      this.seek(0);
-      this.eye.whole(this.index.ground, this.scene.sun.userData.direction, true);
+      this.open();
       this.controls.readAddress();
+      if (this.quality === 0) this.tellSimple();
       this.eye.controls.addEventListener("change", () => (this.dirty = true));
       // A canvas that changes its size is empty until it is drawn: at once, before the page is shown.
       new ResizeObserver(() => {
@@ -85,7 +94,7 @@
       this.tick(0);
       let last = null;
       const frame = (now) => {
-        const dt = last === null ? 0 : Math.min((now - last) / 1000, 0.2);
+        const dt = last === null ? 0 : Math.min((now - last) / 1000, kLongest_s);
         last = now;
         this.tick(dt);
         window.requestAnimationFrame(frame);
@@ -93,9 +102,23 @@
       window.requestAnimationFrame(frame);
     }
 
+    /** When something begins to happen, and where it does. */
+    open() {
+      const first = this.scene.firstMove();
+      this.seek(first ? Math.max(first.t - kLead_s, 0) : 0);
+      this.eye.whole(this.index.ground, this.scene.sun.userData.direction, true);
+      if (first && !this.eye.sees(first.vehicle.position)) this.eye.follow(first.vehicle, false, true);
+    }
+
+    tellSimple() {
+      this.stage.classList.add("vr-told");
+      this.find("hint").textContent = "Simple view: this browser seems to draw without a graphics card.";
+    }
+
     resize() {
       const width = Math.max(this.stage.clientWidth, 1), height = Math.max(this.stage.clientHeight, 1);
-      this.renderer.setPixelRatio(this.quality < 2 ? 1 : Math.min(window.devicePixelRatio || 1, 2));
+      this.renderer.setPixelRatio(this.quality === 0 ? 0.7 : this.quality < 2 ? 1 : Math.min(window.devicePixelRatio || 1, 2));
+      this.scene.sun.castShadow = this.quality > 0;
       this.renderer.setSize(width, height, false);
       this.eye.reshape(width / height);
       this.dirty = true;
@@ -138,8 +161,9 @@
       this.scene.canopy.visible = this.show.canopy;
       this.scene.plans.visible = this.show.plans;
       this.scene.trails.visible = this.show.trails;
+      this.scene.setFocus(this.eye.followed, this.t);
       camera.updateMatrixWorld();
-      this.scene.prepare(camera, size.x, size.y, this.quality === 2 ? 1 : 0.4);
+      this.scene.prepare(camera, size.x, size.y, [0.2, 0.4, 1][this.quality]);
       const reach = this.eye.shadowReach(), ahead = camera.getWorldDirection(new THREE.Vector3()).setZ(0);
       Replay.aimSun(this.scene.sun, this.eye.controls.target.clone().addScaledVector(ahead, 0.25 * reach), reach);
       this.renderer.render(this.scene.scene, camera);
@@ -151,16 +175,18 @@
     watchCost(cost_ms, dt) {
       if (!this.playing || this.quality === 0) return;
       this.costs.push(Math.max(cost_ms, 1000 * dt));
-      if (this.costs.length < 16) return;
+      // Nobody waits for sixteen pictures of a second each.
+      const slow = this.costs.length >= 3 && Math.min(...this.costs.slice(-2)) > 400;
+      if (this.costs.length < 16 && !slow) return;
       const mean = this.costs.slice(4).reduce((a, b) => a + b, 0) / (this.costs.length - 4);
       this.costs = [];
-      if (mean < 70) return;
-      this.setQuality(this.quality - 1);
+      if (!slow && mean < 70) return;
+      this.setQuality(slow ? 0 : this.quality - 1);
+      if (this.quality === 0) this.tellSimple();
     }
 
     setQuality(quality) {
       this.quality = quality;
-      this.scene.sun.castShadow = quality > 0;
       this.resize();
     }
   }
@@ -183,7 +209,8 @@
         }
       }, 30);
     };
-    const margin = 300, box = stage.getBoundingClientRect();
+    // A report shows what stands above it first; a page that is nothing but the replay begins at once.
+    const margin = -60, box = stage.getBoundingClientRect();
     if (box.top < window.innerHeight + margin && box.bottom > -margin) {
       begin();
       return;

@@ -3,14 +3,16 @@
 (function (root) {
   const Replay = (root.VinerowReplay = root.VinerowReplay || {});
 
-  // Trails as in the run's pictures; more vehicles start again.
-  Replay.kColours = ["#ffb80d", "#ff4db3", "#4df2e6", "#7db4ff", "#b6f24d", "#ff8a5c"];
   // Nearer than this the finest leaves are drawn, then the middle ones.
   const kLevels = [22, 320];
   // Lines hover this much above what they follow.
   const kHover = 0.07;
   // Rotors turn so fast, as far as the eye can tell.
   const kSpinTurns = 7.3;
+  // Trails of the others while the eye goes with one vehicle.
+  const kFaint = 0.3;
+  // Farther from where it began a vehicle has set out.
+  const kSetOut = 0.3;
 
   function worldMaterial(own, materials, cards) {
     if (cards) return materials.leaves[cards].material;
@@ -20,6 +22,15 @@
       materials.plain.set(own, plain);
     }
     return materials.plain.get(own);
+  }
+
+  /** Of a line: its shader reads a uniform of its own. */
+  function setOpacity(material, opacity) {
+    material.transparent = opacity < 1;
+    material.opacity = opacity;
+    if (material.uniforms.opacity) material.uniforms.opacity.value = opacity;
+    else material.uniforms.opacity = { value: opacity };
+    material.needsUpdate = true;
   }
 
   /** Moves what hangs in the file's tree to where it stands in W. */
@@ -44,7 +55,37 @@
       this.levels = [];
       this.lineMaterials = [];
       this.arrangeWorld(gltf, index, textures);
+      this.focus = null;  // vehicle that the eye goes with
       this.vehicles = tracks.map((track, v) => this.addVehicle(track, v));
+    }
+
+    /** {vehicle, t} of who moves first, s since the run's start; null where nobody does. */
+    firstMove() {
+      let first = null;
+      for (const vehicle of this.vehicles) {
+        const { positions: p, times } = vehicle.track;
+        for (let i = 1; i < times.length && (first === null || times[i] < first.t); ++i) {
+          if (Math.hypot(p[3 * i] - p[0], p[3 * i + 1] - p[1], p[3 * i + 2] - p[2]) < kSetOut) continue;
+          first = { vehicle, t: times[i] };
+        }
+      }
+      return first;
+    }
+
+    /** Lines of the others do not run through the one that is looked at. */
+    setFocus(vehicle, t) {
+      if (vehicle === this.focus) return;
+      this.focus = vehicle;
+      for (const each of this.vehicles) {
+        const faint = vehicle !== null && each !== vehicle, material = each.trail.material;
+        setOpacity(material, faint ? kFaint : 1);
+        this.showPlan(each, t);
+      }
+    }
+
+    showPlan(vehicle, t) {
+      const current = this.focus === null || this.focus === vehicle ? vehicle.track.planAt(t) : -1;
+      vehicle.plans.forEach((line, i) => (line.visible = i === current));
     }
 
     arrangeWorld(gltf, index, textures) {
@@ -94,7 +135,7 @@
 
     addVehicle(track, v) {
       const vehicle = {
-        track, name: track.name, colour: Replay.kColours[track.entry.index % Replay.kColours.length],
+        track, name: track.name, colour: track.entry.colour,
         group: new THREE.Group(), links: [], position: new THREE.Vector3(), quaternion: new THREE.Quaternion(),
         yaw: 0, speed: 0,
       };
@@ -115,8 +156,7 @@
       const geometry = new THREE.LineSegmentsGeometry();
       geometry.setPositions(pairs);
       const material = new THREE.LineMaterial({ color: new THREE.Color(colour).getHex(), linewidth: width });
-      material.transparent = opacity < 1;
-      material.opacity = opacity;
+      setOpacity(material, opacity);
       material.fog = false;
       // Lines are signs: their colours are those of the screen.
       material.fragmentShader = material.fragmentShader.replace("#include <tonemapping_fragment>", "").replace("#include <encodings_fragment>", "");
@@ -173,8 +213,7 @@
         const passed = Math.min(at.index + (at.share > 0.5 ? 1 : 0), vehicle.track.times.length - 1);
         vehicle.trail.geometry.maxInstancedCount = passed;
         vehicle.trail.visible = passed > 0;
-        const current = vehicle.track.planAt(t);
-        vehicle.plans.forEach((line, i) => (line.visible = i === current));
+        this.showPlan(vehicle, t);
       }
     }
 

@@ -274,7 +274,8 @@ void FrameComposer::add_markers(const io::CameraConfig& camera, Time t,
                         pixel.y() <= frame.height;
     // On a map who works elsewhere is worth an arrow.
     if (!inside && !(is_map && at_work)) continue;
-    const double radius_m = vehicles_[v]->description().collision_half_extents_m.norm();
+    const double radius_m =
+        vehicles_[v]->description().collision_half_extents_m.head<2>().maxCoeff();
     frame.markers.push_back(
         {p, radius_m, at_work ? name : name + " (parked)", vehicle_colour(v).rgb});
   }

@@ -27,8 +27,6 @@ constexpr std::size_t kMostFrames = 36;
 /// A file as small as this is taken as it is.
 constexpr std::uintmax_t kSmall_bytes = 250'000;
 constexpr double kMoves_mps = 0.05;
-/// Share of a picture from which on it shows no more of a vehicle.
-constexpr double kFillsPicture = 0.2;
 
 std::vector<fs::path> png_files(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -98,6 +96,9 @@ bool is_at_a_row(const RunFolder& run, const Eigen::Vector3d& p_W) {
   }
   return false;
 }
+
+/// Share of a picture from which on it shows no more of a vehicle.
+constexpr double kFillsPicture = 0.2;
 
 /// How much of the run a frame shows; more is better, any of one line more than all below it.
 double score_of(const RunFolder& run, const fs::path& file,

@@ -158,38 +158,78 @@ void draw_entry(const LegendEntry& entry, FT_Face face, int size_px, double x, i
   draw_line(face, size_px, entry.text, x + size_px, baseline, &image);
 }
 
+/// The text, or as much of it as fits with an ellipsis.
+std::string fit_line(FT_Face face, int size_px, const std::string& text, double most_width) {
+  std::string fitted = text;
+  std::size_t length = text.size();
+  while (length > 0 && draw_line(face, size_px, fitted, 0.0, 0, nullptr) > most_width) {
+    // Back to the beginning of a character.
+    do --length;
+    while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80);
+    fitted = text.substr(0, length) + "…";
+  }
+  return fitted;
+}
+
+/// Upper left corner of a panel.
+Eigen::Vector2i free_corner(const Image& image, const Eigen::Vector2i& panel, int margin,
+                            const std::vector<Eigen::AlignedBox2d>& keep_clear) {
+  const int left = margin, right = image.width - margin - panel.x();
+  const int top = margin, bottom = image.height - margin - panel.y();
+  const Eigen::Vector2i first(left, bottom);
+  for (const Eigen::Vector2i& at : {first, Eigen::Vector2i(right, bottom),
+                                    Eigen::Vector2i(left, top), Eigen::Vector2i(right, top)}) {
+    const Eigen::AlignedBox2d box(at.cast<double>(), (at + panel).cast<double>());
+    const bool covers =
+        std::any_of(keep_clear.begin(), keep_clear.end(),
+                    [&](const Eigen::AlignedBox2d& other) { return box.intersects(other); });
+    if (!covers) return at;
+  }
+  return first;
+}
+
 }  // namespace
 
+int caption_text_px(int picture_height) {
+  constexpr double kShare = 0.03;
+  constexpr int kLeast_px = 11;
+  return std::max(kLeast_px, static_cast<int>(std::lround(picture_height * kShare)));
+}
+
 bool draw_caption(const std::vector<std::string>& lines, Image& image,
-                  const std::vector<LegendEntry>& legend) {
+                  const std::vector<LegendEntry>& legend,
+                  const std::vector<Eigen::AlignedBox2d>& keep_clear) {
   if (lines.empty() && legend.empty()) return false;
   const Fonts fonts;
   if (fonts.plain() == nullptr) return false;
-  const int small = std::max(10, static_cast<int>(std::lround(image.height * 0.0235)));
-  const int large = static_cast<int>(std::lround(small * 1.32));
-  const int gap = static_cast<int>(std::lround(small * 0.52));
-  const int padding = static_cast<int>(std::lround(small * 0.95));
-  const int margin = static_cast<int>(std::lround(small * 1.15));
+  const int small = caption_text_px(image.height);
+  const int large = static_cast<int>(std::lround(small * 1.2));
+  const int gap = static_cast<int>(std::lround(small * 0.45));
+  const int padding = static_cast<int>(std::lround(small * 0.7));
+  const int margin = static_cast<int>(std::lround(small * 0.8));
+  const double most_width = image.width - 2.0 * (margin + padding);
 
   double width = 0.0;
+  std::vector<std::string> fitted;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const bool first = i == 0;
-    width = std::max(width, draw_line(first ? fonts.bold() : fonts.plain(), first ? large : small,
-                                      lines[i], 0.0, 0, nullptr));
+    const FT_Face face = i == 0 ? fonts.bold() : fonts.plain();
+    const int size_px = i == 0 ? large : small;
+    fitted.push_back(fit_line(face, size_px, lines[i], most_width));
+    width = std::max(width, draw_line(face, size_px, fitted.back(), 0.0, 0, nullptr));
   }
-  const LegendLayout layout =
-      lay_out(legend, fonts.plain(), small, image.width - 2.0 * (margin + padding));
+  const LegendLayout layout = lay_out(legend, fonts.plain(), small, most_width);
   width = std::max(width, layout.width);
   const int count = static_cast<int>(lines.size()) + layout.rows;
-  const int height = 2 * padding + large + (count - 1) * (small + gap) - small / 5;
-  const int x0 = margin;
-  const int y1 = image.height - margin;
-  const int y0 = y1 - height;
-  draw_panel(image, x0, y0, x0 + static_cast<int>(width) + 2 * padding, y1, 0.55 * small);
+  const int panel_width = static_cast<int>(width) + 2 * padding;
+  const int panel_height = 2 * padding + large + (count - 1) * (small + gap) - small / 5;
+  const Eigen::Vector2i corner =
+      free_corner(image, {panel_width, panel_height}, margin, keep_clear);
+  const int x0 = corner.x(), y0 = corner.y();
+  draw_panel(image, x0, y0, x0 + panel_width, y0 + panel_height, 0.55 * small);
   int baseline = y0 + padding + large - large / 5;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
     const bool first = i == 0;
-    draw_line(first ? fonts.bold() : fonts.plain(), first ? large : small, lines[i], x0 + padding,
+    draw_line(first ? fonts.bold() : fonts.plain(), first ? large : small, fitted[i], x0 + padding,
               baseline, &image);
     baseline += small + gap;
   }

@@ -82,4 +82,26 @@ Image FrameTarget::read() const {
   return image;
 }
 
+std::vector<SeenMark> FrameTarget::take_marks(std::size_t count) const {
+  std::vector<SeenMark> marks(count);
+  if (count > 0) {
+    const int wide = width_ * scale_, high = height_ * scale_;
+    std::vector<std::uint8_t> stencil(static_cast<std::size_t>(wide) * high);
+    gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl_.ReadPixels(0, 0, wide, high, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.data());
+    const double share = 1.0 / static_cast<double>(stencil.size());
+    for (int y = 0; y < high; ++y) {
+      for (int x = 0; x < wide; ++x) {
+        const std::size_t number = stencil[static_cast<std::size_t>(y) * wide + x];
+        if (number == 0 || number > count) continue;
+        SeenMark& mark = marks[number - 1];
+        mark.share += share;
+        mark.box_px.extend(Eigen::Vector2i(x / scale_, height_ - 1 - y / scale_));
+      }
+    }
+  }
+  gl_.Clear(GL_STENCIL_BUFFER_BIT);
+  return marks;
+}
+
 }  // namespace vinerow::render

@@ -6,10 +6,19 @@
 /// takes as long for 4 samples as for 4 pixels, and pixels smooth alpha-tested edges and textures
 /// too.
 
+#include <Eigen/Geometry>
+#include <vector>
+
 #include "engine/render/gl.h"
 #include "engine/render/scene.h"
 
 namespace vinerow::render {
+
+/// Where a mark of the stencil is.
+struct SeenMark {
+  double share = 0.0;          ///< of the picture
+  Eigen::AlignedBox2i box_px;  ///< in the picture; empty where it is nowhere
+};
 
 class FrameTarget {
  public:
@@ -22,6 +31,8 @@ class FrameTarget {
   /// The picture: means of scale x scale pixels, taken of squares of the screen's values, which is
   /// nearly the mean of light.
   Image read() const;
+  /// Where the stencil holds 1, 2, ... count; clears it.
+  std::vector<SeenMark> take_marks(std::size_t count) const;
 
  private:
   void make();

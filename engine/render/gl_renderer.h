@@ -54,8 +54,11 @@ class GlRenderer final : public Renderer {
   void cast_shadows(const std::vector<const Drawable*>& casters,
                     const Eigen::Matrix4d& clip_from_world);
   void upload_frame_block(const Frame& frame, const Eigen::Matrix4d& clip_from_world);
-  void draw_objects(const Frame& frame, const Frustum& frustum,
-                    const std::vector<Drawable>& vehicles);
+  void draw_objects(const Frame& frame, const Frustum& frustum, const std::vector<Drawable>& links,
+                    const std::vector<int>& vehicle_of_link);
+  /// What is drawn from here on is this in the stencil where it is seen: 0 the world, else the
+  /// vehicle's number from 1 on.
+  void mark_as(int number) { gl_.StencilFunc(GL_ALWAYS, number, 0xff); }
   void draw_ground(const Frame& frame, const Frustum& frustum);
   void draw_tufts(const Frame& frame, const Frustum& frustum);
   void draw_hedges(const Frustum& frustum);

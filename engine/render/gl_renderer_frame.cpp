@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/render/caption.h"
+#include "engine/render/annotations.h"
 #include "engine/render/frame_block.h"
 #include "engine/render/gl_renderer.h"
 #include "engine/render/grass_tufts.h"
@@ -23,7 +23,11 @@ constexpr double kHazePerMetre = 1.0 / 5200.0;
 struct Visible {
   const Drawable* drawable;
   double distance_m;
+  int number = 0;  ///< in the stencil: see mark_as()
 };
+
+/// The stencil holds bytes.
+constexpr std::size_t kMostMarked = 254;
 
 /// Pixels that are drawn for each pixel of the picture, along each side.
 int scale_of(const Frame& frame) {
@@ -178,7 +182,8 @@ void GlRenderer::upload_frame_block(const Frame& frame, const Eigen::Matrix4d& c
 }
 
 void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
-                              const std::vector<Drawable>& vehicles) {
+                              const std::vector<Drawable>& links,
+                              const std::vector<int>& vehicle_of_link) {
   std::vector<Visible> solid;
   std::vector<Visible> cards;
   for (const LodGroup& group : groups_) {
@@ -188,10 +193,12 @@ void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
     if (!is_drawn_at(drawable.surface, seen)) continue;
     (drawable.leaf_cards ? cards : solid).push_back({&drawable, seen});
   }
-  for (const Drawable& link : vehicles) {
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Drawable& link = links[i];
     if (settings_.cull && !frustum.may_see(link.box_W)) continue;
     (link.leaf_cards ? cards : solid)
-        .push_back({&link, calc_seen_distance(frame.camera, frame.height, link.box_W)});
+        .push_back({&link, calc_seen_distance(frame.camera, frame.height, link.box_W),
+                    vehicle_of_link[i] + 1});
   }
   // Near things first: what they hide need not be shaded.
   const auto nearer = [](const Visible& a, const Visible& b) {
@@ -199,19 +206,24 @@ void GlRenderer::draw_objects(const Frame& frame, const Frustum& frustum,
   };
   std::stable_sort(solid.begin(), solid.end(), nearer);
   std::stable_sort(cards.begin(), cards.end(), nearer);
-  gl_.UseProgram(surface_.id);
-  for (const Visible& visible : solid) draw_drawable(surface_, *visible.drawable);
+  const auto draw_all = [this](const Program& program, const std::vector<Visible>& things) {
+    gl_.UseProgram(program.id);
+    for (const Visible& visible : things) {
+      mark_as(visible.number);
+      draw_drawable(program, *visible.drawable);
+    }
+  };
+  draw_all(surface_, solid);
   // Leaves hide each other many times over: first their depth alone, then light for what is seen.
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  gl_.UseProgram(foliage_depth_.id);
-  for (const Visible& visible : cards) draw_drawable(foliage_depth_, *visible.drawable);
+  draw_all(foliage_depth_, cards);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.DepthFunc(GL_EQUAL);
   gl_.DepthMask(GL_FALSE);
-  gl_.UseProgram(foliage_.id);
-  for (const Visible& visible : cards) draw_drawable(foliage_, *visible.drawable);
+  draw_all(foliage_, cards);
   gl_.DepthFunc(GL_LEQUAL);
   gl_.DepthMask(GL_TRUE);
+  mark_as(0);
 }
 
 void GlRenderer::draw_tufts(const Frame& frame, const Frustum& frustum) {
@@ -340,7 +352,9 @@ Image GlRenderer::draw(const Frame& frame) {
   context_->make_current();
   statistics_ = {};
   std::vector<Drawable> vehicles;
-  for (const VehicleDrawing& drawing : frame.vehicles) {
+  std::vector<int> vehicle_of_link;
+  for (std::size_t v = 0; v < frame.vehicles.size(); ++v) {
+    const VehicleDrawing& drawing = frame.vehicles[v];
     if (drawing.links == nullptr) continue;
     const std::size_t count = std::min(drawing.links->size(), drawing.X_WL.size());
     for (std::size_t i = 0; i < count; ++i) {
@@ -348,6 +362,7 @@ Image GlRenderer::draw(const Frame& frame) {
       if (!link.mesh || link.mesh->triangles.empty()) continue;
       vehicles.push_back(
           store_.make_drawable(link.mesh, drawing.X_WL[i], SurfaceClass::kVehicle, link.material));
+      vehicle_of_link.push_back(static_cast<int>(std::min(v, kMostMarked)));
     }
   }
   const int scale = scale_of(frame);
@@ -368,16 +383,22 @@ Image GlRenderer::draw(const Frame& frame) {
   if (shadows_) update_shadows(frame.camera, vehicles);
   upload_frame_block(frame, clip_from_world);
   target_.begin(frame.width, frame.height, scale);
-  draw_objects(frame, frustum, vehicles);
+  gl_.Enable(GL_STENCIL_TEST);
+  gl_.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  draw_objects(frame, frustum, vehicles, vehicle_of_link);
   draw_hedges(frustum);
   draw_tufts(frame, frustum);
   draw_ground(frame, frustum);
   draw_sky();
+  gl_.Disable(GL_STENCIL_TEST);
+  const std::vector<SeenMark> seen =
+      target_.take_marks(std::min(frame.vehicles.size(), kMostMarked));
+  for (const SeenMark& mark : seen) statistics_.vehicle_shares.push_back(mark.share);
   if (frame.grid != nullptr && !grid_on_ground_) draw_grid_map();
   draw_lines(frame, clip_from_world);
   Image image = target_.read();
   check_gl(gl_, "drawing a frame");
-  draw_caption(frame.caption, image, frame.legend);
+  annotate(frame, seen, image);
   return image;
 }
 

@@ -4,8 +4,11 @@
 #include <png.h>
 
 #include <csetjmp>
+#include <cstdio>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "engine/core/hash.h"
 #include "engine/core/whole_file.h"
@@ -20,7 +23,8 @@ void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
 }
 
 /// libpng leaves by longjmp, so nothing with a destructor may live in this function's frame.
-bool encode(png_structp png, png_infop info, std::string* out, const Image& image) {
+bool encode(png_structp png, png_infop info, std::string* out, const Image& image, png_textp words,
+            int count) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, out, &append_bytes, nullptr);
   // Level 2 with the SUB filter: a quarter of the default's time at about the same size for
@@ -30,6 +34,7 @@ bool encode(png_structp png, png_infop info, std::string* out, const Image& imag
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
                static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (count > 0) png_set_text(png, info, words, count);
   png_write_info(png, info);
   for (int y = 0; y < image.height; ++y) {
     png_write_row(png, &image.rgb[static_cast<std::size_t>(y) * image.width * 3]);
@@ -38,18 +43,59 @@ bool encode(png_structp png, png_infop info, std::string* out, const Image& imag
   return true;
 }
 
+/// Likewise. @returns how many texts there are; 0 where the file cannot be read
+int read_words(png_structp png, png_infop info, std::FILE* file, png_textp* words) {
+  if (setjmp(png_jmpbuf(png))) return 0;
+  png_init_io(png, file);
+  png_read_info(png, info);
+  int count = 0;
+  png_get_text(png, info, words, &count);
+  return count;
+}
+
+void stay_silent(png_structp png, png_const_charp) {
+  png_longjmp(png, 1);
+}
+void ignore(png_structp, png_const_charp) {}
+
 }  // namespace
 
-void write_png(const std::string& file, const Image& image) {
+std::map<std::string, std::string> read_png_words(const std::string& file) {
+  std::map<std::string, std::string> read;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"),
+                                                           &std::fclose);
+  if (!in) return read;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, &stay_silent, &ignore);
+  png_infop info = png_create_info_struct(png);
+  png_textp words = nullptr;
+  const int count = read_words(png, info, in.get(), &words);
+  for (int i = 0; i < count; ++i) read[words[i].key] = words[i].text;
+  png_destroy_read_struct(&png, &info, nullptr);
+  return read;
+}
+
+void write_png(const std::string& file, const Image& image,
+               const std::map<std::string, std::string>& words) {
   if (image.width < 1 || image.height < 1 ||
       image.rgb.size() != static_cast<std::size_t>(image.width) * image.height * 3) {
     throw std::runtime_error(fmt::format("{}: an image of {} x {} pixels with {} bytes is no image",
                                          file, image.width, image.height, image.rgb.size()));
   }
   std::string bytes;
+  std::vector<png_text> texts;
+  for (const auto& [key, text] : words) {
+    png_text entry{};
+    entry.compression = PNG_TEXT_COMPRESSION_NONE;
+    // libpng copies both and writes to neither.
+    entry.key = const_cast<char*>(key.c_str());
+    entry.text = const_cast<char*>(text.c_str());
+    entry.text_length = text.size();
+    texts.push_back(entry);
+  }
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
-  const bool encoded = encode(png, info, &bytes, image);
+  const bool encoded =
+      encode(png, info, &bytes, image, texts.data(), static_cast<int>(texts.size()));
   png_destroy_write_struct(&png, &info);
   if (!encoded) throw std::runtime_error(fmt::format("{}: cannot be encoded", file));
   write_whole_file(file, bytes);

@@ -19,15 +19,23 @@ std::uint8_t to_byte(float v) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
 }
 
+/// A point of a line and the share of the line's alpha there.
+struct Draped {
+  Eigen::Vector3d p_W;
+  double fade;
+};
+
 /// Points along a part of the line, close enough for it to follow the ground, none below it.
-void drape(std::span<const Eigen::Vector3d> line, const HeightField* field,
-           std::vector<Eigen::Vector3d>& points) {
+/// @param fade  of each point; empty: 1
+void drape(std::span<const Eigen::Vector3d> line, std::span<const float> fade,
+           const HeightField* field, std::vector<Draped>& points) {
   points.clear();
-  const auto add = [&](Eigen::Vector3d p) {
+  const auto fade_at = [&](std::size_t i) { return fade.empty() ? 1.0 : double{fade[i]}; };
+  const auto add = [&](Eigen::Vector3d p, double share) {
     if (field != nullptr && field->contains(p.x(), p.y())) {
       p.z() = std::max(p.z(), field->height_m(p.x(), p.y()) + kLift_m);
     }
-    points.push_back(p);
+    points.push_back({p, share});
   };
   const double spacing = field != nullptr ? std::max(0.4, 0.5 * field->cell_m) : 1e9;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -35,11 +43,20 @@ void drape(std::span<const Eigen::Vector3d> line, const HeightField* field,
     if (i > 0 && line[i - 1].allFinite()) {
       const Eigen::Vector3d step = line[i] - line[i - 1];
       const int pieces = std::min(2000, static_cast<int>(step.norm() / spacing) + 1);
-      for (int k = 1; k < pieces; ++k) add(line[i - 1] + step * (double{1} * k / pieces));
+      for (int k = 1; k < pieces; ++k) {
+        const double way = double{1} * k / pieces;
+        add(line[i - 1] + step * way, fade_at(i - 1) + way * (fade_at(i) - fade_at(i - 1)));
+      }
     }
-    add(line[i]);
+    add(line[i], fade_at(i));
   }
 }
+
+/// A point in clip space, likewise.
+struct Clipped {
+  Eigen::Vector4d p;
+  double fade;
+};
 
 class Builder {
  public:
@@ -48,12 +65,12 @@ class Builder {
         half_width_(0.5 * line.width_px),
         dashed_(line.dashed) {
     for (int c = 0; c < 3; ++c) colour_[c] = to_byte(line.colour[c]);
-    colour_[3] = to_byte(line.alpha);
+    alpha_ = line.alpha;
   }
 
-  void segment(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
-    const Eigen::Vector2d pa = pixel(a);
-    const Eigen::Vector2d pb = pixel(b);
+  void segment(const Clipped& a, const Clipped& b) {
+    const Eigen::Vector2d pa = pixel(a.p);
+    const Eigen::Vector2d pb = pixel(b.p);
     Eigen::Vector2d along = pb - pa;
     const double length = along.norm();
     if (length < 1e-6) return;
@@ -74,19 +91,20 @@ class Builder {
   Eigen::Vector2d pixel(const Eigen::Vector4d& clip) const {
     return (clip.head<2>() / clip.w()).cwiseProduct(half_size_);
   }
-  void vertex(const Eigen::Vector4d& clip, const Eigen::Vector2d& offset_px, double along_px) {
+  void vertex(const Clipped& at, const Eigen::Vector2d& offset_px, double along_px) {
     RibbonVertex v{};
+    const Eigen::Vector4d& clip = at.p;
     const Eigen::Vector2d xy = clip.head<2>() + offset_px.cwiseQuotient(half_size_) * clip.w();
     v.clip[0] = static_cast<float>(xy.x());
     v.clip[1] = static_cast<float>(xy.y());
     v.clip[2] = static_cast<float>(clip.z());
     v.clip[3] = static_cast<float>(clip.w());
-    std::copy(colour_, colour_ + 4, v.colour);
+    std::copy(colour_, colour_ + 3, v.colour);
+    v.colour[3] = to_byte(alpha_ * static_cast<float>(at.fade));
     v.along_px = dashed_ ? static_cast<float>(along_px) : -1.0f;
     vertices.push_back(v);
   }
-  void quad(const Eigen::Vector4d& a, const Eigen::Vector4d& b, const Eigen::Vector2d& side,
-            double start) {
+  void quad(const Clipped& a, const Clipped& b, const Eigen::Vector2d& side, double start) {
     const Eigen::Vector2d other = -side;
     vertex(a, side, start);
     vertex(a, other, start);
@@ -96,7 +114,7 @@ class Builder {
     vertex(b, other, travelled_);
   }
   /// Fills the open side of a bend.
-  void joint(const Eigen::Vector4d& at, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+  void joint(const Clipped& at, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
              double along_px) {
     const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
     if (std::abs(turn) < 0.02) return;
@@ -114,7 +132,8 @@ class Builder {
   Eigen::Vector2d half_size_;
   double half_width_;
   bool dashed_;
-  std::uint8_t colour_[4];
+  std::uint8_t colour_[3];
+  float alpha_ = 1.0f;
   double travelled_ = 0.0;
   bool has_last_ = false;
   Eigen::Vector2d last_side_ = {0, 0};
@@ -122,20 +141,25 @@ class Builder {
 
 /// @param clip_of  from a point in W to clip space
 template <class ClipOf>
-void draw_piece(const std::vector<Eigen::Vector3d>& points, ClipOf&& clip_of, Builder& builder) {
+void draw_piece(const std::vector<Draped>& points, ClipOf&& clip_of, Builder& builder) {
+  const auto cut = [](Clipped& hidden, const Clipped& seen) {
+    const double way = (kNearW - hidden.p.w()) / (seen.p.w() - hidden.p.w());
+    hidden.p += (seen.p - hidden.p) * way;
+    hidden.fade += (seen.fade - hidden.fade) * way;
+  };
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    Eigen::Vector4d a = clip_of(points[i]);
-    Eigen::Vector4d b = clip_of(points[i + 1]);
-    if (a.w() < kNearW && b.w() < kNearW) {
+    Clipped a{clip_of(points[i].p_W), points[i].fade};
+    Clipped b{clip_of(points[i + 1].p_W), points[i + 1].fade};
+    if (a.p.w() < kNearW && b.p.w() < kNearW) {
       builder.interrupt();
       continue;
     }
     // Cut where the line passes behind the eye.
-    if (a.w() < kNearW) {
-      a += (b - a) * ((kNearW - a.w()) / (b.w() - a.w()));
+    if (a.p.w() < kNearW) {
+      cut(a, b);
       builder.interrupt();
     }
-    if (b.w() < kNearW) b += (a - b) * ((kNearW - b.w()) / (a.w() - b.w()));
+    if (b.p.w() < kNearW) cut(b, a);
     builder.segment(a, b);
   }
 }
@@ -157,11 +181,14 @@ std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* f
     if (moved.w() > 0.0) clip.z() = moved.z() / moved.w() * clip.w();
     return clip;
   };
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Draped> points;
   const std::size_t whole = line.points_W.size();
   const std::size_t piece = line.pairs ? 2 : std::max<std::size_t>(whole, 1);
   for (std::size_t first = 0; first < whole; first += piece) {
-    drape(std::span(line.points_W).subspan(first, std::min(piece, whole - first)), field, points);
+    const std::size_t count = std::min(piece, whole - first);
+    const std::span<const float> fade =
+        line.fade.empty() ? std::span<const float>() : std::span(line.fade).subspan(first, count);
+    drape(std::span(line.points_W).subspan(first, count), fade, field, points);
     builder.interrupt();
     draw_piece(points, clip_of, builder);
   }

@@ -19,6 +19,7 @@ static_assert(sizeof(RibbonVertex) == 24);
 ///
 /// The line is lifted above the terrain, cut at the near plane, and moved towards the eye by
 /// `bias_m`, so that grass and the ground's roughness do not hide it while posts and rows do.
+/// @param line  @pre fade is empty or as long as points_W
 /// @param field  may be null
 std::vector<RibbonVertex> make_ribbon(const Polyline& line, const HeightField* field,
                                       const Eigen::Matrix4d& clip_from_world, const Camera& camera,

@@ -21,6 +21,7 @@
 ///   with uvs (row 0 of the image at v = 1). What cannot be read is drawn in Material.colour.
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ namespace vinerow::render {
 struct VehicleDrawing {
   const std::vector<VehicleLink>* links = nullptr;
   std::vector<Pose> X_WL;  ///< same order
+  std::string name = {};
 };
 
 /// A line over the ground or in the air (trail, plan, sensor ray), drawn as a ribbon of constant
@@ -42,6 +44,7 @@ struct VehicleDrawing {
 /// the ground.
 struct Polyline {
   std::vector<Eigen::Vector3d> points_W;
+  std::vector<float> fade;             ///< share of alpha at each point; empty: 1 at all of them
   Eigen::Vector3f colour = {1, 1, 0};  ///< as seen on the screen (sRGB), not lit
   float width_px = 3.0f;
   float alpha = 1.0f;
@@ -63,6 +66,15 @@ struct LegendEntry {
   Eigen::Vector3f colour = {1, 1, 1};  ///< sRGB, as of the lines
 };
 
+/// A named place: a ring around what is there unless that is larger, or an arrow at the picture's
+/// edge where it lies outside.
+struct Marker {
+  Eigen::Vector3d p_W = {0, 0, 0};
+  double radius_m = 0.0;  ///< of what is there
+  std::string text;
+  Eigen::Vector3f colour = {1, 1, 1};  ///< sRGB, as of the lines
+};
+
 struct Frame {
   Camera camera;
   std::vector<VehicleDrawing> vehicles;
@@ -70,8 +82,11 @@ struct Frame {
   /// Drawn over the ground, in views from above over everything; null: none. Held by the renderer
   /// until another is shown, so that its texture is made once.
   std::shared_ptr<const OccupancyGrid> grid;
-  std::vector<std::string> caption;  ///< lower left, first line larger
-  std::vector<LegendEntry> legend;   ///< below the caption's lines
+  /// First line larger; lower left, or in the first other corner where it hides no vehicle.
+  std::vector<std::string> caption;
+  std::vector<LegendEntry> legend;  ///< below the caption's lines
+  std::vector<Marker> markers;
+  bool show_scale = false;  ///< scale bar and north arrow, in orthographic views from above
   int width = 1280;
   int height = 720;
   int samples = 4;  ///< pixels drawn for each of the picture: 1, 4 (smooth edges) or 9
@@ -94,6 +109,9 @@ struct RendererSettings {
 struct FrameStatistics {
   int draw_calls = 0;
   std::int64_t triangles = 0;
+  /// Share of the picture where a vehicle is what is seen, not counting text and lines; order of
+  /// Frame::vehicles, of the first 254.
+  std::vector<double> vehicle_shares;
 };
 
 /// Draws frames of one world. Geometry is uploaded once. The picture is a function of world and
@@ -112,7 +130,9 @@ Result<std::unique_ptr<Renderer>> make_renderer(const WorldModel& world,
 
 /// Fast compression, no time stamps: the same image gives the same file.
 /// Whole or not at all. @throws WriteError, ConfigError when the file cannot be written
-void write_png(const std::string& file, const Image& image);
+/// @param words  stored with the picture (chunks tEXt), by keyword; see read_png_words() in png.h
+void write_png(const std::string& file, const Image& image,
+               const std::map<std::string, std::string>& words = {});
 
 /// Digest of size and pixels.
 std::string image_digest(const Image& image);

@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 #include "engine/physics/world_scene.h"
 #include "engine/render/cameras.h"
+#include "engine/sim/clear_view.h"
 #include "engine/sim/estimate_drawing.h"
+#include "engine/sim/frame_words.h"
 #include "engine/sim/vehicle_colours.h"
 
 namespace vinerow {
@@ -26,21 +30,37 @@ constexpr std::size_t kMostBeams = 120;
 constexpr double kEchoMark_m = 0.05;
 /// Points of a trail closer than this are left out.
 constexpr double kTrailPitch_m = 0.1;
+/// Age at which a trail that is seen aslant begins to fade, and at which it is gone.
+constexpr double kTrailFades_s = 8.0, kTrailGone_s = 40.0;
+constexpr float kTrailAlpha = 0.9f;
+/// A line that fades has points so close that its ends are not seen.
+constexpr double kFadeStep_s = 0.5;
+
+double length_m(const std::vector<Eigen::Vector3d>& points) {
+  double sum_m = 0.0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) sum_m += (points[i + 1] - points[i]).norm();
+  return sum_m;
+}
 
 }  // namespace
 
 FrameComposer::FrameComposer(const io::Scenario& scenario, const WorldModel& world,
                              const std::vector<std::unique_ptr<Vehicle>>& vehicles,
-                             const LogTrace& trace)
-    : scenario_(scenario), world_(world), vehicles_(vehicles), trace_(trace) {
+                             const LogTrace& trace, ComposerOptions options)
+    : scenario_(scenario),
+      world_(world),
+      vehicles_(vehicles),
+      trace_(trace),
+      options_(std::move(options)) {
   for (const PlantRow& row : world.rows->rows) {
     for (const Eigen::Vector3d& p : row.line_W)
       extent_W_.extend(p).extend(p + Eigen::Vector3d(0, 0, row.canopy_top_m));
   }
-  if (!world.terrain && !world.meshes.empty()) {
+  const bool on_meshes = !world.terrain && !world.meshes.empty();
+  if (on_meshes || options_.seeks_clear_views) {
     scene_ = std::make_unique<physics::WorldScene>(world);
-    ground_.emplace(world, *scene_);
   }
+  if (on_meshes) ground_.emplace(world, *scene_);
   // A world of meshes is as large as they are.
   for (const MeshInstance& instance : world.meshes) {
     if (!world.rows->rows.empty() || !instance.visible) continue;
@@ -48,7 +68,12 @@ FrameComposer::FrameComposer(const io::Scenario& scenario, const WorldModel& wor
       extent_W_.extend(instance.X_WM * v.cast<double>());
     }
   }
-  for (const auto& [name, vehicle] : trace.vehicles) {
+  const bool all_winged = std::all_of(vehicles.begin(), vehicles.end(), [](const auto& vehicle) {
+    return vehicle->description().fixed_wing.has_value();
+  });
+  for (std::size_t v = 0; v < vehicles.size(); ++v) {
+    if (vehicles[v]->description().fixed_wing && !all_winged) continue;
+    const VehicleTrace& vehicle = trace_of(scenario.vehicles[v].name);
     for (const Odometry& truth : vehicle.truth.values) extent_W_.extend(truth.X_WB.p);
     for (const PlannedPath& plan : vehicle.plan.values) {
       for (const PathPoint& point : plan.points) extent_W_.extend(point.p_W);
@@ -103,21 +128,8 @@ render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, doub
   const bool follows = !camera.vehicle.empty() && !trace_of(camera.vehicle).truth.empty();
   const Pose X_WB = follows ? trace_of(camera.vehicle).truth_at(t).X_WB : Pose{};
   switch (camera.kind) {
-    case io::CameraKind::kChase: {
-      render::ChaseOptions options;
-      options.distance_m = camera.distance_m;
-      options.height_m = camera.height_m;
-      options.side_rad = camera.yaw_rad;
-      options.fov_rad = camera.fov_rad;
-      options.follows_slope = !flies(camera.vehicle);
-      if (!options.follows_slope) {
-        // Behind what flies along a slope the ground may be higher than the eye.
-        const Eigen::Vector3d eye = render::chase_camera(X_WB, options).X_WC.p;
-        const double least_m = ground_m(eye.x(), eye.y()) + kLeastEyeHeight_m;
-        options.height_m += std::max(0.0, least_m - eye.z());
-      }
-      return render::chase_camera(X_WB, options);
-    }
+    case io::CameraKind::kChase:
+      return place_chase(camera, t, aspect);
     case io::CameraKind::kOnBoard:
       return render::on_board_camera(
           X_WB, {quaternion_from_rpy({0.0, camera.pitch_rad, camera.yaw_rad}), camera.offset_B},
@@ -149,24 +161,95 @@ render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, doub
   return render::look_at(eye, target, camera.fov_rad);
 }
 
+render::Camera FrameComposer::place_chase(const io::CameraConfig& camera, Time t,
+                                          double aspect) const {
+  const Trace<Odometry>& truth = trace_of(camera.vehicle).truth;
+  const Pose X_WB = truth.empty() ? Pose{} : odometry_at(truth, t).X_WB;
+  render::ChaseOptions asked;
+  asked.distance_m = camera.distance_m;
+  asked.height_m = camera.height_m;
+  asked.side_rad = camera.yaw_rad;
+  asked.fov_rad = camera.fov_rad;
+  asked.follows_slope = !flies(camera.vehicle);
+  const auto above_ground = [&](render::ChaseOptions options) {
+    if (options.follows_slope) return render::chase_camera(X_WB, options);
+    // Behind what flies along a slope the ground may be higher than the eye.
+    const Eigen::Vector3d eye = render::chase_camera(X_WB, options).X_WC.p;
+    const double least_m = ground_m(eye.x(), eye.y()) + kLeastEyeHeight_m;
+    options.height_m += std::max(0.0, least_m - eye.z());
+    return render::chase_camera(X_WB, options);
+  };
+  // What compares estimates with the truth, or a map, is looked at from where it was asked for.
+  if (!options_.seeks_clear_views || camera.show_estimate || camera.show_map) {
+    return above_ground(asked);
+  }
+  Subject subject;
+  for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
+    std::vector<Eigen::Vector3d> points = points_at(v, t);
+    if (scenario_.vehicles[v].name == camera.vehicle) {
+      subject.points_W = std::move(points);
+    } else {
+      subject.others_W.push_back(std::move(points));
+    }
+  }
+  std::vector<render::Camera> candidates;
+  for (const render::ChaseOptions& options : chase_candidates(asked)) {
+    candidates.push_back(above_ground(options));
+  }
+  return find_clear_view(candidates, aspect, subject, *scene_);
+}
+
+std::vector<Eigen::Vector3d> FrameComposer::points_at(std::size_t vehicle, Time t) const {
+  const VehicleTrace& trace = trace_of(scenario_.vehicles[vehicle].name);
+  std::vector<Eigen::Vector3d> points =
+      vinerow::points_of(vehicles_[vehicle]->links(), trace.links_at(t));
+  if (points.empty() && !trace.truth.empty()) points.push_back(trace.truth_at(t).X_WB.p);
+  return points;
+}
+
+bool FrameComposer::works(const std::string& vehicle, Time t) const {
+  return work_at(scenario_, vehicle, t, options_.phases).has_value();
+}
+
 void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::Frame& frame) const {
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
     const io::VehicleConfig& config = scenario_.vehicles[v];
     const Trace<Odometry>& truth = trace_of(config.name).truth;
     if (truth.empty() || looks_out_of(camera, config.name)) continue;
+    // A map shows all of the work that is being done. Aslant an old trail is a line in the sky that
+    // belongs to nothing, but beside an estimate's it is as long as that.
+    const bool fades = camera.kind != io::CameraKind::kTop && !camera.show_estimate;
+    const auto work = work_at(scenario_, config.name, t, options_.phases);
+    if (!work) continue;
+    Time from = work->begin;
+    if (fades) from = std::max(from, t - duration_from_s(kTrailGone_s));
     render::Polyline trail;
     trail.colour = vehicle_colour(v).rgb;
     trail.width_px = camera.kind == io::CameraKind::kTop ? 3.0f : 4.0f;
-    trail.alpha = 0.9f;
+    trail.alpha = kTrailAlpha;
     const double down_m = vehicles_[v]->description().height_above_ground_m - kHover_m;
     const std::size_t end = truth.index_at(t);
-    for (std::size_t i = 0; i <= end; ++i) {
+    Time last;
+    for (std::size_t i = truth.index_at(from); i <= end; ++i) {
       const Eigen::Vector3d p = truth.values[i].X_WB * Eigen::Vector3d(0, 0, -down_m);
-      if (!trail.points_W.empty() && (trail.points_W.back() - p).norm() < kTrailPitch_m && i != end)
-        continue;
+      const Time at = truth.times[i];
+      const bool moved =
+          trail.points_W.empty() || (trail.points_W.back() - p).norm() >= kTrailPitch_m;
+      // Where it stands only the last of its points is as old as the stand's end.
+      if (!moved && i != end && !(fades && (at - last).s() >= kFadeStep_s)) continue;
+      last = at;
       trail.points_W.push_back(p);
+      if (!fades) continue;
+      const double age_s = (t - at).s();
+      trail.fade.push_back(static_cast<float>(
+          std::clamp((kTrailGone_s - age_s) / (kTrailGone_s - kTrailFades_s), 0.0, 1.0)));
     }
-    if (trail.points_W.size() < 2) continue;
+    if (length_m(trail.points_W) < kTrailPitch_m) continue;
+    if (fades) {
+      // Where it crosses itself what was drawn first is seen: the latest.
+      std::reverse(trail.points_W.begin(), trail.points_W.end());
+      std::reverse(trail.fade.begin(), trail.fade.end());
+    }
     if (camera.show_estimate) {
       const bool alone = scenario_.vehicles.size() == 1;
       frame.legend.push_back({alone ? "truth" : config.name + " truth", trail.colour});
@@ -175,9 +258,69 @@ void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::F
   }
 }
 
+void FrameComposer::add_markers(const io::CameraConfig& camera, Time t,
+                                render::Frame& frame) const {
+  const bool is_map = camera.kind == io::CameraKind::kTop;
+  // Others follow their vehicle; estimates have marks of their own.
+  if (!(is_map || camera.kind == io::CameraKind::kFixed) || camera.show_estimate) return;
+  for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
+    const std::string& name = scenario_.vehicles[v].name;
+    if (trace_of(name).truth.empty()) continue;
+    const Eigen::Vector3d p = trace_of(name).truth_at(t).X_WB.p;
+    const bool at_work = works(name, t);
+    Eigen::Vector2d pixel;
+    const bool inside = render::project(frame.camera, frame.width, frame.height, p, pixel) &&
+                        (pixel.array() >= 0.0).all() && pixel.x() <= frame.width &&
+                        pixel.y() <= frame.height;
+    // On a map who works elsewhere is worth an arrow.
+    if (!inside && !(is_map && at_work)) continue;
+    const double radius_m =
+        vehicles_[v]->description().collision_half_extents_m.head<2>().maxCoeff();
+    frame.markers.push_back(
+        {p, radius_m, at_work ? name : name + " (parked)", vehicle_colour(v).rgb});
+  }
+}
+
+void FrameComposer::add_caption(const io::CameraConfig& camera, Time t,
+                                render::Frame& frame) const {
+  frame.caption.push_back(picture_title(scenario_));
+  if (camera.kind == io::CameraKind::kShots) {
+    const Trace<CameraShot>& shots = shots_of(camera);
+    const CameraShot& shot = shots.values[shots.index_at(t)];
+    frame.caption.push_back(fmt::format("picture {} · {:.1f} m to the ground, {:.1f} mm per pixel",
+                                        shot.index, shot.distance_m, 1e3 * shot.gsd_m));
+    return;
+  }
+  std::string line = clock_text(t);
+  const char* before = " · ";
+  for (const std::string& phase : phases_at(scenario_, options_.phases, t)) {
+    line += before + phase;
+    before = ", ";
+  }
+  const auto is_drawn = [&frame](const Eigen::Vector3f& colour) {
+    const auto has_it = [&](const auto& one) { return one.colour == colour; };
+    return std::any_of(frame.lines.begin(), frame.lines.end(), has_it) ||
+           std::any_of(frame.markers.begin(), frame.markers.end(), has_it);
+  };
+  // With something in their colours vehicles are the legend.
+  for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
+    const std::string& name = scenario_.vehicles[v].name;
+    if (trace_of(name).truth.empty() || !works(name, t)) continue;
+    const std::string speed =
+        fmt::format("{} {:.1f} m/s", name, trace_of(name).truth_at(t).v_WB_B.norm());
+    if (is_drawn(vehicle_colour(v).rgb) && !camera.show_estimate) {
+      frame.legend.push_back({speed, vehicle_colour(v).rgb});
+    } else {
+      line += " · " + speed;
+    }
+  }
+  if (is_drawn(kPlanColour)) frame.legend.push_back({"plan", kPlanColour});
+  frame.caption.push_back(line);
+}
+
 void FrameComposer::add_plans(Time t, render::Frame& frame) const {
   for (const auto& [name, vehicle] : trace_.vehicles) {
-    if (vehicle.plan.empty() || vehicle.plan.times.front() > t) continue;
+    if (vehicle.plan.empty() || vehicle.plan.times.front() > t || !works(name, t)) continue;
     render::Polyline plan;
     plan.colour = kPlanColour;
     plan.width_px = 2.5f;
@@ -274,8 +417,9 @@ render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) con
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
     // The lens looks out of the hull.
     if (is_shot && scenario_.vehicles[v].name == camera.vehicle) continue;
-    frame.vehicles.push_back(
-        {&vehicles_[v]->links(), trace_of(scenario_.vehicles[v].name).links_at(t)});
+    frame.vehicles.push_back({&vehicles_[v]->links(),
+                              trace_of(scenario_.vehicles[v].name).links_at(t),
+                              scenario_.vehicles[v].name});
     if (frame.vehicles.back().X_WL.empty()) frame.vehicles.pop_back();
   }
   if (camera.show_grid) frame.grid = grid_;
@@ -288,21 +432,9 @@ render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) con
     add_rays(t, frame);
     add_scans(t, frame);
   }
-  frame.caption.push_back(scenario_.name);
-  const int whole_s = static_cast<int>(t.s());
-  std::string line = fmt::format("{:02d}:{:04.1f}", whole_s / 60, t.s() - 60 * (whole_s / 60));
-  for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
-    if (trace_of(vehicle.name).truth.empty()) continue;
-    line += fmt::format("   {} {:.2f} m/s", vehicle.name,
-                        trace_of(vehicle.name).truth_at(t).v_WB_B.norm());
-  }
-  if (is_shot) {
-    const Trace<CameraShot>& shots = shots_of(camera);
-    const CameraShot& shot = shots.values[shots.index_at(t)];
-    line = fmt::format("picture {}   {:.1f} m to the ground, {:.1f} mm per pixel", shot.index,
-                       shot.distance_m, 1e3 * shot.gsd_m);
-  }
-  frame.caption.push_back(line);
+  add_markers(camera, t, frame);
+  add_caption(camera, t, frame);
+  frame.show_scale = camera.kind == io::CameraKind::kTop;
   return frame;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// From a log's trace at one instant to the frame of one camera.
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "engine/io/scenario.h"
 #include "engine/render/scene.h"
 #include "engine/sim/log_trace.h"
+#include "engine/sim/phase_moments.h"
 #include "engine/sim/standing_ground.h"
 
 namespace vinerow {
@@ -22,11 +24,19 @@ struct ShotView {
 /// @returns nullopt where no picture has all its corners on the ground
 std::optional<ShotView> view_of(const Trace<CameraShot>& shots);
 
+struct ComposerOptions {
+  std::map<std::string, PhaseSpan> phases;  ///< of the log; empty for a run without a mission
+  /// Chasing cameras go higher or orbit where something hides their vehicle (clear_view.h). Not for
+  /// films, in which they would jump.
+  bool seeks_clear_views = false;
+};
+
 class FrameComposer {
  public:
   /// @param vehicles  same order as scenario.vehicles; only their links are used
   FrameComposer(const io::Scenario& scenario, const WorldModel& world,
-                const std::vector<std::unique_ptr<Vehicle>>& vehicles, const LogTrace& trace);
+                const std::vector<std::unique_ptr<Vehicle>>& vehicles, const LogTrace& trace,
+                ComposerOptions options = {});
 
   /// @param camera  one of kind shots shows the last picture taken until t; @pre view_of() knows
   /// the camera's view
@@ -34,8 +44,14 @@ class FrameComposer {
 
  private:
   render::Camera place(const io::CameraConfig& camera, Time t, double aspect) const;
+  render::Camera place_chase(const io::CameraConfig& camera, Time t, double aspect) const;
+  /// Points spread over a vehicle at t.
+  std::vector<Eigen::Vector3d> points_at(std::size_t vehicle, Time t) const;
   void add_trails(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
+  void add_markers(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
+  void add_caption(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
   void add_plans(Time t, render::Frame& frame) const;
+  bool works(const std::string& vehicle, Time t) const;
   void add_trees(Time t, render::Frame& frame) const;
   void add_map_edges(render::Frame& frame) const;
   void add_estimates(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
@@ -52,9 +68,12 @@ class FrameComposer {
   const WorldModel& world_;
   const std::vector<std::unique_ptr<Vehicle>>& vehicles_;
   const LogTrace& trace_;
-  std::unique_ptr<SceneQuery> scene_;     // of a world whose ground is meshes; else null
-  std::optional<StandingGround> ground_;  // likewise
-  Eigen::AlignedBox3d extent_W_;  // what a top view shows: rows or else meshes, plans and tracks
+  const ComposerOptions options_;
+  std::unique_ptr<SceneQuery> scene_;     // of a world whose ground is meshes, or for clear views
+  std::optional<StandingGround> ground_;  // of a world whose ground is meshes
+  // What a top view shows: rows or else meshes, plans and tracks; of what has wings only where
+  // nothing else works, as it comes from far away.
+  Eigen::AlignedBox3d extent_W_;
   Eigen::AlignedBox3d parcel_W_;  // the same with the parcel's boundary, for views with the grid
   std::shared_ptr<const OccupancyGrid>
       grid_;  // of the log or else the world; null: neither has one

@@ -6,21 +6,6 @@
 #include "engine/sim/phase_report.h"
 
 namespace vinerow {
-namespace {
-
-bool works_at(const io::Scenario& scenario, const std::string& vehicle, Time t,
-              const std::map<std::string, PhaseSpan>& spans) {
-  return std::any_of(
-      scenario.phases.begin(), scenario.phases.end(), [&](const io::PhaseConfig& phase) {
-        const auto& who = phase.vehicles;
-        const auto span = spans.find(phase.name);
-        return std::find(who.begin(), who.end(), vehicle) != who.end() && span != spans.end() &&
-               span->second.begin <= t && (!span->second.end || t <= *span->second.end);
-      });
-}
-
-}  // namespace
-
 std::map<std::string, PhaseSpan> read_phase_spans(const record::LogReader& reader) {
   std::map<std::string, PhaseSpan> spans;
   if (!reader.has_topic("/run/phases")) return spans;
@@ -35,6 +20,20 @@ std::map<std::string, PhaseSpan> read_phase_spans(const record::LogReader& reade
   return spans;
 }
 
+std::optional<PhaseSpan> work_at(const io::Scenario& scenario, const std::string& vehicle, Time t,
+                                 const std::map<std::string, PhaseSpan>& spans) {
+  if (scenario.phases.empty()) return PhaseSpan{Time{}, std::nullopt};
+  std::optional<PhaseSpan> latest;
+  for (const io::PhaseConfig& phase : scenario.phases) {
+    const auto& who = phase.vehicles;
+    const auto span = spans.find(phase.name);
+    if (std::find(who.begin(), who.end(), vehicle) == who.end() || span == spans.end()) continue;
+    if (!span->second.contains(t)) continue;
+    if (!latest || span->second.begin >= latest->begin) latest = span->second;
+  }
+  return latest;
+}
+
 std::set<Time> moment_times(const io::Scenario& scenario, const io::CameraConfig& camera,
                             const std::map<std::string, PhaseSpan>& spans) {
   std::set<Time> times;
@@ -44,7 +43,7 @@ std::set<Time> moment_times(const io::Scenario& scenario, const io::CameraConfig
     const auto span = spans.find(moment.phase);
     if (span == spans.end()) continue;
     const Time t = span->second.begin + duration_from_s(moment.after_s);
-    if (!follows || works_at(scenario, camera.vehicle, t, spans)) times.insert(t);
+    if (!follows || work_at(scenario, camera.vehicle, t, spans)) times.insert(t);
   }
   return times;
 }

@@ -14,6 +14,7 @@
 #include "engine/core/whole_file.h"
 #include "engine/render/scene.h"
 #include "engine/sim/frame_composer.h"
+#include "engine/sim/frame_words.h"
 #include "engine/sim/log_trace.h"
 #include "engine/sim/phase_moments.h"
 #include "engine/sim/simulation.h"
@@ -58,6 +59,15 @@ TraceWishes wishes_of(const std::vector<io::CameraConfig>& cameras) {
   return wishes;
 }
 
+/// Frames more often than that make a film.
+constexpr double kFilmPeriod_s = 2.0;
+
+bool has_chase(const std::vector<io::CameraConfig>& cameras) {
+  return std::any_of(cameras.begin(), cameras.end(), [](const io::CameraConfig& camera) {
+    return camera.kind == io::CameraKind::kChase;
+  });
+}
+
 /// Instants of the frames of all cameras, in order, each once. Instants after the log's end are
 /// left out.
 std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOptions& options,
@@ -79,9 +89,9 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
   const double every_s = own_schedule ? options.every_s.value_or(0.0) : pictures.every_s;
   if (every_s > 0.0) {
     if (trace.last.s() / every_s > io::kMostPictureInstants) {
-      throw ConfigError(fmt::format(
-          "a frame every {} s is {:.0f} instants of {} s, must be at most {:.0f}", every_s,
-          trace.last.s() / every_s, trace.last.s(), io::kMostPictureInstants));
+      throw ConfigError(
+          fmt::format("a frame every {} s is {:.0f} instants of {} s, must be at most {:.0f}",
+                      every_s, trace.last.s() / every_s, trace.last.s(), io::kMostPictureInstants));
     }
     const auto count = static_cast<std::int64_t>(trace.last.s() / every_s + 1e-9);
     for (std::int64_t k = 0; k <= count; ++k) add(static_cast<double>(k) * every_s);
@@ -165,10 +175,13 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   std::vector<std::string> names;
   for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   const LogTrace trace = read_trace(reader, names, wishes_of(cameras));
-  const FrameComposer composer(scenario, *world, vehicles, trace);
   const bool own_schedule = options.times_s || options.every_s;
   const std::set<Time> schedule = frame_times(scenario.pictures, options, trace);
   const std::map<std::string, PhaseSpan> spans = read_phase_spans(reader);
+  const double every_s = own_schedule ? options.every_s.value_or(0.0) : scenario.pictures.every_s;
+  const FrameComposer composer(
+      scenario, *world, vehicles, trace,
+      {spans, has_chase(cameras) && !(every_s > 0.0 && every_s < kFilmPeriod_s)});
   std::vector<std::set<Time>> times_by_camera;
   std::set<Time> times;
   int total = 0;
@@ -187,9 +200,17 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   const auto start = std::chrono::steady_clock::now();
   if (options.progress) options.progress(0, total);
   const auto draw = [&](const io::CameraConfig& camera, Time t) {
-    const render::Image image = (*renderer)->draw(composer.compose(camera, t));
+    const render::Frame frame = composer.compose(camera, t);
+    const render::Image image = (*renderer)->draw(frame);
+    const std::vector<double> shares = (*renderer)->statistics().vehicle_shares;
+    std::map<std::string, double> seen;
+    for (std::size_t i = 0; i < std::min(shares.size(), frame.vehicles.size()); ++i) {
+      seen[frame.vehicles[i].name] = shares[i];
+    }
     const auto file = out / fmt::format("{}_{:09d}.png", camera.name, t.ns / 1'000'000);
-    render::write_png(file.string(), image);
+    std::map<std::string, std::string> words;
+    if (!seen.empty()) words[kSeenKey] = seen_text(seen);
+    render::write_png(file.string(), image, words);
     report.files.push_back(file);
     report.digests.push_back(render::image_digest(image));
     if (options.progress) options.progress(static_cast<int>(report.files.size()), total);

@@ -1,40 +1,11 @@
 #pragma once
-/// Plane drawing with smooth edges on an 8-bit picture: areas, lines, text.
+/// The commands' pictures are drawn with what the renderer writes over its own.
 
-#include <Eigen/Core>
-#include <array>
-#include <string>
-#include <vector>
-
-#include "engine/render/scene.h"
+#include "engine/render/canvas.h"
 
 namespace vinerow::tools {
 
-using Rgb = std::array<int, 3>;  ///< 0 to 255, as seen on the screen
-
-/// Points are in pixels, x to the right, y down, (0, 0) the upper left corner of the picture.
-class Canvas {
- public:
-  Canvas(int width, int height, const Rgb& background);
-
-  void blend(int x, int y, const Rgb& colour, double alpha);
-  /// Even-odd rule, edges smoothed by 4 x 4 samples.
-  void fill(const std::vector<Eigen::Vector2d>& polygon, const Rgb& colour, double alpha = 1.0);
-  void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double width_px, const Rgb& colour,
-            double alpha = 1.0);
-  void outline(const std::vector<Eigen::Vector2d>& polygon, double width_px, const Rgb& colour,
-               double alpha = 1.0);
-  /// @param anchor  share of the text's width that lies left of x: 0 begins, 0.5 centred there
-  void text(const std::string& text, int size_px, const Eigen::Vector2d& at, const Rgb& colour,
-            double anchor = 0.0);
-
-  /// Replaces what is there. What reaches beyond the canvas is left out.
-  void paste(const render::Image& picture, int left, int top);
-
-  const render::Image& image() const { return image_; }
-
- private:
-  render::Image image_;
-};
+using render::Canvas;
+using render::Rgb;
 
 }  // namespace vinerow::tools

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "engine/api/map.h"
+#include "engine/render/scale_bar.h"
 #include "tools/vinerow/canvas.h"
 #include "tools/vinerow/colour_scale.h"
 #include "tools/vinerow/picture_style.h"
-#include "tools/vinerow/scale_bar.h"
 
 namespace vinerow::tools {
 namespace {

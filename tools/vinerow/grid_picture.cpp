@@ -8,10 +8,10 @@
 #include "engine/api/map.h"
 #include "engine/api/mesh.h"
 #include "engine/api/world_model.h"
+#include "engine/render/scale_bar.h"
 #include "tools/vinerow/legend.h"
 #include "tools/vinerow/picture_style.h"
 #include "tools/vinerow/plan_view.h"
-#include "tools/vinerow/scale_bar.h"
 
 namespace vinerow::tools {
 namespace {
@@ -129,8 +129,8 @@ render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& 
   const double top = view.map_height + 14.0;
   canvas.text(title, 22, {static_cast<double>(view.margin), top + 14.0}, kInk);
   canvas.text(fmt::format("{} rows, {} alleys, {} x {} cells of {:g} m, {:.1f} % free",
-                          world.rows->rows.size(), world.rows->alleys.size(), grid.columns, grid.rows,
-                          grid.cell_m, 100.0 * worlds::free_share(grid)),
+                          world.rows->rows.size(), world.rows->alleys.size(), grid.columns,
+                          grid.rows, grid.cell_m, 100.0 * worlds::free_share(grid)),
               16, {static_cast<double>(view.margin), top + 40.0}, kFaint);
   double x = view.margin;
   const auto legend = [&](const Rgb& colour, const std::string& words, bool shown) {

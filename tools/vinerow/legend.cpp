@@ -1,5 +1,7 @@
 #include "tools/vinerow/legend.h"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "tools/vinerow/picture_style.h"
@@ -12,6 +14,12 @@ void draw_legend_patch(Canvas& canvas, double x, double y, const Rgb& colour,
   canvas.fill(patch, colour);
   canvas.outline(patch, 1.0, kFaint, 0.6);
   canvas.text(words, 16, {x + 30, y + 13.5}, kInk);
+}
+
+std::string share_text(std::int64_t part, std::int64_t all) {
+  const double percent =
+      all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0;
+  return part > 0 && percent < 0.5 ? "< 1 %" : fmt::format("{:.0f} %", percent);
 }
 
 }  // namespace vinerow::tools

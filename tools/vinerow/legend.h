@@ -1,6 +1,7 @@
 #pragma once
 /// An entry of a picture's legend.
 
+#include <cstdint>
 #include <string>
 
 #include "tools/vinerow/canvas.h"
@@ -11,5 +12,8 @@ namespace vinerow::tools {
 /// @param x, y  upper left corner of the patch
 void draw_legend_patch(Canvas& canvas, double x, double y, const Rgb& colour,
                        const std::string& words);
+
+/// "15 %". What is there and is less than half a percent is "< 1 %": pictures show it.
+std::string share_text(std::int64_t part, std::int64_t all);
 
 }  // namespace vinerow::tools

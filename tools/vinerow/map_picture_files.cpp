@@ -8,6 +8,7 @@
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/render/png.h"
+#include "engine/sim/frame_words.h"
 #include "tools/vinerow/map_pictures.h"
 #include "worlds/mapping/cloud/folder/map_folder.h"
 #include "worlds/mapping/cloud/folder/map_points.h"
@@ -74,7 +75,7 @@ std::vector<fs::path> write_job_pictures(const io::Scenario& scenario, const Run
     if (!points) continue;
     const auto drawn =
         write_map_pictures(worlds::load_map(folder), worlds::read_classified_cloud(*points, *cloud),
-                           points->occupancy, scenario.name, folder);
+                           points->occupancy, picture_title(scenario), folder);
     files.insert(files.end(), drawn.begin(), drawn.end());
   }
   return files;

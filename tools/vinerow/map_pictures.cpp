@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 using worlds::PointClass;
 
 constexpr Rgb kGroundPoints = {172, 144, 112}, kLow = {196, 192, 88}, kOther = {142, 146, 150};
-constexpr Rgb kRows[3] = {{46, 122, 52}, {104, 172, 62}, {24, 146, 108}};
+constexpr Rgb kRows[2] = {{46, 122, 52}, {104, 172, 62}};
 constexpr int kStrip = 74;
 constexpr std::size_t kMostSplats = 6'000'000;
 
@@ -57,7 +57,7 @@ class Scene {
         colour = kLow;
         break;
       case PointClass::kCanopy:
-        colour = kRows[static_cast<std::size_t>(std::max(0, row_at(p))) % 3];
+        colour = kRows[static_cast<std::size_t>(std::max(0, row_at(p))) % std::size(kRows)];
         light = 0.62 + 0.55 * std::clamp(above_m(p) / top_m_, 0.0, 1.1);
         break;
       default:
@@ -168,7 +168,7 @@ void draw_row_meshes(const RowMap& map, CloudView& view, bool with_edges) {
     for (const auto& t : mesh.mesh_W.triangles) {
       const Vector3d corners[3] = {vertices[t[0]].cast<double>(), vertices[t[1]].cast<double>(),
                                    vertices[t[2]].cast<double>()};
-      Rgb colour = kRows[index % 3];
+      Rgb colour = kRows[index % std::size(kRows)];
       for (int& c : colour) c = static_cast<int>(1.25 * c);
       view.triangle(corners[0], corners[1], corners[2], colour);
       if (!with_edges) continue;
@@ -197,40 +197,36 @@ void draw_class_legend(Canvas& canvas, double y,
   }
 }
 
-std::string share_of(std::int64_t part, std::int64_t all) {
-  return fmt::format("{:.0f} %",
-                     all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0);
-}
-
 std::string millions(std::int64_t count) {
   return count < 100'000 ? fmt::format("{}", count)
                          : fmt::format("{:.1f} million", 1e-6 * static_cast<double>(count));
 }
 
-/// On the ground before the ends that are nearer to the eye.
+/// On the canopy at the ends that are nearer to the eye: before them, on a slope, a number would
+/// stand beside the next row.
 void draw_row_numbers(Canvas& canvas, const CloudView& view, const RowMap& map,
                       const render::Camera& camera) {
-  constexpr double kBefore_m = 1.8;
-  constexpr int kSize_px = 14;
-  constexpr double kApart_px = 15.0;  // nearer ones are left out: they could not be read
+  constexpr int kSize_px = 17;
+  constexpr double kRadius_px = 13.0;
+  constexpr double kHeight = 0.75;  // of the canopy's top
   std::optional<Vector2d> drawn;
   const auto& middle = map.rows[map.rows.size() / 2].line_W;
   const auto way_m = [&](const Vector3d& p) { return (p - camera.X_WC.p).norm(); };
   const bool last = way_m(middle.back()) < way_m(middle.front());
   for (const PlantRow& row : map.rows) {
-    const std::size_t n = row.line_W.size();
-    const Vector3d& end = last ? row.line_W[n - 1] : row.line_W[0];
-    const Vector3d& before = last ? row.line_W[n - 2] : row.line_W[1];
-    const auto at = view.pixel_of(end + kBefore_m * (end - before).normalized());
-    if (!at || (drawn && (*at - *drawn).norm() < kApart_px)) continue;
+    const Vector3d& end = last ? row.line_W.back() : row.line_W.front();
+    const auto at = view.pixel_of(end + Vector3d(0.0, 0.0, kHeight * row.canopy_top_m));
+    // Nearer ones are left out: they could not be read.
+    if (!at || (drawn && (*at - *drawn).norm() < 2.0 * kRadius_px)) continue;
     drawn = at;
-    const Vector2d foot = *at + Vector2d(0.0, 0.36 * kSize_px);
-    const std::string number = std::to_string(row.id);
-    for (const Vector2d& off :
-         {Vector2d(-1.5, 0), Vector2d(1.5, 0), Vector2d(0, -1.5), Vector2d(0, 1.5)}) {
-      canvas.text(number, kSize_px, foot + off, kPaper, 0.5);
+    std::vector<Vector2d> disc;
+    for (int k = 0; k < 24; ++k) {
+      const double angle = 2.0 * std::acos(-1.0) * k / 24;
+      disc.push_back(*at + kRadius_px * Vector2d(std::cos(angle), std::sin(angle)));
     }
-    canvas.text(number, kSize_px, foot, kInk, 0.5);
+    canvas.fill(disc, kPaper, 0.92);
+    canvas.outline(disc, 1.5, kInk);
+    canvas.text(std::to_string(row.id), kSize_px, *at + Vector2d(0.0, 0.36 * kSize_px), kInk, 0.5);
   }
 }
 
@@ -267,10 +263,10 @@ render::Image draw_classes(const worlds::CloudMap& map, const worlds::ParcelClou
   const worlds::CloudMapReport& r = map.report;
   canvas.text(title, 22, {kNarrowMargin, kHeight + 26.0}, kInk);
   draw_class_legend(canvas, kHeight + 44.0,
-                    {{kRows[0], "canopy, row by row: " + share_of(r.canopy_points, r.points)},
-                     {kGroundPoints, "ground: " + share_of(r.ground_points, r.points)},
-                     {kLow, "low vegetation: " + share_of(r.low_points, r.points)},
-                     {kOther, "other: " + share_of(r.other_points, r.points)}});
+                    {{kRows[0], "canopy, rows in turn: " + share_text(r.canopy_points, r.points)},
+                     {kGroundPoints, "ground: " + share_text(r.ground_points, r.points)},
+                     {kLow, "low vegetation: " + share_text(r.low_points, r.points)},
+                     {kOther, "other: " + share_text(r.other_points, r.points)}});
   const std::string size =
       fmt::format("{} points, {:.0f} per m²", millions(r.points), r.density_per_m2);
   canvas.text(size, 16,

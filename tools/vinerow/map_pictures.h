@@ -13,8 +13,8 @@
 
 namespace vinerow::tools {
 
-/// Oblique view of the cloud: ground brown, low vegetation yellow-green, rows in greens that
-/// alternate, all else grey. @pre cloud.classes has an entry per point
+/// Oblique view of the cloud: ground brown, low vegetation yellow-green, rows in two greens in
+/// turn, all else grey. @pre cloud.classes has an entry per point
 render::Image draw_classes(const worlds::CloudMap& map, const worlds::ParcelCloud& cloud,
                            const std::string& title);
 

@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "engine/render/caption.h"
+#include "engine/render/scale_bar.h"
 #include "tools/vinerow/colour_scale.h"
 #include "tools/vinerow/map_pictures.h"
 #include "tools/vinerow/picture_style.h"
 #include "tools/vinerow/plan_view.h"
-#include "tools/vinerow/scale_bar.h"
 #include "worlds/parts/row_curve.h"
 
 namespace vinerow::tools {
@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using worlds::PointClass;
 
 constexpr Rgb kRowLine = {255, 255, 255}, kRowEnd = {196, 40, 40}, kNoCanopy = {236, 112, 20};
-constexpr Rgb kMapContour = {170, 150, 116};
+constexpr Rgb kMapContour = {170, 150, 116}, kUnseenGround = {240, 236, 226};
 constexpr int kTallestTop = 1300, kTopLegend = 110;
 constexpr std::size_t kMostPoints = 12'000'000;
 
@@ -194,7 +194,7 @@ void draw_top_legend(Canvas& canvas, double y, double low_m, double high_m, bool
   if (contour_m > 0.0) {
     canvas.line({x, y}, {x + 30, y}, 1.6, kMapContour);
     x += 38.0;
-    words(fmt::format("each {:g} m of height", contour_m));
+    words(fmt::format("contour interval {:g} m", contour_m));
   }
 }
 
@@ -204,6 +204,8 @@ render::Image draw_top(const worlds::CloudMap& map, const worlds::ParcelCloud& c
                        const std::string& title) {
   const PlanView view = plan_of(map.map);
   Canvas canvas(kPictureWidth, view.height, kPaper);
+  // The parcel may be larger than the ground that the cloud shows.
+  canvas.fill(view(map.map.boundary_W), kUnseenGround);
   const double contour_m =
       map.map.terrain ? draw_shaded_ground(canvas, view, *map.map.terrain) : 0.0;
   double low_m = 1e300;

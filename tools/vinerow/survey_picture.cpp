@@ -8,11 +8,11 @@
 
 #include "controllers/parts/pose2.h"
 #include "engine/math/angles.h"
+#include "engine/render/scale_bar.h"
 #include "tools/vinerow/canvas.h"
 #include "tools/vinerow/colour_scale.h"
 #include "tools/vinerow/picture_style.h"
 #include "tools/vinerow/plan_view.h"
-#include "tools/vinerow/scale_bar.h"
 
 namespace vinerow::tools {
 namespace {

@@ -71,6 +71,52 @@ TEST(Caption, ALegendTakesAsManyRowsAsThePictureIsNarrow) {
   EXPECT_LT(test::box_of(image, changed).max().x(), 639);
 }
 
+bool is_changed(const Eigen::Vector3i& p) {
+  return p != Eigen::Vector3i(120, 120, 120);
+}
+
+TEST(Caption, GoesToACornerWhereItHidesNothing) {
+  const Eigen::AlignedBox2d lower_left(Eigen::Vector2d(10, 330), Eigen::Vector2d(40, 340));
+  const Eigen::AlignedBox2d lower_right(Eigen::Vector2d(600, 330), Eigen::Vector2d(639, 359));
+  const auto panel = [](const std::vector<Eigen::AlignedBox2d>& keep_clear) {
+    Image image = grey_image();
+    draw_caption({"riseholme", "t = 12.4 s"}, image, {}, keep_clear);
+    return Eigen::AlignedBox2i(test::box_of(image, is_changed));
+  };
+  if (panel({}).isEmpty()) GTEST_SKIP() << "no DejaVu fonts";
+  EXPECT_LT(panel({}).max().x(), 320);
+  EXPECT_GT(panel({lower_left}).min().x(), 320);
+  EXPECT_GT(panel({lower_left}).min().y(), 180);
+  const Eigen::AlignedBox2i upper = panel({lower_left, lower_right});
+  EXPECT_LT(upper.max().x(), 320);
+  EXPECT_LT(upper.max().y(), 180);
+  const Eigen::AlignedBox2d all(Eigen::Vector2d(0, 0), Eigen::Vector2d(640, 360));
+  EXPECT_EQ(panel({all}).min(), panel({}).min()) << "no corner is free";
+}
+
+// Capital letters of DejaVu Sans are 0.73 em high; pages show pictures at half their size, where 5
+// pixels are the least that can be read.
+TEST(Caption, CanBeReadInSmallPicturesAndWhereLargeOnesAreShownSmall) {
+  EXPECT_GE(0.73 * caption_text_px(270), 8.0);
+  EXPECT_GE(0.73 * caption_text_px(720) * 480 / 1280, 5.0);
+  EXPECT_GE(0.73 * caption_text_px(720) * 608 / 1280, 7.0);
+}
+
+TEST(Caption, ALineWiderThanThePictureEndsWithAnEllipsisInsideIt) {
+  Image image = grey_image();
+  if (!draw_caption({std::string(200, 'W')}, image)) GTEST_SKIP() << "no DejaVu fonts";
+  const auto ink = [](const Eigen::Vector3i& p) { return p.minCoeff() > 200; };
+  const Eigen::AlignedBox2i panel = test::box_of(image, is_changed);
+  const Eigen::AlignedBox2i text = test::box_of(image, ink);
+  EXPECT_LT(panel.max().x(), 639);
+  EXPECT_LT(text.max().x(), panel.max().x());
+  // The last letters are dots: nothing of them is above the line's lower third.
+  const int third = text.max().y() - text.sizes().y() / 3;
+  for (int x = text.max().x() - 6; x <= text.max().x(); ++x) {
+    for (int y = text.min().y(); y < third; ++y) EXPECT_FALSE(ink(test::pixel(image, x, y)));
+  }
+}
+
 TEST(Caption, NothingToSayDrawsNothing) {
   Image image = grey_image();
   EXPECT_FALSE(draw_caption({}, image));

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "engine/core/random.h"
 #include "engine/render/scene.h"
@@ -51,6 +52,31 @@ TEST(Png, LibpngReadsBackEveryPixel) {
   EXPECT_EQ(read, image.rgb);
 }
 
+TEST(Png, WordsStandInTheFileAndAreReadBack) {
+  const Image image = random_image(9, 5);
+  const std::string file = temporary_file("words.png");
+  const std::map<std::string, std::string> words = {{"vinerow:seen", "rover 0.25\ndrone 0\n"},
+                                                    {"Comment", "two"}};
+  write_png(file, image, words);
+  EXPECT_EQ(read_png_words(file), words);
+  // As the format has it: keyword, a zero byte, the text (PNG specification 11.3.4.3).
+  EXPECT_NE(bytes_of(file).find(std::string("tEXtComment\0two", 15)), std::string::npos);
+  const auto pixels = read_png(file);
+  ASSERT_TRUE(pixels.ok());
+  EXPECT_EQ(pixels->at(3, 2)[0], image.rgb[(2 * 9 + 3) * 3]);
+  write_png(file, image);
+  EXPECT_TRUE(read_png_words(file).empty());
+}
+
+TEST(Png, AFileThatIsNoPngHasNoWords) {
+  const std::string file = temporary_file("no.png");
+  EXPECT_TRUE(read_png_words(temporary_file("absent.png")).empty());
+  for (const char* bytes : {"", "no picture", "\x89PNG\r\n\x1a\n and then nothing"}) {
+    std::ofstream(file, std::ios::binary) << bytes;
+    EXPECT_TRUE(read_png_words(file).empty());
+  }
+}
+
 TEST(Png, SameImageGivesTheSameFileWithoutTimeStamp) {
   const Image image = random_image(16, 16);
   write_png(temporary_file("a.png"), image);
@@ -82,7 +108,8 @@ TEST(Png, FailuresNameTheFile) {
     write_png("/nonexistent_folder/x.png", image);
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "'/nonexistent_folder/x.png' cannot be written: No such file or directory");
+    EXPECT_STREQ(error.what(),
+                 "'/nonexistent_folder/x.png' cannot be written: No such file or directory");
   }
   try {
     write_png(temporary_file("x.png"), Image{3, 3, {1, 2, 3}});

@@ -356,6 +356,123 @@ TEST(Renderer, CaptionIsPartOfThePicture) {
   EXPECT_NE(image_digest(renderer->draw(frame)), without);
 }
 
+// From above, 40 m in 240 pixels: a hull of 10 m x 4 m is 60 x 24 of 320 x 240 pixels.
+TEST(Renderer, MeasuresHowMuchOfAVehicleIsSeen) {
+  WorldModel world = western_light();
+  world.terrain = test::make_level_ground(60.0);
+  // A roof over its western half.
+  world.meshes.push_back(make_instance("roof", make_box({2.5f, 4.0f, 0.1f}), {-2.5, 0, 5}, kRed));
+  std::vector<VehicleLink> links(1), others(1);
+  links[0].mesh = make_box({5.0f, 2.0f, 0.5f});
+  others[0].mesh = make_box({1.0f, 1.0f, 0.5f});
+  Frame frame = small_frame(
+      top_camera({Eigen::Vector3d(-20, -20, 0), Eigen::Vector3d(20, 20, 2)}, 4.0 / 3, 0.0));
+  frame.vehicles = {{&links, {Pose{}}, "hull"}, {&others, {Pose{}}, "far"}};
+  frame.vehicles[0].X_WL[0].p = {0, 0, 1};
+  frame.vehicles[1].X_WL[0].p = {100, 0, 1};
+  const auto renderer = renderer_of(world);
+  ASSERT_TRUE(renderer);
+  for (const int samples : {1, 4}) {
+    frame.samples = samples;
+    const Image plain = renderer->draw(frame);
+    ASSERT_EQ(renderer->statistics().vehicle_shares.size(), 2u);
+    const double whole = 60.0 * 24.0 / (320.0 * 240.0);
+    EXPECT_NEAR(renderer->statistics().vehicle_shares[0], 0.5 * whole, 0.03 * whole);
+    EXPECT_EQ(renderer->statistics().vehicle_shares[1], 0.0);
+    // Lines are not part of what is seen, and are drawn over it as before.
+    frame.lines.resize(1);
+    frame.lines[0].points_W = {{-15, 0, 9}, {15, 0, 9}};
+    frame.lines[0].width_px = 30.0f;
+    EXPECT_NE(renderer->draw(frame).rgb, plain.rgb);
+    EXPECT_NEAR(renderer->statistics().vehicle_shares[0], 0.5 * whole, 0.03 * whole);
+    frame.lines.clear();
+  }
+}
+
+TEST(Renderer, TheCaptionMakesRoomForAVehicle) {
+  std::vector<VehicleLink> links(1);
+  links[0].mesh = make_box({2.0f, 2.0f, 0.5f});
+  WorldModel world = western_light();
+  const auto renderer = renderer_of(world);
+  ASSERT_TRUE(renderer);
+  Frame frame = small_frame(
+      top_camera({Eigen::Vector3d(-20, -20, 0), Eigen::Vector3d(20, 20, 2)}, 4.0 / 3, 0.0));
+  frame.vehicles = {{&links, {Pose{}}, "hull"}};
+  const auto panel_with_hull_at = [&](const Eigen::Vector3d& p_W) {
+    frame.vehicles[0].X_WL[0].p = p_W;
+    frame.caption.clear();
+    const Image plain = renderer->draw(frame);
+    frame.caption = {"x"};
+    const Image captioned = renderer->draw(frame);
+    Eigen::AlignedBox2i box;
+    for (int y = 0; y < plain.height; ++y) {
+      for (int x = 0; x < plain.width; ++x) {
+        if (test::pixel(plain, x, y) != test::pixel(captioned, x, y))
+          box.extend(Eigen::Vector2i(x, y));
+      }
+    }
+    return box;
+  };
+  const Eigen::AlignedBox2i usual = panel_with_hull_at({0, 0, 1});
+  if (usual.isEmpty()) GTEST_SKIP() << "no DejaVu fonts";
+  EXPECT_LT(usual.max().x(), 160);
+  // In the lower left corner of a picture of 53 m x 40 m.
+  const Eigen::AlignedBox2i other = panel_with_hull_at({-24, -17, 1});
+  EXPECT_GT(other.min().x(), 160);
+  EXPECT_GT(other.min().y(), 120);
+}
+
+TEST(Renderer, MarkersAreRingsAndOutsideThePictureArrowsWithTheWay) {
+  WorldModel world = western_light();
+  const auto renderer = renderer_of(world);
+  ASSERT_TRUE(renderer);
+  Frame frame = small_frame(
+      top_camera({Eigen::Vector3d(-20, -20, 0), Eigen::Vector3d(20, 20, 2)}, 4.0 / 3, 0.0));
+  const auto is_magenta = [](const Eigen::Vector3i& p) {
+    return p[0] > 180 && p[2] > 180 && p[1] < 110;
+  };
+  EXPECT_TRUE(test::box_of(renderer->draw(frame), is_magenta).isEmpty());
+  // 6 pixels are a metre: (10, 5) is 60 right of the middle and 30 above it.
+  frame.markers = {{{10, 5, 1}, 0.5, "rover", {1, 0, 1}}};
+  const Eigen::AlignedBox2i ring = test::box_of(renderer->draw(frame), is_magenta);
+  ASSERT_FALSE(ring.isEmpty());
+  EXPECT_NEAR(0.5 * (ring.min() + ring.max() + Eigen::Vector2i(1, 1)).x(), 220.0, 1.0);
+  EXPECT_NEAR(0.5 * (ring.min() + ring.max() + Eigen::Vector2i(1, 1)).y(), 90.0, 1.0);
+  // What is as large as a quarter of the picture needs no ring, its name stands beside it.
+  frame.markers[0].radius_m = 10.0;
+  const Image named = renderer->draw(frame);
+  EXPECT_TRUE(test::box_of(named, is_magenta).isEmpty());
+  frame.markers[0].text.clear();
+  EXPECT_NE(named.rgb, renderer->draw(frame).rgb);
+  frame.markers[0].radius_m = 0.5;
+  // Due west, far outside: at the left edge, half way up.
+  frame.markers[0].p_W = {-500, 0, 1};
+  const Eigen::AlignedBox2i arrow = test::box_of(renderer->draw(frame), is_magenta);
+  ASSERT_FALSE(arrow.isEmpty());
+  EXPECT_LT(arrow.max().x(), 40);
+  EXPECT_NEAR(arrow.center().y(), 120, 2);
+}
+
+// A bar is the longest of 1, 2, 5 times a power of ten that takes no more than 0.16 of the width:
+// 53.3 m wide, 8.5 m, so 5 m, which are 30 pixels.
+TEST(Renderer, TheScaleBarIsAsLongAsItSays) {
+  const auto renderer = renderer_of(western_light());
+  ASSERT_TRUE(renderer);
+  Frame frame = small_frame(
+      top_camera({Eigen::Vector3d(-20, -20, 0), Eigen::Vector3d(20, 20, 2)}, 4.0 / 3, 0.0));
+  frame.show_scale = true;
+  const Image image = renderer->draw(frame);
+  int longest = 0;
+  for (int y = 120; y < 240; ++y) {
+    int run = 0;
+    for (int x = 160; x < 320; ++x) {
+      run = test::pixel(image, x, y).minCoeff() > 200 ? run + 1 : 0;
+      longest = std::max(longest, run);
+    }
+  }
+  EXPECT_NEAR(longest, 30, 2);
+}
+
 TEST(Renderer, ImageTexturesStandUpright) {
   // Upper half of the file red, lower half blue.
   Image picture{4, 4, {}};

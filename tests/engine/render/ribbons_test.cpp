@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/render/culling.h"
 #include "tests/engine/render/test_scenes.h"
 
@@ -34,6 +36,41 @@ TEST(Ribbon, IsCutBehindTheEye) {
     EXPECT_GT(v.clip[3], 0.0f);
   line.points_W = {{-10, 0, 0}, {-5, 0, 0}};
   EXPECT_TRUE(make_ribbon(line, nullptr, clip_from_world, camera, 400, 200).empty());
+}
+
+// 255 alpha steps; along a straight line seen from its side the fade is a straight line too.
+TEST(Ribbon, FadesEvenlyBetweenItsPoints) {
+  const HeightField field = test::make_level_ground(16.0);
+  const Camera camera = look_at({0, -9, 3}, {0, 0, 0}, 0.9);
+  const Eigen::Matrix4d clip_from_world = calc_clip_from_world(camera, 2.0, 0.1, 500.0);
+  Polyline line;
+  line.points_W = {{-2, 0, 1}, {2, 0, 1}};
+  line.fade = {0.0f, 1.0f};
+  line.alpha = 0.5f;
+  int least = 255, most = 0;
+  for (const RibbonVertex& v : make_ribbon(line, &field, clip_from_world, camera, 400, 200)) {
+    const Eigen::Vector4d p_W =
+        clip_from_world.inverse() * Eigen::Vector4d(v.clip[0], v.clip[1], v.clip[2], v.clip[3]);
+    EXPECT_NEAR(v.colour[3], 127.5 * (p_W.x() / p_W.w() + 2.0) / 4.0, 4.0);
+    least = std::min<int>(least, v.colour[3]);
+    most = std::max<int>(most, v.colour[3]);
+  }
+  EXPECT_EQ(least, 0);
+  EXPECT_EQ(most, 128);
+}
+
+// From 1 m behind the eye, where nothing is drawn, to 1 m before it: half faded at the eye.
+TEST(Ribbon, FadesWhereItIsCut) {
+  const Camera camera = look_at({0, 0, 1}, {1, 0, 1}, 0.9);
+  const Eigen::Matrix4d clip_from_world = calc_clip_from_world(camera, 2.0, 0.01, 500.0);
+  Polyline line;
+  line.points_W = {{-1, 0.1, 1}, {1, 0.1, 1}};
+  line.fade = {0.0f, 1.0f};
+  int least = 255;
+  for (const RibbonVertex& v : make_ribbon(line, nullptr, clip_from_world, camera, 400, 200)) {
+    least = std::min<int>(least, v.colour[3]);
+  }
+  EXPECT_NEAR(least, 128, 10);
 }
 
 TEST(Ribbon, OddInputMakesNoOddTriangles) {

@@ -224,7 +224,8 @@ TEST_F(EstimatePicture, TheLegendTellsWhoseColourItIsAndHowFarItIsOff) {
   std::swap(trace_.vehicles["rover"].estimates["estimate"],
             trace_.vehicles["rover"].estimates["no_map"]);
   camera_.show_estimate = false;
-  EXPECT_TRUE(compose().legend.empty());
+  ASSERT_EQ(compose().legend.size(), 1u);
+  EXPECT_EQ(compose().legend[0].text, "rover 0.0 m/s") << "the vehicle's marker";
 }
 
 TEST_F(EstimatePicture, WithoutAnEstimatorOnlyObserversAreDrawn) {
@@ -250,8 +251,9 @@ TEST_F(EstimatePicture, TheMapIsSeenThroughWhatHidesIt) {
   const render::Frame frame = compose();
   ASSERT_EQ(frame.lines.size(), 1u);
   EXPECT_TRUE(frame.lines[0].pairs);
-  ASSERT_EQ(frame.legend.size(), 1u);
+  ASSERT_EQ(frame.legend.size(), 2u);
   EXPECT_EQ(frame.legend[0].text, "map");
+  EXPECT_EQ(frame.legend[1].text, "rover 0.0 m/s");
   const render::Image image = draw();
   const auto is_cyan = [](const Eigen::Vector3i& p) {
     return p[0] < 160 && p[1] > 170 && p[2] > 170;

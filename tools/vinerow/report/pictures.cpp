@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/deviation.h"
 #include "engine/render/png.h"
+#include "engine/sim/frame_words.h"
 #include "tools/vinerow/report/base64.h"
 #include "tools/vinerow/report/html.h"
 #include "tools/vinerow/report/jpeg.h"
@@ -78,6 +80,13 @@ std::string frame_caption(const RunFolder& run, const fs::path& file) {
   return fmt::format("{}, after {}", what, duration_text(name.time_s));
 }
 
+/// Share of a frame that shows each vehicle, as its file says; empty where it does not say.
+std::map<std::string, double> seen_in(const fs::path& file) {
+  const std::map<std::string, std::string> words = render::read_png_words(file.string());
+  const auto text = words.find(kSeenKey);
+  return text == words.end() ? std::map<std::string, double>() : parse_seen(text->second);
+}
+
 /// Between rows or beside one: where the work is.
 bool is_at_a_row(const RunFolder& run, const Eigen::Vector3d& p_W) {
   constexpr double kBeside_m = 2.0;
@@ -92,26 +101,37 @@ bool is_at_a_row(const RunFolder& run, const Eigen::Vector3d& p_W) {
   return false;
 }
 
+/// Share of a picture from which on it shows no more of a vehicle.
+constexpr double kFillsPicture = 0.2;
+
 /// How much of the run a frame shows; more is better, any of one line more than all below it.
-int score_of(const RunFolder& run, const io::CameraConfig* camera, double time_s,
-             const std::vector<VehicleLog>& vehicles) {
-  if (camera == nullptr) return 0;
-  int score = 0;
+double score_of(const RunFolder& run, const fs::path& file,
+                const std::vector<VehicleLog>& vehicles) {
+  const FrameName name = frame_name(file);
+  const io::CameraConfig* camera = camera_of(run, name.camera);
+  if (camera == nullptr) return 0.0;
+  double score = 0.0;
   const bool aslant =
       camera->kind != io::CameraKind::kTop && camera->kind != io::CameraKind::kShots;
   const bool plain = !camera->show_map && !camera->show_estimate && !camera->show_grid;
   score += aslant ? 10'000 : 0;
   score += plain ? 5'000 : 0;
+  const std::map<std::string, double> seen = seen_in(file);
+  double moving_share = 0.0;
   for (const VehicleLog& vehicle : vehicles) {
     if (vehicle.truth.empty()) continue;
-    const Odometry truth = odometry_at(vehicle.truth, Time{} + duration_from_s(time_s));
+    const Odometry truth = odometry_at(vehicle.truth, Time{} + duration_from_s(name.time_s));
     const bool moves = truth.v_WB_B.norm() > kMoves_mps;
-    score += moves ? 1 : 0;
+    const auto share = seen.find(vehicle.name);
+    if (moves && share != seen.end()) moving_share += share->second;
+    // Of pictures that do not tell what they show.
+    score += moves && seen.empty() ? 1e-3 : 0.0;
     if (vehicle.name != camera->vehicle) continue;
     score += moves ? 1'000 : 0;
     score += is_at_a_row(run, truth.X_WB.p) ? 500 : 0;
   }
-  return score;
+  // Of two pictures of work in the rows that which shows more of those at work.
+  return score + 400.0 * std::min(1.0, moving_share / kFillsPicture);
 }
 
 std::string bytes_of(const fs::path& file) {
@@ -169,10 +189,9 @@ std::vector<Picture> product_pictures(const RunFolder& run) {
 const Picture* hero_picture(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
                             const std::vector<Picture>& frames) {
   std::vector<const Picture*> best;
-  int best_score = -1;
+  double best_score = -1.0;
   for (const Picture& picture : frames) {
-    const FrameName name = frame_name(picture.file);
-    const int score = score_of(run, camera_of(run, name.camera), name.time_s, vehicles);
+    const double score = score_of(run, picture.file, vehicles);
     if (score > best_score) best.clear();
     best_score = std::max(best_score, score);
     if (score == best_score) best.push_back(&picture);

@@ -28,8 +28,9 @@ std::vector<Picture> coverage_pictures(const RunFolder& run);
 std::vector<Picture> product_pictures(const RunFolder& run);
 
 /// The picture that shows a stranger what the run is about: of a camera that does not look from
-/// straight above, nothing drawn over it if there is such a one, its vehicle at work in the parcel
-/// and as many as can be moving; the middle one of equals. Null where there is none.
+/// straight above, nothing drawn over it if there is such a one, its vehicle at work in the parcel,
+/// and as much of it as can be showing vehicles that move, which the frames' files tell; where they
+/// do not, as many as can be moving. The middle one of equals. Null where there is none.
 const Picture* hero_picture(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
                             const std::vector<Picture>& frames);
 

@@ -1,11 +1,11 @@
-#include "tools/vinerow/canvas.h"
+#include "engine/render/canvas.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/render/caption.h"
 
-namespace vinerow::tools {
+namespace vinerow::render {
 
 using Eigen::Vector2d;
 
@@ -79,7 +79,7 @@ void Canvas::outline(const std::vector<Vector2d>& polygon, double width_px, cons
   }
 }
 
-void Canvas::paste(const render::Image& picture, int left, int top) {
+void Canvas::paste(const Image& picture, int left, int top) {
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       const std::uint8_t* p = &picture.rgb[(static_cast<std::size_t>(y) * picture.width + x) * 3];
@@ -90,8 +90,8 @@ void Canvas::paste(const render::Image& picture, int left, int top) {
 
 void Canvas::text(const std::string& text, int size_px, const Vector2d& at, const Rgb& colour,
                   double anchor) {
-  const double left = anchor > 0.0 ? anchor * render::text_width(text, size_px) : 0.0;
-  render::draw_text(text, size_px, at.x() - left, at.y(), colour, image_);
+  const double left = anchor > 0.0 ? anchor * text_width(text, size_px) : 0.0;
+  draw_text(text, size_px, at.x() - left, at.y(), colour, image_);
 }
 
-}  // namespace vinerow::tools
+}  // namespace vinerow::render

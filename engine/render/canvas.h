@@ -1,0 +1,44 @@
+#pragma once
+/// Plane drawing with smooth edges on an 8-bit picture: areas, lines, text.
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/render/scene.h"
+
+namespace vinerow::render {
+
+using Rgb = std::array<int, 3>;  ///< 0 to 255, as seen on the screen
+
+/// Points are in pixels, x to the right, y down, (0, 0) the upper left corner of the picture.
+class Canvas {
+ public:
+  Canvas(int width, int height, const Rgb& background);
+  /// Draws over a picture.
+  explicit Canvas(Image image) : image_(std::move(image)) {}
+
+  void blend(int x, int y, const Rgb& colour, double alpha);
+  /// Even-odd rule, edges smoothed by 4 x 4 samples.
+  void fill(const std::vector<Eigen::Vector2d>& polygon, const Rgb& colour, double alpha = 1.0);
+  void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double width_px, const Rgb& colour,
+            double alpha = 1.0);
+  void outline(const std::vector<Eigen::Vector2d>& polygon, double width_px, const Rgb& colour,
+               double alpha = 1.0);
+  /// @param anchor  share of the text's width that lies left of x: 0 begins, 0.5 centred there
+  void text(const std::string& text, int size_px, const Eigen::Vector2d& at, const Rgb& colour,
+            double anchor = 0.0);
+
+  /// Replaces what is there. What reaches beyond the canvas is left out.
+  void paste(const Image& picture, int left, int top);
+
+  const Image& image() const { return image_; }
+  Image take() && { return std::move(image_); }
+
+ private:
+  Image image_;
+};
+
+}  // namespace vinerow::render

@@ -1,0 +1,16 @@
+#pragma once
+/// The scale and the north arrow of a map picture.
+
+#include "engine/render/canvas.h"
+
+namespace vinerow::render {
+
+/// A bar of 1, 2 or 5 times a power of ten metres that ends at `right_end`, its length above it and
+/// an arrow to the north (up) left of it.
+/// @param wanted_m  the bar is the longest that is no longer
+/// @param size  of text, lines and arrow; 1: text of 17 px
+/// @returns the left end of the arrow, px
+double draw_scale_bar(Canvas& canvas, const Eigen::Vector2d& right_end, double wanted_m,
+                      double px_per_m, const Rgb& ink, double size = 1.0);
+
+}  // namespace vinerow::render

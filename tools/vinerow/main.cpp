@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   vinerow::tools::add_schema_command(app, exit_status);
   vinerow::tools::add_render_command(app, exit_status);
   vinerow::tools::add_info_command(app, exit_status);
+  vinerow::tools::add_export_command(app, exit_status);
   vinerow::tools::add_grid_command(app, exit_status);
   vinerow::tools::add_trim_command(app, exit_status);
   vinerow::tools::add_coverage_command(app, exit_status);

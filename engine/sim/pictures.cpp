@@ -58,6 +58,22 @@ TraceWishes wishes_of(const std::vector<io::CameraConfig>& cameras) {
   return wishes;
 }
 
+/// Whether an instant lies in the span that is asked for.
+bool is_wanted(Time t, const PictureOptions& options) {
+  return t >= Time{duration_from_s(options.from_s.value_or(0.0)).ns} &&
+         (!options.to_s || t <= Time{duration_from_s(*options.to_s).ns});
+}
+
+/// @throws ConfigError where the span that is asked for holds nothing of the log
+void check_span(const PictureOptions& options, const LogTrace& trace) {
+  const double from_s = options.from_s.value_or(trace.first.s());
+  const double to_s = options.to_s.value_or(trace.last.s());
+  if (from_s > to_s || from_s > trace.last.s() || to_s < trace.first.s()) {
+    throw ConfigError(fmt::format("there is no frame from {} s to {} s: the log holds {} s to {} s",
+                                  from_s, to_s, trace.first.s(), trace.last.s()));
+  }
+}
+
 /// Instants of the frames of all cameras, in order, each once. Instants after the log's end are
 /// left out.
 std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOptions& options,
@@ -65,7 +81,7 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
   std::set<Time> times;
   const auto add = [&](double t_s) {
     const Time t{duration_from_s(t_s).ns};
-    if (t >= trace.first && t <= trace.last) times.insert(t);
+    if (t >= trace.first && t <= trace.last && is_wanted(t, options)) times.insert(t);
   };
   const bool own_schedule = options.times_s || options.every_s;
   for (const double t_s : options.times_s.value_or(std::vector<double>{})) {
@@ -78,18 +94,22 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
     add(t_s);
   const double every_s = own_schedule ? options.every_s.value_or(0.0) : pictures.every_s;
   if (every_s > 0.0) {
-    if (trace.last.s() / every_s > io::kMostPictureInstants) {
-      throw ConfigError(fmt::format(
-          "a frame every {} s is {:.0f} instants of {} s, must be at most {:.0f}", every_s,
-          trace.last.s() / every_s, trace.last.s(), io::kMostPictureInstants));
+    const double first_s = options.from_s.value_or(0.0);
+    const double span_s = std::min(trace.last.s(), options.to_s.value_or(trace.last.s())) - first_s;
+    if (span_s / every_s > io::kMostPictureInstants) {
+      throw ConfigError(
+          fmt::format("a frame every {} s is {:.0f} instants of {} s, must be at most {:.0f}",
+                      every_s, span_s / every_s, span_s, io::kMostPictureInstants));
     }
-    const auto count = static_cast<std::int64_t>(trace.last.s() / every_s + 1e-9);
-    for (std::int64_t k = 0; k <= count; ++k) add(static_cast<double>(k) * every_s);
+    const auto count = static_cast<std::int64_t>(std::floor(span_s / every_s + 1e-9));
+    for (std::int64_t k = 0; k <= count; ++k) add(first_s + static_cast<double>(k) * every_s);
   }
   if (!own_schedule) {
     for (const double share : pictures.shares) {
-      times.insert(trace.first + Duration{std::llround(
-                                     share * static_cast<double>((trace.last - trace.first).ns))});
+      const Time t =
+          trace.first +
+          Duration{std::llround(share * static_cast<double>((trace.last - trace.first).ns))};
+      if (is_wanted(t, options)) times.insert(t);
     }
   }
   return times;
@@ -149,7 +169,7 @@ std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& s
 PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
                          const Registry& registry, const PictureOptions& options) {
   const record::LogReader reader(log);
-  io::Scenario scenario = scenario_in(reader, log, registry);
+  io::Scenario scenario = scenario_in(reader, log, registry, options.overrides);
   scenario.pictures.width = options.width.value_or(scenario.pictures.width);
   scenario.pictures.height = options.height.value_or(scenario.pictures.height);
   const std::vector<io::CameraConfig> cameras = chosen_cameras(scenario, options.cameras);
@@ -165,6 +185,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   std::vector<std::string> names;
   for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   const LogTrace trace = read_trace(reader, names, wishes_of(cameras));
+  check_span(options, trace);
   const FrameComposer composer(scenario, *world, vehicles, trace);
   const bool own_schedule = options.times_s || options.every_s;
   const std::set<Time> schedule = frame_times(scenario.pictures, options, trace);
@@ -180,14 +201,21 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
         if (t <= trace.last) own.insert(t);
       }
     }
+    std::erase_if(own, [&](Time t) { return !is_wanted(t, options); });
     times.insert(own.begin(), own.end());
     total += static_cast<int>(own.size());
   }
 
   const auto start = std::chrono::steady_clock::now();
   if (options.progress) options.progress(0, total);
+  int taken = 0;
   const auto draw = [&](const io::CameraConfig& camera, Time t) {
     const render::Image image = (*renderer)->draw(composer.compose(camera, t));
+    if (options.take_frame) {
+      options.take_frame(image);
+      if (options.progress) options.progress(++taken, total);
+      return;
+    }
     const auto file = out / fmt::format("{}_{:09d}.png", camera.name, t.ns / 1'000'000);
     render::write_png(file.string(), image);
     report.files.push_back(file);
@@ -196,7 +224,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   };
   try {
     std::error_code failed;
-    std::filesystem::create_directories(out, failed);
+    if (!options.take_frame) std::filesystem::create_directories(out, failed);
     if (failed) throw_cannot_write(fmt::format("folder '{}'", out.string()), failed.value());
     for (const Time t : times) {
       for (std::size_t c = 0; c < cameras.size() && report.note.empty(); ++c) {

@@ -21,6 +21,8 @@ void add_schema_command(CLI::App& app, int& exit_status);
 void add_render_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
 void add_export_command(CLI::App& app, int& exit_status);
+void add_compare_command(CLI::App& app, int& exit_status);
+void add_video_command(CLI::App& app, int& exit_status);
 void add_grid_command(CLI::App& app, int& exit_status);
 void add_trim_command(CLI::App& app, int& exit_status);
 void add_coverage_command(CLI::App& app, int& exit_status);

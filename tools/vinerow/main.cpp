@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   vinerow::tools::add_list_command(app, exit_status);
   vinerow::tools::add_schema_command(app, exit_status);
   vinerow::tools::add_render_command(app, exit_status);
+  vinerow::tools::add_video_command(app, exit_status);
   vinerow::tools::add_info_command(app, exit_status);
   vinerow::tools::add_export_command(app, exit_status);
   vinerow::tools::add_grid_command(app, exit_status);
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
   vinerow::tools::add_map_command(app, exit_status);
   vinerow::tools::add_replay_command(app, exit_status);
   vinerow::tools::add_report_command(app, exit_status);
+  vinerow::tools::add_compare_command(app, exit_status);
   try {
     if (argc > 1) check_command(app, argv[1]);
     app.parse(argc, argv);

@@ -8,6 +8,7 @@
 #include "engine/core/whole_file.h"
 #include "engine/sim/judge.h"
 #include "engine/sim/run.h"
+#include "tools/vinerow/colour.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/map_picture_files.h"
 #include "tools/vinerow/progress_line.h"
@@ -39,7 +40,11 @@ void show_simulation(ProgressLine& line, const Progress& progress) {
 
 /// "succeeded  survey        0.0 to 288.9 s", and why where it did not.
 void print_phase(const PhaseReport& phase) {
-  fmt::print("{:11}  {:16}", to_string(phase.state), phase.name);
+  const bool good = phase.state == PhaseState::kSucceeded;
+  fmt::print("{}  {:16}",
+             coloured(fmt::format("{:11}", to_string(phase.state)),
+                      good ? Colour::kGood : Colour::kBad),
+             phase.name);
   if (phase.begin && phase.end) {
     fmt::print(" {:8.1f} to {:8.1f} s", phase.begin->s(), phase.end->s());
   }
@@ -56,7 +61,9 @@ void print_phase(const PhaseReport& phase) {
 void print_verdict(const RunResult& result, const std::filesystem::path& out, bool with_log) {
   for (const PhaseReport& phase : result.phases) print_phase(phase);
   for (const CriterionResult& c : result.criteria) {
-    fmt::print("{}  {}\n", c.met ? "met   " : "FAILED", sentence_of(c));
+    fmt::print("{}  {}\n",
+               c.met ? coloured("met   ", Colour::kGood) : coloured("FAILED", Colour::kBad),
+               sentence_of(c));
   }
   fmt::print("simulated {:.3f} s in {:.2f} s ({:.0f} x real time), mission {}\n",
              result.simulated_s, result.wall_s, result.real_time_factor(),

@@ -28,7 +28,7 @@ void set_colour_mode(ColourMode mode) {
 }
 
 std::string coloured(std::string_view text, Colour colour) {
-  if (!in_colour()) return std::string(text);
+  if (!in_colour() || colour == Colour::kPlain) return std::string(text);
   const int code = colour == Colour::kGood ? 32 : colour == Colour::kBad ? 31 : 1;
   return fmt::format("\x1b[{}m{}\x1b[0m", code, text);
 }

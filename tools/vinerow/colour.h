@@ -6,7 +6,7 @@
 
 namespace vinerow::tools {
 
-enum class Colour { kGood, kBad, kHeading };
+enum class Colour { kPlain, kGood, kBad, kHeading };
 enum class ColourMode { kAuto, kAlways, kNever };
 
 /// Of everything that is printed from now on. Auto: where standard output is a terminal, unless the

@@ -40,10 +40,12 @@ void show_simulation(ProgressLine& line, const Progress& progress) {
 
 /// "succeeded  survey        0.0 to 288.9 s", and why where it did not.
 void print_phase(const PhaseReport& phase) {
-  const bool good = phase.state == PhaseState::kSucceeded;
+  const bool bad = phase.state == PhaseState::kFailed || phase.state == PhaseState::kBlocked;
   fmt::print("{}  {:16}",
              coloured(fmt::format("{:11}", to_string(phase.state)),
-                      good ? Colour::kGood : Colour::kBad),
+                      bad                                     ? Colour::kBad
+                      : phase.state == PhaseState::kSucceeded ? Colour::kGood
+                                                              : Colour::kPlain),
              phase.name);
   if (phase.begin && phase.end) {
     fmt::print(" {:8.1f} to {:8.1f} s", phase.begin->s(), phase.end->s());
@@ -130,7 +132,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("run", "run a scenario headless and write log, summary and pictures");
-  add_scenario_arguments(*command, arguments->scenario);
+  add_scenario_arguments(*command, arguments->scenario, "rover.controller.speed_mps=0.8");
   command->add_option("--out", arguments->out,
                       "folder for the results (default: runs/<scenario name>)");
   command->add_flag("--no-log", arguments->no_log, "write no log (and so no pictures)");

@@ -255,8 +255,13 @@ std::string comparison_geojson(const MapComparison& comparison) {
   const io::LocalFrame frame(*comparison.origin);
   const auto position = [&](const Eigen::Vector3d& p_W) {
     const io::Geodetic place = frame.to_geodetic(p_W);
-    return Json::array(
-        {deg_from_rad(place.longitude_rad), deg_from_rad(place.latitude_rad), place.altitude_m});
+    // 1e-9 deg is 0.1 mm. Divided by whole numbers: the double nearest to the decimal.
+    const auto rounded = [](double value, double parts) {
+      return std::round(value * parts) / parts;
+    };
+    return Json::array({rounded(deg_from_rad(place.longitude_rad), 1e9),
+                        rounded(deg_from_rad(place.latitude_rad), 1e9),
+                        rounded(place.altitude_m, 1e3)});
   };
   Json collection = {{"type", "FeatureCollection"}, {"features", Json::array()}};
   for (const ComparedMapRow& row : comparison.rows) {

@@ -69,8 +69,9 @@ void check_span(const PictureOptions& options, const LogTrace& trace) {
   const double from_s = options.from_s.value_or(trace.first.s());
   const double to_s = options.to_s.value_or(trace.last.s());
   if (from_s > to_s || from_s > trace.last.s() || to_s < trace.first.s()) {
-    throw ConfigError(fmt::format("there is no frame from {} s to {} s: the log holds {} s to {} s",
-                                  from_s, to_s, trace.first.s(), trace.last.s()));
+    throw ConfigError(fmt::format("there is no frame from {:g} s{}: the log holds {:g} s to {:g} s",
+                                  from_s, options.to_s ? fmt::format(" to {:g} s", to_s) : " on",
+                                  trace.first.s(), trace.last.s()));
   }
 }
 

@@ -235,7 +235,7 @@ TEST(StarterScenario, GivesAPictureAndCanBeDrawnAgain) {
   EXPECT_TRUE(std::filesystem::exists(out + "/frames/chase_000001000.png"));
   const CommandResult late = run_vinerow("render " + out + "/log.mcap --time 99999");
   EXPECT_EQ(late.status, 2);
-  EXPECT_THAT(late.output, HasSubstr("no frame: none of the times lies within"));
+  EXPECT_THAT(late.output, HasSubstr("there is no frame at 99999 s: the log holds 0 s to 2 s"));
 }
 
 }  // namespace

@@ -69,6 +69,11 @@ class Help(unittest.TestCase):
             self.assertIn("Examples:\n", text, command)
             self.assertIn("Exit status: 0 ", text, command)
 
+    def test_help_is_a_command_too(self):
+        self.assertEqual(vinerow("help"), vinerow("--help"))
+        self.assertEqual(vinerow("help", "run"), vinerow("run", "--help"))
+        self.assertIn("did you mean 'run'", vinerow("help", "runn", status=2))
+
     def test_examples_use_options_and_files_that_exist(self):
         for command in commands():
             examples = re.search(r"Examples:\n((?:  .*\n)+)", vinerow(command, "--help")).group(1)

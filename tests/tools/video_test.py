@@ -94,6 +94,7 @@ class Video(unittest.TestCase):
             run = self.vinerow("render", "run", "--camera", camera, "--time", "1")
             self.assertEqual(run.returncode, 2)
             self.assertIn(words, run.stderr)
+            self.assertTrue(run.stderr.startswith("vinerow: --camera"), run.stderr)
             self.assertEqual(run.stderr.count("\n"), 1)
 
     def test_from_and_to_bound_the_frames(self):

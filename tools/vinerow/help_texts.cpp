@@ -19,7 +19,7 @@ struct HelpText {
 
 constexpr const char* kSimulate = "Simulate";
 constexpr const char* kLook = "Look at a run";
-constexpr const char* kNumbers = "Numbers of runs and maps";
+constexpr const char* kTables = "Numbers of runs and maps";
 constexpr const char* kSurvey = "Surveys and maps";
 constexpr const char* kParts = "Parts and files";
 
@@ -45,12 +45,12 @@ constexpr std::array kHelpTexts = {
              "video runs/x -o fast.mp4 --camera kind=chase,vehicle=rover,distance_m=4 --speed 8",
              ""},
     HelpText{"coverage", kLook, "coverage runs/survey --out coverage.png", ""},
-    HelpText{"info", kNumbers, "info runs/x/log.mcap", ""},
-    HelpText{"export", kNumbers,
+    HelpText{"info", kTables, "info runs/x/log.mcap", ""},
+    HelpText{"export", kTables,
              "export runs/x --topic /rover/follower -o follower.csv\n"
              "export runs/x --topic '/rover/*' --npz -o arrays",
              ""},
-    HelpText{"compare", kNumbers,
+    HelpText{"compare", kTables,
              "compare runs/before runs/after --fail-on regression\n"
              "compare maps/may maps/august --geojson growth.geojson",
              "0 done, 1 what --fail-on asks for, 2 bad input"},

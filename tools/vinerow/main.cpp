@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/error.h"
@@ -77,8 +78,15 @@ int main(int argc, char** argv) {
   vinerow::tools::add_help_texts(app);
   add_colour_option(app);
   try {
-    if (argc > 1) check_command(app, argv[1]);
-    app.parse(argc, argv);
+    std::vector<char*> words(argv, argv + argc);
+    std::string help = "--help";
+    if (argc > 1 && std::string_view(argv[1]) == "help") {
+      // "help run" is "run --help".
+      words.erase(words.begin() + 1);
+      words.push_back(help.data());
+    }
+    if (words.size() > 1) check_command(app, words[1]);
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return status == 0 ? 0 : kBadInput;

@@ -84,4 +84,21 @@ PictureOptions picture_options(const PictureArguments& arguments) {
   return options;
 }
 
+PictureReport render_pictures(const std::filesystem::path& log, const std::filesystem::path& out,
+                              const Registry& registry, const PictureOptions& options) {
+  try {
+    return render_log(log, out, registry, options);
+  } catch (const ConfigError& error) {
+    // Nobody typed the override that stands for the camera.
+    const std::string words = error.what();
+    for (const std::string& set : options.overrides.sets) {
+      const std::string prefix = fmt::format("--set {}: pictures.cameras.", set);
+      if (words.starts_with(prefix)) {
+        throw ConfigError("--camera: " + words.substr(prefix.size()));
+      }
+    }
+    throw;
+  }
+}
+
 }  // namespace vinerow::tools

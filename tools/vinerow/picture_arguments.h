@@ -25,4 +25,8 @@ void add_picture_arguments(CLI::App& command, PictureArguments& arguments);
 /// @throws ConfigError "--camera kind: must be key=value, ..."
 PictureOptions picture_options(const PictureArguments& arguments);
 
+/// render_log(); where a camera of one's own is at fault, the sentence names --camera.
+PictureReport render_pictures(const std::filesystem::path& log, const std::filesystem::path& out,
+                              const Registry& registry, const PictureOptions& options);
+
 }  // namespace vinerow::tools

@@ -37,7 +37,7 @@ void add_render_command(CLI::App& app, int& exit_status) {
     const std::filesystem::path log = log_of(arguments->pictures.log);
     const std::filesystem::path out =
         arguments->out.empty() ? log.parent_path() / "frames" : arguments->out;
-    const PictureReport report = render_log(log, out, registry, options);
+    const PictureReport report = render_pictures(log, out, registry, options);
     if (!report.write_failure.empty()) throw WriteError(report.write_failure);
     if (!report.note.empty()) throw ConfigError("no pictures: " + report.note);
     if (report.files.empty()) {

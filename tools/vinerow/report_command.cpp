@@ -27,7 +27,7 @@ void add_report_command(CLI::App& app, int& exit_status) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "report", "write all that a run tells as one page: verdicts, map, plots, pictures");
+      "report", "build the one-page HTML report of a run: verdicts, map, plots, pictures");
   command->add_option("run", arguments->run, "folder of a run")->required();
   command->add_option("--out", arguments->out,
                       "page to write (default: report.html in the folder)");

@@ -54,7 +54,7 @@ int make_video(const VideoArguments& arguments) {
   options.progress = [&line](int done, int total) { line.count("drawing frames", done, total); };
   options.interrupted = [] { return video_interrupted != 0; };
   std::signal(SIGINT, note_video_interrupt);
-  const PictureReport report = render_log(log, {}, registry, options);
+  const PictureReport report = render_pictures(log, {}, registry, options);
   line.end();
   if (!report.write_failure.empty()) throw WriteError(report.write_failure);
   if (video_interrupted != 0) throw WriteError("interrupted: there is no video");

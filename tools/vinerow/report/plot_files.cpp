@@ -10,6 +10,7 @@
 
 #include "tools/vinerow/report/page_style.h"
 #include "tools/vinerow/report/svg.h"
+#include "tools/vinerow/report/units.h"
 
 namespace vinerow::tools {
 namespace {
@@ -130,7 +131,11 @@ double add_legend(std::string_view legend, double width, double y, std::string& 
       used += kLine_px;
     }
     const double middle = y + used - kLine_px + 9;
-    if (classes.starts_with("area ")) {
+    if (classes == "area row") {
+      out += fmt::format(
+          "<g class=\"row\" stroke-width=\"6\"><polyline points=\"{:g},{:g} {:g},{:g}\"/></g>\n",
+          x + 3, middle, x + kKey_px - 3, middle);
+    } else if (classes.starts_with("area ")) {
       out += fmt::format(
           "<rect x=\"{:g}\" y=\"{:g}\" width=\"24\" height=\"10\" class=\"{}\"/>\n", x, middle - 5,
           classes.starts_with("area s") && classes != "area span" ? "band " + classes.substr(5)
@@ -185,14 +190,14 @@ std::size_t end_of_svg(std::string_view page, std::size_t begin) {
   }
 }
 
+/// @param title  as the page writes it, escaped
 std::string complete_picture(std::string_view svg, std::string_view before,
-                             const std::string& style) {
+                             const std::string& title, const std::string& style) {
   const std::size_t head_end = svg.find('>');
   const std::string_view head = svg.substr(0, head_end);
   double width = 0, height = 0;
   const std::string box(between(head, "viewBox=\"", "\""));
   if (std::sscanf(box.c_str(), "0 0 %lf %lf", &width, &height) != 2) return "";
-  const std::string_view label = between(head, "aria-label=\"", "\"");
   std::string above;
   constexpr double kTitle_px = 26;
   const double legend_px =
@@ -206,7 +211,7 @@ std::string complete_picture(std::string_view svg, std::string_view before,
       "<rect x=\"0\" y=\"{2:g}\" width=\"{0:g}\" height=\"{1:g}\" fill=\"#ffffff\"/>\n"
       "<g transform=\"translate(0 {2:g})\">\n<text x=\"10\" y=\"18\" font-size=\"15\" "
       "font-weight=\"bold\">{4}</text>\n{6}</g>\n{7}\n",
-      width, height + top, -top, between(head, "class=\"", "\""), label, style, above,
+      width, height + top, -top, between(head, "class=\"", "\""), title, style, above,
       svg.substr(head_end + 1));
 }
 
@@ -224,14 +229,18 @@ std::vector<PlotFile> plot_files_of(const std::string& page) {
     if (end == kNowhere) break;
     const std::string_view svg = text.substr(at, end - at);
     const std::size_t figure = text.rfind("<figure", at);
+    // A figure that is closed by then is another picture's.
     const std::string_view before =
-        figure == kNowhere ? std::string_view() : text.substr(figure, at - figure);
+        figure == kNowhere || text.substr(figure, at - figure).find("</figure>") != kNowhere
+            ? std::string_view()
+            : text.substr(figure, at - figure);
     // The nearest heading says whose plot it is; a new section ends its reach.
     const std::size_t heading = text.rfind("<h3>", at), section = text.rfind("<section", at);
     const bool owned = heading != kNowhere && (section == kNowhere || heading > section);
     const std::string owner(owned ? between(text.substr(heading), "<h3>", "</h3>") : "");
     const std::string label(between(svg, "aria-label=\"", "\""));
-    std::string picture = complete_picture(svg, before, style);
+    const std::string title = owner.empty() ? report::sentence_case(label) : owner + ": " + label;
+    std::string picture = complete_picture(svg, before, title, style);
     at = end;
     if (!picture.empty()) files.push_back({plot_name(owner + " " + label, taken), picture});
   }

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "engine/core/error.h"
@@ -62,6 +63,17 @@ std::string replace_optenv(const std::string& text, std::vector<std::string>& no
   }
 }
 
+/// Whether <xacro:include> or its like is left, which a URDF reader would pass over.
+bool has_xacro_element(const tinyxml2::XMLElement& element) {
+  for (const auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (std::string_view(child->Name()).starts_with("xacro:") || has_xacro_element(*child)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Checks the XML, and drops a material that is defined again under the same name: liburdfdom
 /// refuses the whole file for it. @returns the text to parse
 std::string check_xml(const std::string& text, const std::string& file,
@@ -77,9 +89,9 @@ std::string check_xml(const std::string& text, const std::string& file,
         fmt::format("{}:1: not a URDF: the outermost element is <{}>, must be <robot>", file,
                     root ? root->Name() : ""));
   }
-  if (text.find("${") != std::string::npos || text.find("<xacro:macro") != std::string::npos) {
-    throw ConfigError(
-        fmt::format("{}: a xacro source, not a URDF; expand it with xacro first", file));
+  if (text.find("${") != std::string::npos || has_xacro_element(*root)) {
+    throw ConfigError(fmt::format(
+        "{0}: a xacro source, not a URDF; expand it first: xacro {0} > robot.urdf", file));
   }
 
   std::set<std::string> materials;

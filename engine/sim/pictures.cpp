@@ -68,6 +68,23 @@ bool has_chase(const std::vector<io::CameraConfig>& cameras) {
   });
 }
 
+/// Whether an instant lies in the span that is asked for.
+bool is_wanted(Time t, const PictureOptions& options) {
+  return t >= Time{duration_from_s(options.from_s.value_or(0.0)).ns} &&
+         (!options.to_s || t <= Time{duration_from_s(*options.to_s).ns});
+}
+
+/// @throws ConfigError where the span that is asked for holds nothing of the log
+void check_span(const PictureOptions& options, const LogTrace& trace) {
+  const double from_s = options.from_s.value_or(trace.first.s());
+  const double to_s = options.to_s.value_or(trace.last.s());
+  if (from_s > to_s || from_s > trace.last.s() || to_s < trace.first.s()) {
+    throw ConfigError(fmt::format("there is no frame from {:g} s{}: the log holds {:g} s to {:g} s",
+                                  from_s, options.to_s ? fmt::format(" to {:g} s", to_s) : " on",
+                                  trace.first.s(), trace.last.s()));
+  }
+}
+
 /// Instants of the frames of all cameras, in order, each once. Instants after the log's end are
 /// left out.
 std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOptions& options,
@@ -75,7 +92,7 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
   std::set<Time> times;
   const auto add = [&](double t_s) {
     const Time t{duration_from_s(t_s).ns};
-    if (t >= trace.first && t <= trace.last) times.insert(t);
+    if (t >= trace.first && t <= trace.last && is_wanted(t, options)) times.insert(t);
   };
   const bool own_schedule = options.times_s || options.every_s;
   for (const double t_s : options.times_s.value_or(std::vector<double>{})) {
@@ -88,18 +105,22 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
     add(t_s);
   const double every_s = own_schedule ? options.every_s.value_or(0.0) : pictures.every_s;
   if (every_s > 0.0) {
-    if (trace.last.s() / every_s > io::kMostPictureInstants) {
+    const double first_s = options.from_s.value_or(0.0);
+    const double span_s = std::min(trace.last.s(), options.to_s.value_or(trace.last.s())) - first_s;
+    if (span_s / every_s > io::kMostPictureInstants) {
       throw ConfigError(
           fmt::format("a frame every {} s is {:.0f} instants of {} s, must be at most {:.0f}",
-                      every_s, trace.last.s() / every_s, trace.last.s(), io::kMostPictureInstants));
+                      every_s, span_s / every_s, span_s, io::kMostPictureInstants));
     }
-    const auto count = static_cast<std::int64_t>(trace.last.s() / every_s + 1e-9);
-    for (std::int64_t k = 0; k <= count; ++k) add(static_cast<double>(k) * every_s);
+    const auto count = static_cast<std::int64_t>(std::floor(span_s / every_s + 1e-9));
+    for (std::int64_t k = 0; k <= count; ++k) add(first_s + static_cast<double>(k) * every_s);
   }
   if (!own_schedule) {
     for (const double share : pictures.shares) {
-      times.insert(trace.first + Duration{std::llround(
-                                     share * static_cast<double>((trace.last - trace.first).ns))});
+      const Time t =
+          trace.first +
+          Duration{std::llround(share * static_cast<double>((trace.last - trace.first).ns))};
+      if (is_wanted(t, options)) times.insert(t);
     }
   }
   return times;
@@ -159,7 +180,7 @@ std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& s
 PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
                          const Registry& registry, const PictureOptions& options) {
   const record::LogReader reader(log);
-  io::Scenario scenario = scenario_in(reader, log, registry);
+  io::Scenario scenario = scenario_in(reader, log, registry, options.overrides);
   scenario.pictures.width = options.width.value_or(scenario.pictures.width);
   scenario.pictures.height = options.height.value_or(scenario.pictures.height);
   const std::vector<io::CameraConfig> cameras = chosen_cameras(scenario, options.cameras);
@@ -175,6 +196,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   std::vector<std::string> names;
   for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   const LogTrace trace = read_trace(reader, names, wishes_of(cameras));
+  check_span(options, trace);
   const bool own_schedule = options.times_s || options.every_s;
   const std::set<Time> schedule = frame_times(scenario.pictures, options, trace);
   const std::map<std::string, PhaseSpan> spans = read_phase_spans(reader);
@@ -193,15 +215,22 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
         if (t <= trace.last) own.insert(t);
       }
     }
+    std::erase_if(own, [&](Time t) { return !is_wanted(t, options); });
     times.insert(own.begin(), own.end());
     total += static_cast<int>(own.size());
   }
 
   const auto start = std::chrono::steady_clock::now();
   if (options.progress) options.progress(0, total);
+  int taken = 0;
   const auto draw = [&](const io::CameraConfig& camera, Time t) {
     const render::Frame frame = composer.compose(camera, t);
     const render::Image image = (*renderer)->draw(frame);
+    if (options.take_frame) {
+      options.take_frame(image);
+      if (options.progress) options.progress(++taken, total);
+      return;
+    }
     const std::vector<double> shares = (*renderer)->statistics().vehicle_shares;
     std::map<std::string, double> seen;
     for (std::size_t i = 0; i < std::min(shares.size(), frame.vehicles.size()); ++i) {
@@ -217,7 +246,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   };
   try {
     std::error_code failed;
-    std::filesystem::create_directories(out, failed);
+    if (!options.take_frame) std::filesystem::create_directories(out, failed);
     if (failed) throw_cannot_write(fmt::format("folder '{}'", out.string()), failed.value());
     for (const Time t : times) {
       for (std::size_t c = 0; c < cameras.size() && report.note.empty(); ++c) {

@@ -14,13 +14,22 @@
 
 namespace vinerow {
 
+namespace render {
+struct Image;
+}
+
 /// What to draw otherwise than the scenario in the log says.
 struct PictureOptions {
   std::vector<std::string> cameras;            ///< names; empty = all of the scenario
   std::optional<std::vector<double>> times_s;  ///< instead of the scenario's schedule
   std::optional<double> every_s;
+  std::optional<double> from_s;  ///< no frame before; every_s counts from here
+  std::optional<double> to_s;    ///< no frame after
   std::optional<int> width;
   std::optional<int> height;
+  io::Overrides overrides;  ///< written over the log's scenario: cameras of one's own
+  /// Takes each frame in place of a file.
+  std::function<void(const render::Image&)> take_frame;
   std::function<void(int done, int total)> progress;
   std::function<bool()> interrupted;  ///< asked before each frame; true ends the drawing
 };

@@ -154,7 +154,7 @@ void add_cloud_command(CLI::App& app, int& exit_status) {
       "cloud",
       "sample a scenario's world as a point cloud, as photogrammetry of a survey sees it, with the "
       "truth beside it");
-  add_scenario_arguments(*command, arguments->scenario);
+  add_scenario_arguments(*command, arguments->scenario, "world.canopy_top_m=1.7");
   command->get_option("scenario")
       ->required(false)
       ->description("scenario file (YAML); default: that of the log");

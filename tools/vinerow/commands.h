@@ -20,6 +20,9 @@ void add_list_command(CLI::App& app, int& exit_status);
 void add_schema_command(CLI::App& app, int& exit_status);
 void add_render_command(CLI::App& app, int& exit_status);
 void add_info_command(CLI::App& app, int& exit_status);
+void add_export_command(CLI::App& app, int& exit_status);
+void add_compare_command(CLI::App& app, int& exit_status);
+void add_video_command(CLI::App& app, int& exit_status);
 void add_grid_command(CLI::App& app, int& exit_status);
 void add_trim_command(CLI::App& app, int& exit_status);
 void add_coverage_command(CLI::App& app, int& exit_status);
@@ -29,13 +32,17 @@ void add_map_command(CLI::App& app, int& exit_status);
 void add_replay_command(CLI::App& app, int& exit_status);
 void add_report_command(CLI::App& app, int& exit_status);
 
+void add_completion_command(CLI::App& app, int& exit_status);
+
 /// Options that every command which reads a scenario has.
 struct ScenarioArguments {
   std::filesystem::path file;
   io::Overrides overrides;
   std::vector<std::filesystem::path> plugins;
 };
-void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments);
+/// @param set_example  what the help of --set shows: a value that means something to this command
+void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments,
+                            const std::string& set_example);
 
 /// RUN/log.mcap of a folder, else the file itself.
 std::filesystem::path log_of(const std::filesystem::path& run_or_log);

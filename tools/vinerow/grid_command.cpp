@@ -44,7 +44,7 @@ void add_grid_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "grid", "write the occupancy grid of a scenario's world as a ROS map and as a picture");
-  add_scenario_arguments(*command, arguments->scenario);
+  add_scenario_arguments(*command, arguments->scenario, "world.row_count=8");
   command->add_option("--out", arguments->out,
                       "folder for map.yaml, map.pgm and grid.png (default: maps/<scenario name>)");
   command->callback([arguments, &exit_status] {

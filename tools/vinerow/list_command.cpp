@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "tools/vinerow/colour.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/parameter_words.h"
+#include "tools/vinerow/parts_json.h"
 #include "tools/vinerow/parts_page.h"
 
 namespace vinerow::tools {
@@ -29,52 +32,105 @@ void print_part(const Registry& registry, PartKind kind, const std::string& name
   print_parameters(spec.parameters, 6);
 }
 
+/// The first sentence, cut where a line of a terminal ends.
+std::string in_one_line(const std::string& description) {
+  constexpr std::size_t kMost = 100;
+  // A full stop before a small letter or a number is an abbreviation's: "eq. 8".
+  std::size_t end = description.find(". ");
+  while (end != std::string::npos && end + 2 < description.size() &&
+         !(description[end + 2] >= 'A' && description[end + 2] <= 'Z')) {
+    end = description.find(". ", end + 1);
+  }
+  std::string line = description.substr(0, end);
+  if (line.ends_with('.')) line.pop_back();
+  if (line.size() <= kMost) return line;
+  // At a blank, so that no character of several bytes is cut.
+  const std::size_t blank = line.rfind(' ', kMost - 4);
+  return line.substr(0, blank == std::string::npos ? kMost - 4 : blank) + " ...";
+}
+
+void print_names(const Registry& registry, PartKind kind, const std::vector<std::string>& names) {
+  fmt::print("{}\n", coloured(to_string(kind), Colour::kHeading));
+  for (const std::string& name : names) {
+    fmt::print("  {:<26} {}\n", name, in_one_line(registry.spec(kind, name).description));
+  }
+}
+
+struct ListArguments {
+  std::string part;
+  std::vector<std::filesystem::path> plugins;
+  bool markdown = false, json = false, full = false;
+};
+
+/// The parts that are asked for, by kind. @throws ConfigError where there is none of that name
+std::vector<std::pair<PartKind, std::vector<std::string>>> chosen_parts(const Registry& registry,
+                                                                        const std::string& wanted) {
+  std::vector<std::pair<PartKind, std::vector<std::string>>> chosen;
+  std::vector<std::string> known;
+  for (const PartKind kind : kAllPartKinds) {
+    known.emplace_back(to_string(kind));
+    const bool whole_kind = wanted.empty() || wanted == to_string(kind);
+    std::vector<std::string> names;
+    for (const std::string& name : registry.names(kind)) {
+      known.push_back(name);
+      if (whole_kind || wanted == name) names.push_back(name);
+    }
+    if (whole_kind || !names.empty()) chosen.emplace_back(kind, std::move(names));
+  }
+  if (chosen.empty()) {
+    throw ConfigError(fmt::format("list: unknown kind or part '{}'{} (known: {})", wanted,
+                                  did_you_mean(wanted, known), join(known)));
+  }
+  return chosen;
+}
+
+void list_parts(const ListArguments& arguments) {
+  const Registry registry = make_registry(arguments.plugins);
+  const auto chosen = chosen_parts(registry, arguments.part);
+  const bool short_form = arguments.part.empty() && !arguments.full;
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  std::string page = parts_page_opening();
+  for (const auto& [kind, names] : chosen) {
+    if (names.empty()) continue;
+    if (arguments.markdown) page += kind_heading(kind);
+    if (!arguments.markdown && !arguments.json && short_form) print_names(registry, kind, names);
+    for (const std::string& name : names) {
+      if (arguments.markdown) {
+        page += part_markdown(registry, kind, name);
+      } else if (arguments.json) {
+        json.push_back(part_json(registry, kind, name));
+      } else if (!short_form) {
+        print_part(registry, kind, name);
+      }
+    }
+  }
+  if (arguments.markdown) {
+    fmt::print("{}", page);
+  } else if (arguments.json) {
+    fmt::print("{}\n", json.dump(1));
+  } else if (short_form) {
+    fmt::print(
+        "\n'vinerow list NAME' tells all of one part, 'vinerow list KIND' of all parts of a "
+        "kind.\n");
+  }
+}
+
 }  // namespace
 
 void add_list_command(CLI::App& app, int& exit_status) {
-  struct Arguments {
-    std::string part;
-    std::vector<std::filesystem::path> plugins;
-    bool markdown = false;
-  };
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("list", "list the parts a scenario can name, with their parameters");
+  auto arguments = std::make_shared<ListArguments>();
+  CLI::App* command = app.add_subcommand("list", "list the parts a scenario can name");
   command->add_option("part", arguments->part,
-                      "only this kind (world, sensor, ...) or this part (pure_pursuit)");
+                      "with all parameters: this part (pure_pursuit), or all of a kind (world, "
+                      "sensor, ...)");
   command->add_option("--plugin", arguments->plugins, "include the parts of a plug-in")
       ->allow_extra_args(false);
-  command->add_flag("--markdown", arguments->markdown, "as a page of tables (docs/parts.md)");
+  command->add_flag("--full", arguments->full, "all parts with all their parameters");
+  CLI::Option* markdown =
+      command->add_flag("--markdown", arguments->markdown, "as a page of tables (docs/parts.md)");
+  command->add_flag("--json", arguments->json, "as JSON, with all parameters")->excludes(markdown);
   command->callback([arguments, &exit_status] {
-    const Registry registry = make_registry(arguments->plugins);
-    std::vector<std::string> known;
-    bool found = false;
-    // A part that does not exist must not leave the head of a page.
-    std::string page = parts_page_opening();
-    for (const PartKind kind : kAllPartKinds) {
-      known.emplace_back(to_string(kind));
-      bool opened = false;
-      for (const std::string& name : registry.names(kind)) {
-        known.push_back(name);
-        const bool wanted = arguments->part.empty() || arguments->part == to_string(kind) ||
-                            arguments->part == name;
-        if (!wanted) continue;
-        found = true;
-        if (!arguments->markdown) {
-          print_part(registry, kind, name);
-          continue;
-        }
-        if (!std::exchange(opened, true)) page += kind_heading(kind);
-        page += part_markdown(registry, kind, name);
-      }
-      found = found || arguments->part == to_string(kind);
-    }
-    if (!found) {
-      throw ConfigError(fmt::format("list: unknown kind or part '{}'{} (known: {})",
-                                    arguments->part, did_you_mean(arguments->part, known),
-                                    join(known)));
-    }
-    if (arguments->markdown) fmt::print("{}", page);
+    list_parts(*arguments);
     exit_status = 0;
   });
 }

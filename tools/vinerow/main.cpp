@@ -1,19 +1,22 @@
-/// The command: `vinerow run | validate | list | schema | render | info | grid | trim | coverage |
-/// survey | cloud | map | replay | report`.
+/// The command `vinerow` with its sub-commands; help_texts.cpp has the list of them.
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/error.h"
-#include "engine/core/whole_file.h"
 #include "engine/core/suggest.h"
+#include "engine/core/whole_file.h"
 #include "engine/sim/summary.h"
+#include "tools/vinerow/colour.h"
 #include "tools/vinerow/commands.h"
+#include "tools/vinerow/help_texts.h"
 
 namespace {
 
@@ -26,8 +29,22 @@ void check_command(const CLI::App& app, const std::string& word) {
   for (const CLI::App* command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
   if (word.starts_with('-') || std::find(known.begin(), known.end(), word) != known.end()) return;
   throw vinerow::ConfigError(fmt::format("unknown command '{}'{} (known: {})", word,
-                                         vinerow::did_you_mean(word, known),
-                                         vinerow::join(known)));
+                                         vinerow::did_you_mean(word, known), vinerow::join(known)));
+}
+
+void add_colour_option(CLI::App& app) {
+  using vinerow::tools::ColourMode;
+  static const std::map<std::string, ColourMode> kModes = {
+      {"auto", ColourMode::kAuto}, {"always", ColourMode::kAlways}, {"never", ColourMode::kNever}};
+  app.add_option_function<std::string>(
+         "--color",
+         [](const std::string& mode) { vinerow::tools::set_colour_mode(kModes.at(mode)); },
+         "words in colour; auto: on a terminal, where NO_COLOR is not set")
+      ->check(CLI::IsMember({"auto", "always", "never"}))
+      ->default_str("auto")
+      ->trigger_on_parse();
+  // It may stand behind a command too.
+  for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough();
 }
 
 }  // namespace
@@ -39,23 +56,37 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "vinerow " + vinerow::program_version());
   app.require_subcommand(1);
   int exit_status = 0;
+  // The help lists groups and commands in this order.
   vinerow::tools::add_run_command(app, exit_status);
   vinerow::tools::add_validate_command(app, exit_status);
-  vinerow::tools::add_list_command(app, exit_status);
-  vinerow::tools::add_schema_command(app, exit_status);
+  vinerow::tools::add_report_command(app, exit_status);
+  vinerow::tools::add_replay_command(app, exit_status);
   vinerow::tools::add_render_command(app, exit_status);
-  vinerow::tools::add_info_command(app, exit_status);
-  vinerow::tools::add_grid_command(app, exit_status);
-  vinerow::tools::add_trim_command(app, exit_status);
+  vinerow::tools::add_video_command(app, exit_status);
   vinerow::tools::add_coverage_command(app, exit_status);
+  vinerow::tools::add_info_command(app, exit_status);
+  vinerow::tools::add_export_command(app, exit_status);
+  vinerow::tools::add_compare_command(app, exit_status);
   vinerow::tools::add_survey_command(app, exit_status);
   vinerow::tools::add_cloud_command(app, exit_status);
   vinerow::tools::add_map_command(app, exit_status);
-  vinerow::tools::add_replay_command(app, exit_status);
-  vinerow::tools::add_report_command(app, exit_status);
+  vinerow::tools::add_grid_command(app, exit_status);
+  vinerow::tools::add_trim_command(app, exit_status);
+  vinerow::tools::add_list_command(app, exit_status);
+  vinerow::tools::add_schema_command(app, exit_status);
+  vinerow::tools::add_completion_command(app, exit_status);
+  vinerow::tools::add_help_texts(app);
+  add_colour_option(app);
   try {
-    if (argc > 1) check_command(app, argv[1]);
-    app.parse(argc, argv);
+    std::vector<char*> words(argv, argv + argc);
+    std::string help = "--help";
+    if (argc > 1 && std::string_view(argv[1]) == "help") {
+      // "help run" is "run --help".
+      words.erase(words.begin() + 1);
+      words.push_back(help.data());
+    }
+    if (words.size() > 1) check_command(app, words[1]);
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return status == 0 ? 0 : kBadInput;

@@ -7,6 +7,7 @@
 
 namespace vinerow::tools {
 
+/// Computed defaults are rounded to six digits.
 /// @returns "0.14", "[1, 6]", "\"\"" for an empty text, "required", "-" where it has none
 std::string default_text(const ParameterSpec& spec);
 

@@ -1,15 +1,28 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
+#include "engine/core/whole_file.h"
 #include "engine/sim/plugin_loader.h"
 #include "tools/vinerow/commands.h"
+#include "tools/vinerow/report/plot_files.h"
 #include "tools/vinerow/report/report.h"
 
 namespace vinerow::tools {
+namespace {
+
+void write_plots(const std::filesystem::path& report, const std::filesystem::path& folder) {
+  const std::vector<PlotFile> files = plot_files_of(read_bytes(report).value_or(""));
+  std::filesystem::create_directories(folder);
+  for (const PlotFile& file : files) write_whole_file(folder / file.name, file.svg);
+  fmt::print("{}  {} plots\n", folder.string(), files.size());
+}
+
+}  // namespace
 
 void add_report_command(CLI::App& app, int& exit_status) {
   struct Arguments {
-    std::filesystem::path run, out;
+    std::filesystem::path run, out, plots;
     std::vector<std::filesystem::path> plugins;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -18,6 +31,8 @@ void add_report_command(CLI::App& app, int& exit_status) {
   command->add_option("run", arguments->run, "folder of a run")->required();
   command->add_option("--out", arguments->out,
                       "page to write (default: report.html in the folder)");
+  command->add_option("--plots", arguments->plots,
+                      "folder for each plot and map as a file of its own (SVG)");
   command->add_option("--plugin", arguments->plugins, "load a plug-in beside those the run names")
       ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {
@@ -33,6 +48,7 @@ void add_report_command(CLI::App& app, int& exit_status) {
         arguments->out.empty() ? arguments->run / "report.html" : arguments->out;
     write_report(arguments->run, registry, out);
     fmt::print("{}\n", out.string());
+    if (!arguments->plots.empty()) write_plots(out, arguments->plots);
     exit_status = 0;
   });
 }

@@ -8,6 +8,7 @@
 #include "engine/core/whole_file.h"
 #include "engine/sim/judge.h"
 #include "engine/sim/run.h"
+#include "tools/vinerow/colour.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/map_picture_files.h"
 #include "tools/vinerow/progress_line.h"
@@ -39,7 +40,13 @@ void show_simulation(ProgressLine& line, const Progress& progress) {
 
 /// "succeeded  survey        0.0 to 288.9 s", and why where it did not.
 void print_phase(const PhaseReport& phase) {
-  fmt::print("{:11}  {:16}", to_string(phase.state), phase.name);
+  const bool bad = phase.state == PhaseState::kFailed || phase.state == PhaseState::kBlocked;
+  fmt::print("{}  {:16}",
+             coloured(fmt::format("{:11}", to_string(phase.state)),
+                      bad                                     ? Colour::kBad
+                      : phase.state == PhaseState::kSucceeded ? Colour::kGood
+                                                              : Colour::kPlain),
+             phase.name);
   if (phase.begin && phase.end) {
     fmt::print(" {:8.1f} to {:8.1f} s", phase.begin->s(), phase.end->s());
   }
@@ -56,7 +63,9 @@ void print_phase(const PhaseReport& phase) {
 void print_verdict(const RunResult& result, const std::filesystem::path& out, bool with_log) {
   for (const PhaseReport& phase : result.phases) print_phase(phase);
   for (const CriterionResult& c : result.criteria) {
-    fmt::print("{}  {}\n", c.met ? "met   " : "FAILED", sentence_of(c));
+    fmt::print("{}  {}\n",
+               c.met ? coloured("met   ", Colour::kGood) : coloured("FAILED", Colour::kBad),
+               sentence_of(c));
   }
   fmt::print("simulated {:.3f} s in {:.2f} s ({:.0f} x real time), mission {}\n",
              result.simulated_s, result.wall_s, result.real_time_factor(),
@@ -123,7 +132,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("run", "run a scenario headless and write log, summary and pictures");
-  add_scenario_arguments(*command, arguments->scenario);
+  add_scenario_arguments(*command, arguments->scenario, "rover.controller.speed_mps=0.8");
   command->add_option("--out", arguments->out,
                       "folder for the results (default: runs/<scenario name>)");
   command->add_flag("--no-log", arguments->no_log, "write no log (and so no pictures)");

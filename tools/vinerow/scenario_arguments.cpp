@@ -24,11 +24,12 @@ std::uint64_t read_seed(const std::string& text) {
 
 }  // namespace
 
-void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments) {
+void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments,
+                            const std::string& set_example) {
   command.add_option("scenario", arguments.file, "scenario file (YAML)")->required();
   command.add_option(
       "--set", arguments.overrides.sets,
-      "override a value, e.g. --set rover.controller.lookahead_m=0.5 (may be given several times)");
+      fmt::format("override a value, e.g. --set {} (may be given several times)", set_example));
   command.add_option_function<std::string>(
       "--seed",
       [&arguments](const std::string& text) { arguments.overrides.seed = read_seed(text); },

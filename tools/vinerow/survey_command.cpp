@@ -137,7 +137,7 @@ void add_survey_command(CLI::App& app, int& exit_status) {
       "survey",
       "plan a survey from the air, of a scenario or of a polygon; write missions and a "
       "picture");
-  add_scenario_arguments(*command, arguments->scenario);
+  add_scenario_arguments(*command, arguments->scenario, "plane.planner.height_m=60");
   command->get_option("scenario")->required(false);
   command->add_option("--vehicle", arguments->vehicle,
                       "vehicle of the scenario (default: the first with the planner 'survey')");

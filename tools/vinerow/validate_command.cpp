@@ -14,7 +14,7 @@ void add_validate_command(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand("validate",
                                          "check a scenario as a run does before its first step: "
                                          "files, values, wiring, metrics, plans");
-  add_scenario_arguments(*command, arguments->scenario);
+  add_scenario_arguments(*command, arguments->scenario, "rover.controller.speed_mps=0.8");
   command->add_flag("--files-only", arguments->files_only,
                     "do not build the world and the vehicles, and so make no plans");
   command->callback([arguments, &exit_status] {

@@ -77,6 +77,15 @@ TEST(Urdf, FaultsAreOneClearSentence) {
   EXPECT_NE(error_of(empty).find("not a URDF ("), std::string::npos) << error_of(empty);
   const auto xacro = write_file("x.urdf", "<robot name='a'><link name='${b}'/></robot>");
   EXPECT_NE(error_of(xacro).find("a xacro source, not a URDF"), std::string::npos);
+  // Without it the robot would silently lack what the file includes.
+  const auto include = write_file(
+      "include.xacro",
+      "<robot name='a' xmlns:xacro='x'><link name='b'/><xacro:include filename='c'/></robot>");
+  EXPECT_NE(error_of(include).find("expand it first: xacro " + include.string()), std::string::npos)
+      << error_of(include);
+  const auto expanded =
+      write_file("expanded.urdf", "<robot name='a' xmlns:xacro='x'><link name='b'/></robot>");
+  EXPECT_EQ(load_urdf(expanded).links.size(), 1u);
   const auto mesh = write_file("mesh.urdf",
                                "<robot name='a'><link name='b'><visual><geometry><mesh "
                                "filename='gone.stl'/></geometry></visual></link></robot>");

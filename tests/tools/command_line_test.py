@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+"""The command line itself: help, lists, colours, completion.
+
+    command_line_test.py VINEROW
+"""
+
+import json
+import os
+import pathlib
+import pty
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+VINEROW = sys.argv[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+RED, GREEN = "\x1b[31m", "\x1b[32m"
+
+
+def vinerow(*arguments, status=0, **environment):
+    run = subprocess.run([VINEROW, *arguments], capture_output=True, encoding="utf-8", env={**os.environ, **environment})
+    assert run.returncode == status, (arguments, run.returncode, run.stderr)
+    return run.stdout if status == 0 else run.stderr
+
+
+def commands() -> list[str]:
+    """Of the help: indented names under headings that are no options."""
+    listed = vinerow("--help").split("\n\n")
+    blocks = [b for b in listed if not b.startswith(("Vinerow", "Options", "Begin", "Exit"))]
+    return [line.split()[0] for block in blocks for line in block.splitlines()[1:] if re.match(r"  \w", line)]
+
+
+def options_of(command: str) -> set[str]:
+    return {o for o in re.findall(r"^  ((?:-\w,)?--[\w-]+.*)$", vinerow(command, "--help"), re.MULTILINE)
+            for o in re.findall(r"--[\w-]+", o.split("  ")[0])}  # fmt: skip
+
+
+def on_a_terminal(*arguments, **environment) -> str:
+    """What the command prints where standard output is a terminal."""
+    master, slave = pty.openpty()
+    env = {k: v for k, v in os.environ.items() if k != "NO_COLOR"}
+    run = subprocess.Popen([VINEROW, *arguments], stdout=slave, stderr=subprocess.DEVNULL, env={**env, "TERM": "xterm", **environment})
+    os.close(slave)
+    text = b""
+    while True:
+        try:
+            piece = os.read(master, 65536)
+        except OSError:  # the end of a pseudo-terminal
+            break
+        if not piece:
+            break
+        text += piece
+    run.wait()
+    os.close(master)
+    return text.decode()
+
+
+class Help(unittest.TestCase):
+    def test_every_command_stands_in_a_group_with_examples_and_exit_statuses(self):
+        self.assertGreater(len(commands()), 15)
+        for heading in ["Simulate:", "Look at a run:", "Surveys and maps:"]:
+            self.assertIn(heading, vinerow("--help"))
+        for command in commands():
+            text = vinerow(command, "--help")
+            self.assertIn("Examples:\n", text, command)
+            self.assertIn("Exit status: 0 ", text, command)
+
+    def test_help_is_a_command_too(self):
+        self.assertEqual(vinerow("help"), vinerow("--help"))
+        self.assertEqual(vinerow("help", "run"), vinerow("run", "--help"))
+        self.assertIn("did you mean 'run'", vinerow("help", "runn", status=2))
+
+    def test_examples_use_options_and_files_that_exist(self):
+        for command in commands():
+            examples = re.search(r"Examples:\n((?:  .*\n)+)", vinerow(command, "--help")).group(1)
+            for line in examples.splitlines():
+                words = shlex.split(line.split(" > ")[0])
+                self.assertEqual(words[:2], ["vinerow", command])
+                for word in words[2:]:
+                    if word.startswith("--"):
+                        self.assertIn(word, options_of(command), line)
+                    if word.startswith("assets/"):
+                        self.assertTrue((ROOT / word).exists(), line)
+
+    def test_the_example_of_set_means_something_to_its_command(self):
+        # Survey and cloud have other parts than a rover's controller; each example is tried on a scenario.
+        tried = {"run": "riseholme_rover", "validate": "riseholme_rover", "grid": "vineyard_4ws_two_rows",
+                 "survey": "survey_still", "cloud": "map_parcel"}  # fmt: skip
+        for command, scenario in tried.items():
+            example = re.search(r"e\.g\. --set (\S+)", vinerow(command, "--help")).group(1)
+            vinerow("validate", f"{ROOT}/assets/scenarios/{scenario}.yaml", "--files-only", "--set", example)
+
+
+class List(unittest.TestCase):
+    def test_short_by_default_whole_on_demand(self):
+        short = vinerow("list")
+        parts = json.loads(vinerow("list", "--json"))
+        self.assertLess(len(short.splitlines()), len(parts) + 20)
+        self.assertLessEqual(max(map(len, short.splitlines())), 130)
+        for part in parts:
+            self.assertRegex(short, rf"(?m)^  {re.escape(part['name'])} ")
+        self.assertIn("lookahead_m", vinerow("list", "pure_pursuit"))
+        self.assertIn("lookahead_m", vinerow("list", "controller"))
+        self.assertNotIn("lookahead_m", short)
+        self.assertEqual(vinerow("list", "--full").count("(version "), len(parts))
+
+    def test_json_tells_what_the_schema_tells(self):
+        (part,) = json.loads(vinerow("list", "pure_pursuit", "--json"))
+        lookahead = next(p for p in part["parameters"] if p["name"] == "lookahead_m")
+        self.assertEqual((lookahead["default"], lookahead["unit"], lookahead["min"], lookahead["min_exclusive"]), (0.75, "m", 0, True))
+        self.assertEqual(part["kind"], "controller")
+
+    def test_an_unknown_part_and_two_formats_are_refused(self):
+        self.assertIn("did you mean 'pure_pursuit'", vinerow("list", "pure_persuit", status=2))
+        vinerow("list", "--json", "--markdown", status=2)
+
+    def test_defaults_have_no_more_digits_than_make_sense(self):
+        for default in re.findall(r"default (\S+)", vinerow("list", "--full")):
+            for number in re.findall(r"\d+\.\d+", default):
+                self.assertLessEqual(len(number), 11, default)
+
+
+class Colours(unittest.TestCase):
+    FAILS = "vinerow: 1\nname: c\nduration_s: 0.2\nworld: {type: vineyard, row_count: 2, row_length_m: 10, relief_m: 0}\n" \
+        "vehicles: {rover: {type: diff_drive_rover, spawn: {alley: 0, offset_m: 2}}}\n" \
+        "criteria: [{metric: rover.distance_m, min: 5}, {metric: rover.contact_count, max: 0}]\n"  # fmt: skip
+
+    def run_it(self, on, *arguments, **environment):
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = pathlib.Path(folder, "c.yaml")
+            scenario.write_text(self.FAILS)
+            words = ["run", str(scenario), "--out", folder + "/out", "--no-log", "--no-report", "--quiet", *arguments]
+            return on_a_terminal(*words, **environment) if on else vinerow_any(*words, **environment)
+
+    def test_failed_is_red_and_met_is_green_on_a_terminal(self):
+        text = self.run_it(True)
+        self.assertIn(RED + "FAILED\x1b[0m  rover.distance_m", text)
+        self.assertIn(GREEN + "met   \x1b[0m  rover.contact_count", text)
+
+    def test_no_colour_elsewhere_or_where_it_is_not_wanted(self):
+        for text in [self.run_it(False), self.run_it(True, NO_COLOR="1"), self.run_it(True, TERM="dumb"), self.run_it(True, "--color", "never")]:
+            self.assertIn("FAILED  rover.distance_m", text)
+            self.assertNotIn("\x1b", text)
+
+    def test_color_always_wins(self):
+        self.assertIn(RED, self.run_it(False, "--color", "always"))
+        self.assertIn(RED, self.run_it(True, "--color", "always", NO_COLOR="1"))
+
+
+def vinerow_any(*arguments, **environment) -> str:
+    run = subprocess.run([VINEROW, *arguments], capture_output=True, encoding="utf-8", env={**os.environ, **environment})
+    return run.stdout
+
+
+class Completion(unittest.TestCase):
+    def bash(self, *words: str) -> list[str]:
+        """What bash offers for the last word; the shell sources what the command prints."""
+        script = (
+            'source <("$0" completion bash); shift 0; COMP_WORDS=("$@"); COMP_CWORD=$((${#COMP_WORDS[@]} - 1));'
+            ' _vinerow; printf "%s\\n" "${COMPREPLY[@]}"'
+        )
+        run = subprocess.run(["bash", "-c", script, VINEROW, "vinerow", *words], capture_output=True, text=True, cwd=ROOT)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        return run.stdout.split()
+
+    def test_bash_offers_every_command(self):
+        self.assertEqual(sorted(w for w in self.bash("") if w[0] != "-"), sorted(commands()))
+        self.assertEqual(sorted(self.bash("re")), ["render", "replay", "report"])
+
+    def test_bash_offers_the_options_that_the_help_shows(self):
+        for command in commands():
+            offered = {w for w in self.bash(command, "--") if w.startswith("--")}
+            self.assertEqual(offered, options_of(command) | {"--color"}, command)
+
+    def test_bash_offers_values_and_files(self):
+        self.assertEqual(sorted(self.bash("schema", "")), ["map.json", "report.json", "scenario"])
+        self.assertEqual(sorted(self.bash("compare", "--fail-on", "")), ["difference", "none", "regression"])
+        self.assertEqual(self.bash("run", "CHANGE"), ["CHANGELOG.md"])
+        self.assertEqual(self.bash("run", "--out", "READ"), ["README.md"])
+
+    def test_zsh_and_fish_take_their_scripts(self):
+        for shell in ["zsh", "fish"]:
+            script = vinerow("completion", shell)
+            for command in commands():
+                self.assertIn(command, script)
+            if shutil.which(shell):
+                check = subprocess.run([shell, "-n"], input=script, capture_output=True, text=True)
+                self.assertEqual((check.returncode, check.stderr), (0, ""))
+        if shutil.which("fish"):
+            ask = 'source (echo $script | psub); complete -C "vinerow compare --fail-on "'
+            env = {**os.environ, "script": vinerow("completion", "fish")}
+            told = subprocess.run(["fish", "-c", ask], capture_output=True, text=True, env=env).stdout
+            self.assertEqual([line.split("\t")[0] for line in told.splitlines()], ["difference", "none", "regression"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,326 @@
+#!/usr/bin/env python3
+"""`vinerow export` against logs written by hand: CSV read by the csv module, arrays by numpy.
+
+    export_test.py VINEROW
+"""
+
+import csv
+import io
+import math
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zipfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from mcap_file import Cdr, Log  # noqa: E402
+
+try:
+    import numpy
+except ImportError:
+    print("skipped: numpy is absent")
+    sys.exit(77)
+
+VINEROW = sys.argv[1]
+
+HEADER = """
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+POINT = """
+================================================================================
+MSG: geometry_msgs/Point
+float64 x
+float64 y
+float64 z
+"""
+
+KINDS = """std_msgs/Header header
+# a comment
+int8 LIMIT=-128  # a constant
+bool on
+byte raw
+int8 a
+uint8 b
+int16 c
+uint16 d
+int32 e
+uint32 f
+int64 g
+uint64 h
+float32 r
+float64 s 1.5
+string<=80 words
+geometry_msgs/Point[2] corners
+int32[3] triple
+float32[] ranges
+string[<=4] labels
+""" + HEADER + POINT
+
+NAMED = "std_msgs/Header header\nstring[] name\nfloat64[] value\n" + HEADER
+PATH = "std_msgs/Header header\nfloat64 length\nKnot[] knots\nfloat64[] weight\n" + HEADER + """
+===
+MSG: test_msgs/Knot
+Point position
+int32[] tags
+===
+MSG: test_msgs/Point
+float64 x
+float64 y
+"""
+
+# All stand at a limit of their type, or do not fit a shorter one.
+VALUES = [
+    {"on": True, "raw": 200, "a": -128, "b": 255, "c": -32768, "d": 65535, "e": -(2**31), "f": 2**32 - 1,
+     "g": -(2**63), "h": 2**64 - 1, "r": 0.1, "s": 0.1 + 0.2, "words": 'say "hi", ümläut\nnext',
+     "corners": [1, 2, 3, 4, 5, 6], "triple": [7, -8, 9], "ranges": [1.5, math.inf, -0.25], "labels": ["x", "y,z"]},
+    {"on": False, "raw": 0, "a": 127, "b": 0, "c": 32767, "d": 0, "e": 2**31 - 1, "f": 0,
+     "g": 2**63 - 1, "h": 0, "r": math.nan, "s": 5e-324, "words": "", "corners": [0] * 6,
+     "triple": [0, 0, 0], "ranges": [-math.inf], "labels": []},
+]  # fmt: skip
+
+
+def kinds_message(stamp_ns: int, v: dict) -> bytes:
+    cdr = Cdr().header(stamp_ns, "rover/base_link")
+    cdr.add("?", v["on"]).add("B", v["raw"]).add("b", v["a"]).add("B", v["b"]).add("h", v["c"]).add("H", v["d"])
+    cdr.add("i", v["e"]).add("I", v["f"]).add("q", v["g"]).add("Q", v["h"]).add("f", v["r"]).add("d", v["s"])
+    cdr.text(v["words"]).add("d", *v["corners"]).add("i", *v["triple"])
+    cdr.add("I", len(v["ranges"])).add("f", *v["ranges"]).add("I", len(v["labels"]))
+    for label in v["labels"]:
+        cdr.text(label)
+    return cdr.message()
+
+
+def named_message(stamp_ns: int, pairs: list) -> bytes:
+    cdr = Cdr().header(stamp_ns).add("I", len(pairs))
+    for name, _ in pairs:
+        cdr.text(name)
+    return cdr.add("I", len(pairs)).add("d", *[value for _, value in pairs]).message()
+
+
+def path_message(stamp_ns: int, length: float, knots: list, weights: list) -> bytes:
+    cdr = Cdr().header(stamp_ns).add("d", length).add("I", len(knots))
+    for x, y, tags in knots:
+        cdr.add("d", x, y).add("I", len(tags)).add("i", *tags)
+    return cdr.add("I", len(weights)).add("d", *weights).message()
+
+
+def same(a: float, b: float) -> bool:
+    return a == b or (math.isnan(a) and math.isnan(b))
+
+
+class Export(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        self.log = self.folder / "log.mcap"
+
+    def run_export(self, *arguments, status=0):
+        command = [VINEROW, "export", str(self.log), *map(str, arguments)]
+        run = subprocess.run(command, capture_output=True, encoding="utf-8", cwd=self.folder)
+        self.assertEqual(run.returncode, status, run.stderr)
+        return run
+
+    def table(self, topic: str, *arguments):
+        text = self.run_export("--topic", topic, "-o", "-", *arguments).stdout
+        return list(csv.DictReader(io.StringIO(text, newline="")))
+
+    def arrays(self, topic: str, *arguments):
+        file = self.folder / "x.npz"
+        self.run_export("--topic", topic, "-o", file, *arguments)
+        with zipfile.ZipFile(file) as packed:
+            self.assertIsNone(packed.testzip())
+        return numpy.load(file, allow_pickle=False)
+
+    def write_kinds(self):
+        log = Log()
+        channel = log.channel("/rover/kinds", "test_msgs/msg/Kinds", KINDS)
+        # Recorded in another order than stamped: tables are in the order of the stamps.
+        log.message(channel, 2_000_000_001, kinds_message(2_000_000_001, VALUES[1]), 2_100_000_000)
+        log.message(channel, 1_050_000_000, kinds_message(1_050_000_000, VALUES[0]), 2_200_000_000)
+        log.channel("/empty", "test_msgs/msg/Kinds", KINDS)
+        log.write(self.log)
+
+    def test_csv_holds_every_kind_of_field(self):
+        self.write_kinds()
+        rows = self.table("/rover/kinds")
+        self.assertEqual([r["time_s"] for r in rows], ["1.05", "2.000000001"])
+        self.assertEqual([r["logged_s"] for r in rows], ["2.2", "2.1"])
+        for row, v in zip(rows, VALUES):
+            self.assertEqual(row["header.frame_id"], "rover/base_link")
+            self.assertEqual(row["on"], str(v["on"]))
+            for name in ["raw", "a", "b", "c", "d", "e", "f", "g", "h"]:
+                self.assertEqual(int(row[name]), v[name], name)
+            self.assertTrue(same(float(row["s"]), v["s"]))
+            self.assertTrue(same(numpy.float32(row["r"]), numpy.float32(v["r"])))
+            self.assertEqual(row["words"], v["words"])
+            corners = [float(row[f"corners[{i}].{axis}"]) for i in range(2) for axis in "xyz"]
+            self.assertEqual(corners, v["corners"])
+            self.assertEqual([int(row[f"triple[{i}]"]) for i in range(3)], v["triple"])
+            ranges = [row[f"ranges[{i}]"] for i in range(3)]
+            self.assertEqual([float(r) for r in ranges if r != ""], v["ranges"])
+            self.assertEqual([row[f"labels[{i}]"] for i in range(2)], (v["labels"] + ["", ""])[:2])
+        self.assertNotIn("LIMIT", rows[0])
+        self.assertNotIn("header.stamp", rows[0])
+
+    def test_npz_holds_the_same_in_the_types_of_the_definition(self):
+        self.write_kinds()
+        arrays = self.arrays("/rover/kinds")
+        types = {"on": "?", "raw": "u1", "a": "i1", "b": "u1", "c": "i2", "d": "u2", "e": "i4", "f": "u4", "g": "i8", "h": "u8",
+                 "r": "f4", "s": "f8", "triple": "i4", "ranges": "f4", "time_s": "f8"}  # fmt: skip
+        for name, code in types.items():
+            self.assertEqual(arrays[name].dtype, numpy.dtype(code), name)
+        self.assertEqual(arrays["time_s"].tolist(), [1.05, 2.000000001])
+        for name in ["on", "raw", "a", "b", "c", "d", "e", "f", "g", "h", "words", "triple"]:
+            self.assertEqual(arrays[name].tolist(), [v[name] for v in VALUES], name)
+        numpy.testing.assert_array_equal(arrays["s"], [v["s"] for v in VALUES])
+        numpy.testing.assert_array_equal(arrays["r"], numpy.array([v["r"] for v in VALUES], "f4"))
+        ragged = [[1.5, math.inf, -0.25], [-math.inf, math.nan, math.nan]]
+        numpy.testing.assert_array_equal(arrays["ranges"], numpy.array(ragged, "f4"))
+        self.assertEqual(arrays["labels"].tolist(), [["x", "y,z"], ["", ""]])
+        self.assertEqual(arrays["corners[1].z"].tolist(), [6, 0])
+
+    def test_names_and_values_give_a_column_for_each_name(self):
+        log = Log()
+        channel = log.channel("/rover/wheels", "vinerow_msgs/msg/NamedValues", NAMED)
+        log.message(channel, 10**9, named_message(10**9, [("left_radps", 1.0), ("time_s", 9.0)]))
+        log.message(channel, 2 * 10**9, named_message(2 * 10**9, [("right_radps", -2.5), ("left_radps", 3.0)]))
+        log.write(self.log)
+        rows = self.table("/rover/wheels")
+        self.assertEqual(list(rows[0]), ["time_s", "logged_s", "header.frame_id", "left_radps", "time_s_", "right_radps"])
+        self.assertEqual([r["left_radps"] for r in rows], ["1", "3"])
+        self.assertEqual([r["right_radps"] for r in rows], ["", "-2.5"])
+        arrays = self.arrays("/rover/wheels")
+        numpy.testing.assert_array_equal(arrays["right_radps"], [math.nan, -2.5])
+        long = self.table("/rover/wheels", "--long")
+        self.assertEqual([(r["time_s"], r["element"], r["name"], r["value"]) for r in long],
+                         [("1.0", "0", "left_radps", "1"), ("1.0", "1", "time_s", "9"),
+                          ("2.0", "0", "right_radps", "-2.5"), ("2.0", "1", "left_radps", "3")])  # fmt: skip
+
+    def test_a_sequence_of_messages_gives_a_row_for_each_element(self):
+        log = Log()
+        channel = log.channel("/rover/plan", "test_msgs/msg/Path", PATH)
+        log.message(channel, 10**9, path_message(10**9, 8.0, [(1, 2, [5]), (3, 4, [6, 7])], [0.5, 0.25, 0.125]))
+        log.message(channel, 2 * 10**9, path_message(2 * 10**9, 0.0, [], []))
+        log.write(self.log)
+        rows = self.table("/rover/plan")
+        # As pandas' explode(): an empty sequence leaves a row, what is shorter leaves cells empty.
+        wanted = [
+            ("1.0", "0", "8", "1", "2", "5", "", "0.5"),
+            ("1.0", "1", "8", "3", "4", "6", "7", "0.25"),
+            ("1.0", "2", "8", "", "", "", "", "0.125"),
+            ("2.0", "0", "0", "", "", "", "", ""),
+        ]
+        names = ["time_s", "element", "length", "knots.position.x", "knots.position.y", "knots.tags[0]", "knots.tags[1]", "weight"]
+        self.assertEqual([tuple(r[n] for n in names) for r in rows], wanted)
+        arrays = self.arrays("/rover/plan")
+        nan = math.nan
+        numpy.testing.assert_array_equal(arrays["knots.tags"], [[5, nan], [6, 7], [nan, nan], [nan, nan]])
+        self.assertEqual(arrays["element"].tolist(), [0, 1, 2, 0])
+
+    def test_a_topic_without_messages_has_its_columns(self):
+        self.write_kinds()
+        text = self.run_export("--topic", "/empty", "-o", "-").stdout
+        columns = text.strip().split(",")
+        self.assertEqual(columns[:4], ["time_s", "logged_s", "header.frame_id", "on"])
+        self.assertEqual(text.count("\n"), 1)
+        self.assertEqual(self.arrays("/empty")["s"].shape, (0,))
+
+    def test_from_and_to_are_inclusive(self):
+        self.write_kinds()
+        self.assertEqual(len(self.table("/rover/kinds", "--from", "1.05", "--to", "2.000000001")), 2)
+        self.assertEqual(len(self.table("/rover/kinds", "--from", "1.06")), 1)
+        self.assertEqual(len(self.table("/rover/kinds", "--to", "1.04")), 0)
+
+    def test_patterns_give_a_file_for_each_topic_in_the_folder_alone(self):
+        log = Log()
+        for topic in ["/a/x", "/a_x", "/../../escape", "/b"]:
+            log.message(log.channel(topic, "vinerow_msgs/msg/NamedValues", NAMED), 0, named_message(0, []))
+        log.write(self.log)
+        self.run_export("--topic", "*", "--csv", "--npz", "-o", "out")
+        there = sorted(f.relative_to(self.folder).as_posix() for f in self.folder.rglob("*") if f.is_file())
+        stems = ["______escape", "a_x", "a_x_2", "b"]
+        self.assertEqual(there, sorted(["log.mcap"] + [f"out/{s}.{e}" for s in stems for e in ["csv", "npz"]]))
+
+    def test_without_such_a_topic_the_nearest_are_named(self):
+        self.write_kinds()
+        run = self.run_export("--topic", "/rover/kind", status=2)
+        self.assertIn("no topic '/rover/kind' (nearest: /rover/kinds, /empty", run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 1)
+        self.assertEqual(len(self.table("rover/kinds")), 2, "the first / may be left out")
+
+    def test_damaged_messages_are_told_and_left_out(self):
+        log = Log()
+        channel = log.channel("/x", "test_msgs/msg/Kinds", KINDS)
+        whole = kinds_message(0, VALUES[0])
+        for size in range(0, len(whole), 7):
+            log.message(channel, 0, whole[:size])
+        huge = Cdr().header(0).add("I", 0xFFFFFFFF).message()
+        named = log.channel("/y", "vinerow_msgs/msg/NamedValues", NAMED)
+        log.message(named, 0, huge)
+        log.message(named, 0, named_message(0, [("a", 1.0)]))
+        log.write(self.log)
+        run = self.run_export("--topic", "/x", "-o", "-")
+        self.assertIn(f"{len(range(0, len(whole), 7))} messages of topic '/x' do not hold", run.stderr)
+        self.assertEqual(len(self.table("/y")), 1)
+
+    def test_text_that_is_no_utf8_is_replaced(self):
+        log = Log()
+        channel = log.channel("/x", "test_msgs/msg/Text", "string words\n")
+        for word in [b"\xff\xc0\xafend", b"\xed\xa0\x80", "€𝄞".encode(), b"cut \xe2\x82"]:
+            log.message(channel, 0, Cdr().text(word).message())
+        log.write(self.log)
+        wanted = [w.decode(errors="replace") for w in [b"\xff\xc0\xafend", b"\xed\xa0\x80", "€𝄞".encode()]]
+        # Python makes one mark of a cut sequence, we one of each byte.
+        wanted.append("cut \ufffd\ufffd")
+        self.assertEqual([r["words"] for r in self.table("/x")], wanted)
+        self.assertEqual(self.arrays("/x")["words"].tolist(), wanted)
+
+    def test_definitions_that_cannot_be_read_are_refused_in_one_sentence(self):
+        cases = {
+            "a/B x\n": "names the type 'a/B', which it does not hold",
+            "float64\n": "has the line 'float64', must be a type and a name",
+            "a/B x\n===\nMSG: a/B\na/B again\n": "has the type 'a/B', which holds itself",
+            "float64[x] y\n": "has the type 'float64[x]'",
+            "a/T0 x\n" + "".join(f"===\nMSG: a/T{i}\na/T{i + 1} x\n" for i in range(100)): "is deeper than 64",
+        }
+        for definition, words in cases.items():
+            log = Log()
+            log.channel("/x", "test_msgs/msg/Bad", definition)
+            log.write(self.log)
+            run = self.run_export("--topic", "/x", "-o", "-", status=2)
+            self.assertIn(words, run.stderr)
+            self.assertEqual(run.stderr.count("\n"), 1)
+
+    def test_a_table_of_too_many_columns_is_refused_and_left_out_of_patterns(self):
+        log = Log()
+        channel = log.channel("/map", "test_msgs/msg/Map", "int8[] data\n")
+        log.message(channel, 0, Cdr().add("I", 70_000).add("b", *([-1] * 70_000)).message())
+        log.write(self.log)
+        run = self.run_export("--topic", "/map", "-o", "-", status=2)
+        self.assertIn("/map: has 70003 columns", run.stderr)
+        self.assertIn("left out /map", self.run_export("--topic", "/m*").stderr)
+        self.assertEqual(self.arrays("/map")["data"].shape, (1, 70_000))
+        self.assertEqual(len(self.table("/map", "--long")), 70_000)
+
+    def test_formats_that_do_not_fit_the_file_are_refused(self):
+        self.write_kinds()
+        for arguments in [["--npz", "-o", "x.csv"], ["--csv", "-o", "x.npz"], ["--npz", "-o", "-"]]:
+            self.assertIn("must be", self.run_export("--topic", "/empty", *arguments, status=2).stderr)
+        self.assertIn("one file for 2 topics", self.run_export("--topic", "*", "-o", "x.csv", status=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,13 @@
+#pragma once
+/// JSON files of runs and maps, as the comparisons read them.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace vinerow::tools {
+
+/// @throws ConfigError "runs/x/summary.json: cannot be read" | "...: is not JSON" | "...: must be
+/// an object"
+nlohmann::ordered_json read_json_file(const std::filesystem::path& file);
+
+}  // namespace vinerow::tools

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/error.h"
+#include "engine/core/whole_file.h"
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/compare/compare_maps.h"
+#include "tools/vinerow/compare/compare_runs.h"
+
+namespace vinerow::tools {
+namespace {
+
+struct CompareArguments {
+  std::vector<std::filesystem::path> folders;
+  std::filesystem::path geojson;
+  bool json = false, all = false;
+  double tolerance = 0.0, reach_m = 0.0;
+  std::string fail_on = "none";
+};
+
+enum class FolderKind { kRun, kMap };
+
+FolderKind kind_of_folder(const std::filesystem::path& folder) {
+  if (std::filesystem::is_regular_file(folder / "summary.json")) return FolderKind::kRun;
+  if (std::filesystem::is_regular_file(folder / "map.json")) return FolderKind::kMap;
+  throw ConfigError(fmt::format(
+      "{}: holds neither summary.json nor map.json, so it is no folder of a run or of a map",
+      folder.string()));
+}
+
+int compare_run_folders(const CompareArguments& arguments) {
+  if (!arguments.geojson.empty() || arguments.reach_m > 0.0) {
+    throw ConfigError("compare: --geojson and --reach are for maps, and these are runs");
+  }
+  const RunComparison comparison = compare_runs(arguments.folders, arguments.tolerance);
+  if (arguments.json) {
+    fmt::print("{}\n", comparison_json(comparison).dump(1));
+  } else {
+    fmt::print("{}", comparison_text(comparison, arguments.all));
+  }
+  const bool worse = !comparison.regressions.empty();
+  const bool other = worse || comparison.differences > 0;
+  if (arguments.fail_on == "regression") return worse ? 1 : 0;
+  return arguments.fail_on == "difference" && other ? 1 : 0;
+}
+
+int compare_map_folders(const CompareArguments& arguments) {
+  if (arguments.folders.size() != 2) {
+    throw ConfigError(
+        fmt::format("compare: {} maps are given, must be two", arguments.folders.size()));
+  }
+  if (arguments.fail_on != "none" || arguments.tolerance > 0.0 || arguments.all) {
+    throw ConfigError("compare: --fail-on, --tolerance and --all are for runs, and these are maps");
+  }
+  const MapComparison comparison =
+      compare_maps(arguments.folders[0], arguments.folders[1], arguments.reach_m);
+  if (!arguments.geojson.empty()) {
+    const std::string geojson = comparison_geojson(comparison);
+    if (!arguments.geojson.parent_path().empty()) {
+      std::filesystem::create_directories(arguments.geojson.parent_path());
+    }
+    write_whole_file(arguments.geojson, geojson);
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", comparison_json(comparison).dump(1));
+  } else {
+    fmt::print("{}", comparison_text(comparison));
+    if (!arguments.geojson.empty()) fmt::print("geojson  {}\n", arguments.geojson.string());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "compare runs by their metrics and verdicts, or two maps row by row");
+  command
+      ->add_option(
+          "folders", arguments->folders,
+          "folders of runs, the first is what the others are held against; or two folders of maps")
+      ->required()
+      ->expected(2, 1000);
+  command->add_flag("--json", arguments->json, "as JSON");
+  command->add_flag("--all", arguments->all, "of runs: also metrics that do not differ");
+  command
+      ->add_option("--tolerance", arguments->tolerance,
+                   "of runs: metrics that differ by no more than this fraction are the same")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--fail-on", arguments->fail_on,
+                   "of runs: end with exit status 1 where a criterion or phase that the first run "
+                   "met is not met (regression), or also where a metric differs (difference)")
+      ->check(CLI::IsMember({"none", "regression", "difference"}))
+      ->capture_default_str();
+  command->add_option("--geojson", arguments->geojson,
+                      "of maps: write the rows with what changed to this file");
+  command
+      ->add_option("--reach", arguments->reach_m,
+                   "of maps: rows no farther apart than this, m, are the same (default: half the "
+                   "distance between rows)")
+      ->check(CLI::PositiveNumber);
+  command->callback([arguments, &exit_status] {
+    const FolderKind kind = kind_of_folder(arguments->folders.front());
+    for (const std::filesystem::path& folder : arguments->folders) {
+      if (kind_of_folder(folder) == kind) continue;
+      throw ConfigError(fmt::format("compare: {} is the folder of a {}, {} that of a {}",
+                                    arguments->folders.front().string(),
+                                    kind == FolderKind::kRun ? "run" : "map", folder.string(),
+                                    kind == FolderKind::kRun ? "map" : "run"));
+    }
+    exit_status = kind == FolderKind::kRun ? compare_run_folders(*arguments)
+                                           : compare_map_folders(*arguments);
+  });
+}
+
+}  // namespace vinerow::tools

@@ -1,0 +1,23 @@
+#include <fmt/format.h>
+
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/completion.h"
+
+namespace vinerow::tools {
+
+void add_completion_command(CLI::App& app, int& exit_status) {
+  auto shell = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "completion", "print the script by which a shell completes this program's words");
+  command->add_option("shell", *shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  command->callback([&app, shell, &exit_status] {
+    fmt::print("{}", *shell == "bash"  ? bash_completion(app)
+                     : *shell == "zsh" ? zsh_completion(app)
+                                       : fish_completion(app));
+    exit_status = 0;
+  });
+}
+
+}  // namespace vinerow::tools

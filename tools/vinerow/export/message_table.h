@@ -1,0 +1,94 @@
+#pragma once
+/// The messages of one topic as rows and columns, decoded by the definition in the log.
+///
+/// A field is a column, named by its way through the message: "pose.pose.position.x". Of an array
+/// (float64[36]) and of a sequence of numbers a column holds several values in each row. A message
+/// with a sequence of messages (a path, transforms) gives a row for each element, as pandas'
+/// explode() does: its sequences run along together, everything else stands in each of these rows.
+/// Instants and durations are seconds. Names and values in two sequences (NamedValues) give a
+/// column for each name.
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/record/cdr.h"
+#include "engine/record/ros_schema.h"
+
+namespace vinerow::tools {
+
+struct TableColumn {
+  std::string name;
+  record::RosKind kind = record::RosKind::kFloat64;
+  bool list = false;                  ///< several values in a row
+  std::vector<std::uint32_t> counts;  ///< values in each row; 0: the row has none
+  std::string numbers;                ///< their bytes, one after the other; of text empty
+  std::vector<std::string> texts;     ///< likewise; valid UTF-8
+
+  /// Values in the row that has most.
+  std::size_t width() const;
+};
+
+struct TableRow {
+  std::int64_t stamp_ns = 0;   ///< the message's own stamp
+  std::int64_t logged_ns = 0;  ///< when it was recorded
+  std::uint32_t element = 0;   ///< of the message's sequences
+};
+
+class MessageTable {
+ public:
+  /// @param long_form  a row for each element of any sequence, also of numbers
+  MessageTable(record::RosSchema schema, bool long_form);
+
+  /// @param stamp_ns  where the message has no header
+  /// @returns false, and adds nothing, where the bytes hold no such message
+  bool add(std::int64_t stamp_ns, std::int64_t logged_ns, std::span<const std::uint8_t> message);
+
+  /// Whether a message may give several rows.
+  bool has_elements() const { return rows_of_elements_; }
+  const std::vector<TableRow>& rows() const { return rows_; }
+  const std::vector<TableColumn>& columns() const { return columns_; }
+
+ private:
+  static constexpr int kEveryRow = -1;
+  /// Values of one column in one message.
+  struct Leaf {
+    std::size_t column = 0;
+    int row = kEveryRow;
+    std::uint32_t count = 0;
+    std::size_t from = 0;  ///< in the scratch numbers or texts
+  };
+
+  const record::RosMessageType& type(std::size_t index) const { return schema_.messages[index]; }
+  bool has_sequence(std::size_t type_index, bool of_numbers_too) const;
+  void announce(std::size_t type_index, const std::string& prefix, bool in_element);
+  std::size_t column(const std::string& name, record::RosKind kind, bool list);
+  /// @returns the stamp
+  std::int64_t decode_header(record::CdrReader& in);
+  void decode_named_values(record::CdrReader& in);
+  void decode(record::CdrReader& in, std::size_t type_index, const std::string& prefix, int row);
+  void decode_messages(record::CdrReader& in, const record::RosField& field,
+                       const std::string& name, int row);
+  void decode_values(record::CdrReader& in, const record::RosField& field, const std::string& name,
+                     int row);
+  void take(record::CdrReader& in, std::size_t column, int row, std::uint32_t count);
+  void keep(std::uint32_t row_count);
+  void append(const Leaf& leaf, std::size_t row);
+
+  record::RosSchema schema_;
+  bool has_header_ = false;
+  bool rows_of_elements_ = false;
+  bool named_values_ = false;
+  std::vector<TableColumn> columns_;
+  std::map<std::string, std::size_t> places_;  ///< of columns, by name
+  std::vector<TableRow> rows_;
+  // Of the message at hand.
+  std::vector<Leaf> leaves_;
+  std::string numbers_;
+  std::vector<std::string> texts_;
+  std::uint32_t elements_ = 0;
+};
+
+}  // namespace vinerow::tools

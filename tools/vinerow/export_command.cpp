@@ -1,0 +1,234 @@
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "engine/core/error.h"
+#include "engine/core/files.h"
+#include "engine/core/suggest.h"
+#include "engine/core/whole_file.h"
+#include "engine/record/mcap_reader.h"
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/export/message_table.h"
+#include "tools/vinerow/export/table_files.h"
+
+namespace vinerow::tools {
+namespace {
+
+struct ExportArguments {
+  std::filesystem::path log, out;
+  std::vector<std::string> topics;
+  bool csv = false, npz = false, long_form = false;
+  double from_s = -std::numeric_limits<double>::infinity();
+  double to_s = std::numeric_limits<double>::infinity();
+};
+
+/// The topics of a log by name; one that stands twice (several writers) is joined.
+std::map<std::string, std::vector<const record::McapChannel*>> topics_of(
+    const record::McapReader& log) {
+  std::map<std::string, std::vector<const record::McapChannel*>> topics;
+  for (const auto& [id, channel] : log.channels()) topics[channel.topic].push_back(&channel);
+  return topics;
+}
+
+/// Whether a channel only holds what the standard type of another cannot.
+bool is_exact_twin(const record::McapChannel& channel) {
+  return std::any_of(channel.metadata.begin(), channel.metadata.end(),
+                     [](const auto& entry) { return entry.first == "exact_of"; });
+}
+
+/// "nearest: /rover/follower, /rover/estimate; 'vinerow info x.mcap' lists all 152"
+std::string topics_near(const std::string& wanted, std::vector<std::string> known,
+                        const std::filesystem::path& log) {
+  const std::size_t count = known.size();
+  constexpr std::size_t kShown = 5;
+  std::stable_sort(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+    return edit_distance(wanted, a) < edit_distance(wanted, b);
+  });
+  if (known.size() > kShown) known.resize(kShown);
+  return fmt::format("nearest: {}; 'vinerow info {}' lists all {}", join(known), log.string(),
+                     count);
+}
+
+struct ChosenTopic {
+  std::string name;
+  bool by_pattern = false;
+};
+
+std::vector<ChosenTopic> chosen_topics(const record::McapReader& log,
+                                       const ExportArguments& arguments) {
+  std::vector<std::string> known;
+  std::vector<ChosenTopic> chosen;
+  // Exact twins are taken where they are named.
+  std::vector<std::string> shown;
+  for (const auto& [topic, channels] : topics_of(log)) {
+    known.push_back(topic);
+    if (!is_exact_twin(*channels.front())) shown.push_back(topic);
+  }
+  const auto choose = [&](const std::string& topic, bool by_pattern) {
+    const bool again = std::any_of(chosen.begin(), chosen.end(),
+                                   [&](const ChosenTopic& before) { return before.name == topic; });
+    if (!again) chosen.push_back({topic, by_pattern});
+  };
+  for (const std::string& given : arguments.topics) {
+    const std::string wanted =
+        given.starts_with('/') || given.starts_with('*') ? given : "/" + given;
+    if (std::find(known.begin(), known.end(), wanted) != known.end()) {
+      choose(wanted, false);
+      continue;
+    }
+    const std::size_t before = chosen.size();
+    for (const std::string& topic : wanted.ends_with("/exact") ? known : shown) {
+      if (fnmatch(wanted.c_str(), topic.c_str(), 0) == 0) choose(topic, true);
+    }
+    if (chosen.size() > before) continue;
+    throw ConfigError(fmt::format("{}: no topic '{}' ({})", arguments.log.string(), given,
+                                  topics_near(wanted, shown, arguments.log)));
+  }
+  return chosen;
+}
+
+MessageTable table_of(record::McapReader& log, const std::string& topic,
+                      const ExportArguments& arguments) {
+  const auto channels = topics_of(log).at(topic);
+  std::set<std::uint16_t> ids;
+  const record::McapSchema* schema = nullptr;
+  for (const record::McapChannel* channel : channels) {
+    const auto found = log.schemas().find(channel->schema);
+    if (channel->encoding != "cdr" || found == log.schemas().end() ||
+        found->second.encoding != "ros2msg") {
+      throw ConfigError(
+          fmt::format("{}: topic '{}' holds messages of encoding '{}', must be 'cdr' "
+                      "with a definition of encoding 'ros2msg'",
+                      arguments.log.string(), topic, channel->encoding));
+    }
+    if (schema && found->second.data != schema->data) {
+      throw ConfigError(fmt::format("{}: topic '{}' holds messages of two types, {} and {}",
+                                    arguments.log.string(), topic, schema->name,
+                                    found->second.name));
+    }
+    schema = &found->second;
+    ids.insert(channel->id);
+  }
+  MessageTable table(record::RosSchema::parse(schema->name, schema->data), arguments.long_form);
+  std::uint64_t undecoded = 0;
+  log.for_each_message(ids, [&](const record::McapMessage& message) {
+    const auto stamp_ns = static_cast<std::int64_t>(message.publish_time);
+    const double stamp_s = static_cast<double>(stamp_ns) / 1e9;
+    if (stamp_s < arguments.from_s || stamp_s > arguments.to_s) return;
+    const auto logged_ns = static_cast<std::int64_t>(message.log_time);
+    undecoded += table.add(stamp_ns, logged_ns, message.data) ? 0 : 1;
+  });
+  if (undecoded > 0) {
+    fmt::print(stderr, "vinerow: {}: {} messages of topic '{}' do not hold {} and were left out\n",
+               arguments.log.string(), undecoded, topic, schema->name);
+  }
+  return table;
+}
+
+/// "rover_follower" of "/rover/follower", each once.
+std::string file_stem(const std::string& topic, std::set<std::string>& taken) {
+  std::string stem;
+  for (const char c : topic.substr(topic.starts_with('/') ? 1 : 0)) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    stem += plain || c == '-' ? c : '_';
+  }
+  constexpr std::size_t kLongest = 100;
+  stem = stem.empty() ? "topic" : stem.substr(0, kLongest);
+  std::string name = stem;
+  for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", stem, i);
+  return name;
+}
+
+/// What -o says of the format. @returns whether it names one file
+bool read_out(ExportArguments& arguments) {
+  const std::string ending = lower_extension(arguments.out);
+  const bool to_stdout = arguments.out == "-";
+  const bool one_file = to_stdout || ending == ".csv" || ending == ".npz";
+  if (ending == ".csv" && arguments.npz) {
+    throw ConfigError("export: --npz and a file .csv (-o) do not fit, must be a folder or .npz");
+  }
+  if (ending == ".npz" && arguments.csv) {
+    throw ConfigError("export: --csv and a file .npz (-o) do not fit, must be a folder or .csv");
+  }
+  if (to_stdout && arguments.npz) {
+    throw ConfigError("export: --npz cannot go to the terminal, -o must be a file or a folder");
+  }
+  if (ending == ".npz") arguments.npz = true;
+  if (!arguments.npz) arguments.csv = true;
+  return one_file;
+}
+
+void write_table(const MessageTable& table, const std::filesystem::path& file,
+                 const std::string& bytes) {
+  if (!file.parent_path().empty()) std::filesystem::create_directories(file.parent_path());
+  write_whole_file(file, bytes);
+  fmt::print("{}  {} rows\n", file.string(), table.rows().size());
+}
+
+void export_topics(ExportArguments arguments) {
+  const bool one_file = read_out(arguments);
+  arguments.log = log_of(arguments.log);
+  record::McapReader log(arguments.log);
+  const std::vector<ChosenTopic> topics = chosen_topics(log, arguments);
+  if (one_file && topics.size() > 1) {
+    throw ConfigError(fmt::format("export: -o '{}' is one file for {} topics, must be a folder",
+                                  arguments.out.string(), topics.size()));
+  }
+  const std::filesystem::path folder =
+      arguments.out.empty() ? arguments.log.parent_path() / "export" : arguments.out;
+  std::set<std::string> taken;
+  const auto export_one = [&](const std::string& topic) {
+    const MessageTable table = table_of(log, topic, arguments);
+    const std::string stem = file_stem(topic, taken);
+    const auto file = [&](const char* ending) {
+      return one_file ? arguments.out : folder / (stem + ending);
+    };
+    if (arguments.out == "-") return fmt::print("{}", csv_of(table, topic));
+    if (arguments.csv) write_table(table, file(".csv"), csv_of(table, topic));
+    if (arguments.npz) write_table(table, file(".npz"), npz_of(table, topic));
+  };
+  for (const ChosenTopic& topic : topics) {
+    try {
+      export_one(topic.name);
+    } catch (const TableTooLarge& error) {
+      // Whoever asks for everything wants what can be had.
+      if (!topic.by_pattern) throw;
+      fmt::print(stderr, "vinerow: left out {}\n", error.what());
+    }
+  }
+  for (const std::string& warning : log.warnings()) {
+    fmt::print(stderr, "vinerow: {}\n", warning);
+  }
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, int& exit_status) {
+  auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command =
+      app.add_subcommand("export", "write topics of a log as tables: CSV, or arrays for numpy");
+  command->add_option("log", arguments->log, "log.mcap of a run, or the run's folder")->required();
+  command
+      ->add_option("--topic", arguments->topics,
+                   "this topic, or all that fit a pattern: '/rover/*' (may be given several times)")
+      ->required()
+      ->allow_extra_args(false);
+  command->add_flag("--csv", arguments->csv, "comma-separated (the default)");
+  command->add_flag("--npz", arguments->npz, "arrays for numpy.load()");
+  command->add_option("-o,--out", arguments->out,
+                      "file .csv or .npz, - for the terminal, or a folder (default: export beside "
+                      "the log)");
+  command->add_option("--from", arguments->from_s, "no earlier than this simulated time, s");
+  command->add_option("--to", arguments->to_s, "no later than this, s");
+  command->add_flag("--long", arguments->long_form,
+                    "a row for each element of a message's sequences, also of numbers");
+  command->callback([arguments, &exit_status] {
+    export_topics(*arguments);
+    exit_status = 0;
+  });
+}
+
+}  // namespace vinerow::tools

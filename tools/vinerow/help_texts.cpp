@@ -1,0 +1,102 @@
+#include "tools/vinerow/help_texts.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+#include "engine/core/check.h"
+
+namespace vinerow::tools {
+namespace {
+
+struct HelpText {
+  std::string_view command;
+  const char* group;
+  std::string_view examples;  ///< a line each, without "vinerow"
+  std::string_view statuses;  ///< "": as most commands
+};
+
+constexpr const char* kSimulate = "Simulate";
+constexpr const char* kLook = "Look at a run";
+constexpr const char* kTables = "Numbers of runs and maps";
+constexpr const char* kSurvey = "Surveys and maps";
+constexpr const char* kParts = "Parts and files";
+
+constexpr std::string_view kUsualStatuses =
+    "0 done, 2 bad input (one sentence says what and where), 3 it broke off or could not be stored";
+
+constexpr std::array kHelpTexts = {
+    HelpText{"run", kSimulate,
+             "run assets/scenarios/riseholme_rover.yaml --out runs/x\n"
+             "run my.yaml --set rover.controller.speed_mps=0.8 --seed 3 --no-pictures",
+             "0 all criteria met, 1 a criterion or a phase failed or a vehicle crashed, 2 bad "
+             "input, 3 the simulation broke off or something could not be stored"},
+    HelpText{"validate", kSimulate, "validate my.yaml\nvalidate my.yaml --files-only",
+             "0 valid, 2 not valid (one sentence says what and where)"},
+    HelpText{"report", kLook, "report runs/x\nreport runs/x --out page.html", ""},
+    HelpText{"replay", kLook, "replay runs/x --out replay.html", ""},
+    HelpText{"render", kLook,
+             "render runs/x --camera chase --every 5\n"
+             "render runs/x --camera kind=top,height_m=60 --from 100 --to 200 --every 10",
+             ""},
+    HelpText{"video", kLook,
+             "video runs/x -o drive.mp4 --from 60 --to 90\n"
+             "video runs/x -o fast.mp4 --camera kind=chase,vehicle=rover,distance_m=4 --speed 8",
+             ""},
+    HelpText{"coverage", kLook, "coverage runs/survey --out coverage.png", ""},
+    HelpText{"info", kTables, "info runs/x/log.mcap", ""},
+    HelpText{"export", kTables,
+             "export runs/x --topic /rover/follower -o follower.csv\n"
+             "export runs/x --topic '/rover/*' --npz -o arrays",
+             ""},
+    HelpText{"compare", kTables,
+             "compare runs/before runs/after --fail-on regression\n"
+             "compare maps/may maps/august --geojson growth.geojson",
+             "0 done, 1 what --fail-on asks for, 2 bad input"},
+    HelpText{"survey", kSurvey,
+             "survey assets/scenarios/survey_still.yaml --out plans\n"
+             "survey --polygon field.geojson --dem dem.tif --height_m 60 --rotorcraft",
+             ""},
+    HelpText{"cloud", kSurvey, "cloud assets/scenarios/map_parcel.yaml --out parcel.las", ""},
+    HelpText{"map", kSurvey, "map parcel.las --out maps/parcel", ""},
+    HelpText{"grid", kSurvey, "grid assets/scenarios/vineyard_4ws_two_rows.yaml --out maps/grid",
+             ""},
+    HelpText{"trim", kParts, "trim assets/vehicles/mh900_like.yaml --json", ""},
+    HelpText{"list", kParts, "list\nlist controller\nlist pure_pursuit", ""},
+    HelpText{"schema", kParts, "schema > vinerow.schema.json", ""},
+    HelpText{"completion", kParts,
+             "completion bash > ~/.local/share/bash-completion/completions/vinerow", ""},
+};
+
+/// "Examples:", the lines, and the exit statuses.
+std::string footer_of(const HelpText& text) {
+  std::string footer = "Examples:\n";
+  for (std::string_view rest = text.examples; !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    footer += fmt::format("  vinerow {}\n", line);
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+  }
+  return footer +
+         fmt::format("\nExit status: {}\n", text.statuses.empty() ? kUsualStatuses : text.statuses);
+}
+
+}  // namespace
+
+void add_help_texts(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands(nullptr)) {
+    const HelpText* found = nullptr;
+    for (const HelpText& text : kHelpTexts) {
+      if (text.command == command->get_name()) found = &text;
+    }
+    VINEROW_DEMAND(found);
+    command->group(found->group);
+    command->footer(footer_of(*found));
+  }
+  app.footer(fmt::format(
+      "Begin with:\n  vinerow run assets/scenarios/riseholme_rover.yaml --out runs/x\n"
+      "  vinerow COMMAND --help\n\nExit status: {}; of 'run' 1 where a criterion or phase failed\n",
+      kUsualStatuses));
+}
+
+}  // namespace vinerow::tools

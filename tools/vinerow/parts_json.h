@@ -1,0 +1,14 @@
+#pragma once
+/// A part with its parameters, for programs.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "engine/api/registry.h"
+
+namespace vinerow::tools {
+
+/// Limits and defaults that a parameter does not have are left out. @pre the registry has the part
+nlohmann::ordered_json part_json(const Registry& registry, PartKind kind, const std::string& name);
+
+}  // namespace vinerow::tools

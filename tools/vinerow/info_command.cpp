@@ -7,7 +7,8 @@ namespace vinerow::tools {
 
 void add_info_command(CLI::App& app, int& exit_status) {
   auto file = std::make_shared<std::filesystem::path>();
-  CLI::App* command = app.add_subcommand("info", "summarise a log: topics, types, how many messages");
+  CLI::App* command =
+      app.add_subcommand("info", "summarise a log: topics, types, how many messages");
   command->add_option("log", *file, "log.mcap of a run, complete or cut off")->required();
   command->callback([file, &exit_status] {
     const record::LogReader reader(*file);

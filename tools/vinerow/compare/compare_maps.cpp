@@ -208,7 +208,7 @@ MapComparison compare_maps(const std::filesystem::path& a, const std::filesystem
 
 std::string comparison_text(const MapComparison& comparison) {
   std::vector<std::vector<std::string>> table = {{"row in A", "in B", "volume A m3", "volume B m3",
-                                                  "B - A m3", "share", "top A m", "top B m",
+                                                  "B - A m3", "change", "top A m", "top B m",
                                                   "offset m"}};
   std::size_t matched = 0;
   for (const ComparedMapRow& row : comparison.rows) {

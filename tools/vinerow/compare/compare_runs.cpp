@@ -207,7 +207,7 @@ std::string comparison_text(const RunComparison& comparison, bool all) {
   std::vector<std::vector<std::string>> table = {{"metric"}};
   for (std::size_t r = 0; r < count; ++r) table.front().push_back(letter_of(r));
   for (std::size_t r = 1; r < count; ++r) {
-    table.front().insert(table.front().end(), {letter_of(r) + " - A", "share"});
+    table.front().insert(table.front().end(), {letter_of(r) + " - A", "change"});
   }
   for (const ComparedMetric& metric : comparison.metrics) {
     if (!all && !metric.differs) continue;

@@ -36,7 +36,7 @@ constexpr float kTrailAlpha = 0.9f;
 /// A line that fades has points so close that its ends are not seen.
 constexpr double kFadeStep_s = 0.5;
 
-double length_m(const std::vector<Eigen::Vector3d>& points) {
+double trail_length_m(const std::vector<Eigen::Vector3d>& points) {
   double sum_m = 0.0;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) sum_m += (points[i + 1] - points[i]).norm();
   return sum_m;
@@ -244,7 +244,7 @@ void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::F
       trail.fade.push_back(static_cast<float>(
           std::clamp((kTrailGone_s - age_s) / (kTrailGone_s - kTrailFades_s), 0.0, 1.0)));
     }
-    if (length_m(trail.points_W) < kTrailPitch_m) continue;
+    if (trail_length_m(trail.points_W) < kTrailPitch_m) continue;
     if (fades) {
       // Where it crosses itself what was drawn first is seen: the latest.
       std::reverse(trail.points_W.begin(), trail.points_W.end());

@@ -173,7 +173,7 @@ void add_row_bar(const WorldModel& world, const PlantRow& row, double step_m, Sc
   if (before) add_quad(*before, *before + 1, *before + 2, *before + 3, out);
 }
 
-double length_m(const PlantRow& row) {
+double row_line_length_m(const PlantRow& row) {
   double sum_m = 0.0;
   for (std::size_t i = 0; i + 1 < row.line_W.size(); ++i) {
     sum_m += (row.line_W[i + 1] - row.line_W[i]).norm();
@@ -198,7 +198,7 @@ SceneTriangles canopy_of(const WorldModel& world, const SceneLimits& limits) {
     return canopy;
   }
   double row_length_m = 0.0;
-  for (const PlantRow& row : world.rows->rows) row_length_m += length_m(row);
+  for (const PlantRow& row : world.rows->rows) row_length_m += row_line_length_m(row);
   // Four points a section.
   const double step_m =
       std::max(2.0, 4.0 * row_length_m / static_cast<double>(limits.canopy_points));

@@ -123,11 +123,12 @@ class EventFile final : public RunObserver {
     const char* level = event.level == Event::Level::kInfo      ? "info"
                         : event.level == Event::Level::kWarning ? "warning"
                                                                 : "error";
-    const std::string line =
-        nlohmann::ordered_json{
-            {"t_s", now.s()}, {"level", level}, {"source", event.source}, {"text", event.text}}
-            .dump() +
-        "\n";
+    const std::string line = nlohmann::ordered_json{{"t_s", static_cast<double>(now.ns) / 1e9},
+                                                    {"level", level},
+                                                    {"source", event.source},
+                                                    {"text", event.text}}
+                                 .dump() +
+                             "\n";
     if (error_number_) return;
     // Flushed line by line: a killed run's events stay readable.
     errno = 0;

@@ -15,11 +15,11 @@ FOLDERS = ["engine", "vehicles", "worlds", "controllers", "tools", "tests"]
 EXTRA = [ROOT, ROOT / "tools/testing/include"]
 
 MOST = {
-    "engine/api/map.h": 210,
-    "engine/api/world_model.h": 245,
-    "engine/api/mesh.h": 395,
-    "engine/api/height_field.h": 372,
-    "engine/api/messages.h": 85,
+    "engine/api/map.h": 212,
+    "engine/api/world_model.h": 249,
+    "engine/api/mesh.h": 399,
+    "engine/api/height_field.h": 375,
+    "engine/api/messages.h": 92,
 }
 
 PRECOMPILED = [ROOT / "cmake/targets.cmake", ROOT / "tests/CMakeLists.txt"]

@@ -134,8 +134,6 @@ constexpr Entry kMetrics[] = {
      "Root mean square of the true height minus the reference's, on lanes and turns", kAir},
     {"height_error_max_m", "largest height error",
      "Largest true height minus the reference's, on lanes and turns", kAir},
-    {"landing_distance_m", "distance from the landing place",
-     "True distance from where it should have landed to where it lies", ""},
     {"airspeed_error_rms_mps", "typical airspeed error",
      "Root mean square of the true airspeed minus the reference's", kAir},
     {"heading_error_rms_deg", "typical heading error",

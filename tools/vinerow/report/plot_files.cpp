@@ -33,18 +33,28 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
   return text;
 }
 
-/// ":root" colours of a light page, by name: "--ink".
-std::map<std::string, std::string> light_colours(std::string_view style) {
-  std::map<std::string, std::string> colours;
-  std::string_view rest = between(style, ":root {", "}");
-  while (!rest.empty()) {
-    const std::string_view declaration = rest.substr(0, rest.find(';'));
-    rest.remove_prefix(std::min(declaration.size() + 1, rest.size()));
+/// Adds the colours that a rule's declarations give, by name: "--ink".
+void add_colours(std::string_view declarations, std::map<std::string, std::string>& colours) {
+  while (!declarations.empty()) {
+    const std::string_view declaration = declarations.substr(0, declarations.find(';'));
+    declarations.remove_prefix(std::min(declaration.size() + 1, declarations.size()));
     const std::size_t name = declaration.find("--"), colon = declaration.find(':');
     if (name == kNowhere || colon == kNowhere || colon < name) continue;
     const std::size_t value = declaration.find_first_not_of(' ', colon + 1);
     if (value == kNowhere) continue;
     colours[std::string(declaration.substr(name, colon - name))] = declaration.substr(value);
+  }
+}
+
+/// Colours of ":root" on a light page; those inside other rules are of other media.
+std::map<std::string, std::string> light_colours(std::string_view style) {
+  std::map<std::string, std::string> colours;
+  int depth = 0;
+  for (std::size_t i = 0; i < style.size(); ++i) {
+    if (style[i] == '{' && depth++ == 0 && style.substr(0, i).ends_with(":root ")) {
+      add_colours(style.substr(i + 1, style.find('}', i) - i - 1), colours);
+    }
+    if (style[i] == '}') --depth;
   }
   return colours;
 }
@@ -64,7 +74,8 @@ std::string plain_selector(std::string selector) {
 
 /// The page's rules for pictures, with plain colours in place of variables.
 std::string plain_style() {
-  const std::string_view style = report::page_style();
+  const std::string page = report::page_style();
+  const std::string_view style = page;
   const std::map<std::string, std::string> colours = light_colours(style);
   std::string plain;
   // Rules of other media stand at the style's begin; those of pictures are for all.
@@ -104,6 +115,7 @@ std::string plain_style() {
     };
     for (int i = 0; i < 8; ++i) {
       add_own(fmt::format("s{}", i), fmt::format("--s{}", i).c_str());
+      add_own(fmt::format("v{}", i), fmt::format("--v{}", i).c_str());
     }
     add_own("ref", "--ink");
   }

@@ -20,7 +20,7 @@ constexpr double kLow_m = 6.0;
 constexpr double kPassed = 0.5;
 constexpr std::size_t kMostNamed = 6;
 
-PolylineDistance line_of(const std::vector<Eigen::Vector3d>& points) {
+PolylineDistance row_line_of(const std::vector<Eigen::Vector3d>& points) {
   std::vector<Eigen::Vector2d> line;
   for (const Eigen::Vector3d& p : points) line.push_back(p.head<2>());
   return PolylineDistance(std::move(line));
@@ -65,7 +65,7 @@ std::vector<RowFace> row_faces(const RunFolder& run, const VehicleLog& vehicle) 
   if (reach_m <= 0.0) reach_m = kReach_m;
   for (const PlantRow& row : run.world->rows->rows) {
     if (row.line_W.size() < 2) continue;
-    const PolylineDistance line = line_of(row.line_W);
+    const PolylineDistance line = row_line_of(row.line_W);
     Passed left(line.length_m()), right(line.length_m());
     for (const Odometry& truth : vehicle.truth.values) {
       const auto at = line.nearest(truth.X_WB.p.head<2>());

@@ -337,6 +337,39 @@ TEST(RowHull, BudgetIsKeptOverAllRows) {
   }
 }
 
+// Sections between swellings are taken away first on a small budget: the straight sides that then
+// pass under or over a swelling must not be bought by moving the sides of the whole row.
+TEST(RowHull, ARowThatSwellsKeepsItsVolumeOnASmallBudget) {
+  const auto radius_m = [](double s_m) {
+    const double from_swelling_m = std::remainder(s_m - 1.5, 3.0);
+    return 0.25 + 0.25 * std::exp(-from_swelling_m * from_swelling_m / (0.4 * 0.4));
+  };
+  const auto octagon = [&](double s_m) {
+    std::vector<Eigen::Vector2d> corners;
+    for (int k = 0; k < 8; ++k) {
+      const double angle = (k + 0.5) * kPi / 4.0;
+      corners.emplace_back(radius_m(s_m) * std::cos(angle), 1.0 + radius_m(s_m) * std::sin(angle));
+    }
+    return corners;
+  };
+  constexpr double kLength_m = 24.0;
+  double volume_m3 = 0.0;  // an octagon in a circle: 2 sqrt(2) r^2; midpoint rule
+  constexpr int kPieces = 24'000;
+  for (int i = 0; i < kPieces; ++i) {
+    const double r_m = radius_m((i + 0.5) * kLength_m / kPieces);
+    volume_m3 += 2.0 * std::sqrt(2.0) * r_m * r_m * kLength_m / kPieces;
+  }
+  const RowCanopy row = row_of(octagon, 0.0, kLength_m, {.per_m2 = 1500.0, .noise_m = 0.015});
+  for (const double bytes_per_m : {1300.0, 700.0, 400.0}) {
+    RowHullOptions options;
+    options.budget_bytes_per_m = bytes_per_m;
+    const RowHulls hulls = hulls_of(row, options);
+    double mesh_m3 = 0.0;
+    for (const TriangleMesh& mesh : hulls.meshes_W) mesh_m3 += mesh_volume_m3(mesh);
+    EXPECT_NEAR(mesh_m3 / volume_m3, 1.0, 0.25) << bytes_per_m << " bytes per metre";
+  }
+}
+
 TEST(RowHull, DirectionsAreCloseToTheSmallestPolygon) {
   const auto section = test::ellipse(0.3, 0.7, 1.3, [](double) { return 1.0; });
   const RowCanopy row = row_of(section, 0.0, 5.0, {.per_m2 = 4000.0});

@@ -15,6 +15,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/output_folder.h"
 #include "engine/record/recorder.h"
 #include "engine/sim/canopy_file.h"
 #include "engine/sim/judge.h"
@@ -264,15 +265,6 @@ std::vector<std::string> without_plan(const Simulation& simulation) {
   return names;
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) {
-    throw ConfigError(
-        fmt::format("folder '{}' cannot be made: {}", folder.string(), failed.message()));
-  }
-}
-
 /// What the run came to: numbers, verdicts, status.
 void judge_run(const io::Scenario& scenario, const Session& session, RunResult& result) {
   const Simulation& simulation = session.simulation();
@@ -317,16 +309,9 @@ void draw_pictures(const std::filesystem::path& log, const Registry& registry,
   }
 }
 
-const char* end_by(EndKind kind) {
-  switch (kind) {
-    case EndKind::kStuck:
-      return "ended: a vehicle is stuck";
-    case EndKind::kGaveUp:
-      return "ended: a vehicle gave up";
-    case EndKind::kCrashed:
-      break;
-  }
-  return "ended after a crash";
+std::string end_by(EndKind kind) {
+  return kind == EndKind::kCrashed ? "ended after a crash"
+                                   : fmt::format("ended: a vehicle {}", to_string(kind));
 }
 
 }  // namespace
@@ -356,7 +341,7 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   simulation.scheduler().set_clock(wall_ns, options.measure_cost);
 
   RunResult result;
-  make_folder(options.out);
+  io::make_folder(options.out);
   result.lock = std::make_shared<FolderLock>(options.out);
   clear_earlier_run(options.out);
   // Whatever fills the disk, the verdict has its place.

@@ -114,19 +114,7 @@ ordered_json cost_json(Simulation& simulation) {
   return list;
 }
 
-const char* status_by(EndKind kind) {
-  switch (kind) {
-    case EndKind::kStuck:
-      return "a vehicle is stuck";
-    case EndKind::kGaveUp:
-      return "a vehicle gave up";
-    case EndKind::kCrashed:
-      break;
-  }
-  return "a vehicle crashed";
-}
-
-const char* status_name(const RunResult& result) {
+std::string status_name(const RunResult& result) {
   switch (result.status) {
     case RunStatus::kAllMet:
       return "all criteria met";
@@ -135,7 +123,7 @@ const char* status_name(const RunResult& result) {
         if (phase.state == PhaseState::kFailed) return "a phase failed";
       }
       if (result.crashes.empty()) return "a criterion failed";
-      return status_by(result.crashes.front().kind);
+      return fmt::format("a vehicle {}", to_string(result.crashes.front().kind));
     case RunStatus::kBadInput:
       return "bad input";
     case RunStatus::kBrokenOff:

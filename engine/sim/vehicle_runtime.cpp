@@ -17,11 +17,6 @@
 namespace vinerow {
 namespace {
 
-/// Contacts closer than this in time are one touch.
-constexpr Duration kContactGap{500'000'000};
-/// Envelope of a sane state; beyond it the run has come apart.
-constexpr double kMaxDistance_m = 1e6;
-constexpr double kMaxSpeed_mps = 1e3;
 /// Parameter of metrics that judge pictures: the sensor that takes them.
 constexpr const char* kCamera = "camera";
 /// Diagnostics need no more than a picture does; the recorder thins further.
@@ -32,39 +27,6 @@ Duration diagnostics_period(double rate_Hz, Duration step) {
   const double wanted_ns = 1e9 / rate_Hz;
   return {static_cast<std::int64_t>(std::ceil(wanted_ns / static_cast<double>(step.ns) - 1e-9)) *
           step.ns};
-}
-
-bool is_finite(const Odometry& state) {
-  return state.X_WB.p.allFinite() && state.X_WB.q.coeffs().allFinite() &&
-         state.v_WB_B.allFinite() && state.w_WB_B.allFinite();
-}
-
-/// Ground may be touched: wheels roll on it, and a belly may scrape over a bump. A face steeper
-/// than 45 deg is none, of whatever class: only a friction above 1 would hold a vehicle on it,
-/// which no tyre has on soil, so nothing drives there, and who touches it has run into it. A fence,
-/// a wall or a step that is part of the terrain's mesh is told from the terrain in this way.
-bool is_ground(const physics::Contact& contact) {
-  constexpr double kSteepestNormal_z = 0.70710678118654752;  // cos 45 deg
-  return contact.surface == SurfaceClass::kTerrain &&
-         std::abs(contact.normal_W.z()) >= kSteepestNormal_z;
-}
-
-/// Of the height field and the meshes of class terrain; of all that is rigid where there are none.
-Eigen::AlignedBox2d find_ground_extent(const WorldModel& world) {
-  Eigen::AlignedBox2d terrain, rigid;
-  if (world.terrain) {
-    const HeightField& field = *world.terrain;
-    terrain.extend(field.corner_W);
-    terrain.extend(field.corner_W + Eigen::Vector2d(field.width_m(), field.depth_m()));
-  }
-  for (const MeshInstance& instance : world.meshes) {
-    if (!instance.collides) continue;
-    Eigen::AlignedBox2d& box = instance.surface == SurfaceClass::kTerrain ? terrain : rigid;
-    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
-      box.extend((instance.X_WM * v.cast<double>()).head<2>());
-    }
-  }
-  return terrain.isEmpty() ? rigid : terrain;
 }
 
 /// What the part of a vehicle refuses is told with the place where the scenario names the part.
@@ -554,16 +516,6 @@ void VehicleRuntime::check_command(const SignalBase& value) const {
   }
 }
 
-void VehicleRuntime::watch_progress(Time now) {
-  if (crash_ || !progress_ || finished()) return;
-  std::string told = progress_->update(now, truth_.X_WB.p, actuator_values_, now - progress_seen_);
-  progress_seen_ = now;
-  if (told.empty()) return;
-  told += fmt::format(", at x = {:.2f} m, y = {:.2f} m", truth_.X_WB.p.x(), truth_.X_WB.p.y());
-  crash_ = Crash{config_.name, now, std::move(told), EndKind::kStuck};
-  run_.emit(Event::Level::kError, config_.name, fmt::format("is stuck: {}", crash_->text));
-}
-
 void VehicleRuntime::actuate(Time now) {
   watch_progress(now);
   if (crash_ && crash_->kind == EndKind::kStuck) {
@@ -639,124 +591,6 @@ void VehicleRuntime::publish_diagnostics(Time now) {
     map_edges_due_ = false;
     map_edges_writer_.write(now, map_edges(*own_map_));
   }
-}
-
-void VehicleRuntime::after_physics(Time now, Duration step) {
-  if (parked_) return;
-  vehicle_->after_physics(now, step);
-  Odometry state;
-  vehicle_->read_truth(state);
-  const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
-  if (!is_finite(state)) throw SimulationError(culprit, now, "its state is not finite any more");
-  if (state.X_WB.p.cwiseAbs().maxCoeff() > kMaxDistance_m) {
-    throw SimulationError(culprit, now,
-                          fmt::format("it is farther than {:g} m from the origin", kMaxDistance_m));
-  }
-  if (state.v_WB_B.norm() > kMaxSpeed_mps) {
-    throw SimulationError(culprit, now,
-                          fmt::format("its speed of {:g} m/s is beyond {:g} m/s",
-                                      state.v_WB_B.norm(), kMaxSpeed_mps));
-  }
-  demand_ground(now, state.X_WB);
-  watch_contacts(now);
-  watch_crash(now);
-}
-
-void VehicleRuntime::demand_ground(Time now, const Pose& X_WB) const {
-  const Eigen::Vector3d& p = X_WB.p;
-  if (run_.world.terrain && run_.world.terrain->contains(p.x(), p.y())) return;
-  const SceneQuery& scene = run_.physics.scene();
-  if (scene.ground_height_m(p.x(), p.y(), p.z())) return;
-  // A hole in a mesh smaller than the vehicle is no edge.
-  const VehicleDescription& description = vehicle_->description();
-  const Eigen::Vector3d& half = description.collision_half_extents_m;
-  for (const double side : {-1.0, 1.0}) {
-    for (const double end : {-1.0, 1.0}) {
-      const Eigen::Vector3d corner =
-          X_WB * Eigen::Vector3d(description.collision_centre_B +
-                                 Eigen::Vector3d(end * half.x(), side * half.y(), 0.0));
-      if (scene.ground_height_m(corner.x(), corner.y(), corner.z())) return;
-    }
-  }
-  const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
-  const Eigen::AlignedBox2d box = find_ground_extent(run_.world);
-  std::string remedy = "; keep it on the ground, or give the world more of it";
-  constexpr const char* kSurroundings = "surroundings_m";
-  const ParameterSet& world = run_.scenario.world.parameters;
-  for (const ParameterSpec& spec : world.specs()) {
-    if (spec.name != kSurroundings) continue;
-    remedy = fmt::format("; a larger world.{} ({:g} m now) makes more of it", kSurroundings,
-                         world.number(kSurroundings));
-  }
-  throw SimulationError(
-      culprit, now,
-      fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m: the ground of world '{}' "
-                  "lies between x = {:.1f} and {:.1f} m, y = {:.1f} and {:.1f} m{}",
-                  p.x(), p.y(), run_.world.name, box.min().x(), box.max().x(), box.min().y(),
-                  box.max().y(), remedy));
-}
-
-void VehicleRuntime::watch_crash(Time now) {
-  if (crash_) return;
-  if (!vehicle_->crash().empty()) {
-    crash_ = Crash{config_.name, now, std::string(vehicle_->crash())};
-    run_.emit(Event::Level::kError, config_.name, fmt::format("crashed: {}", crash_->text));
-    return;
-  }
-  for (const MayFail* part : may_fail_) {
-    if (crash_ || !at_work() || part->failure().empty()) continue;
-    crash_ = Crash{config_.name, now, std::string(part->failure()), EndKind::kGaveUp};
-    run_.emit(Event::Level::kError, config_.name, fmt::format("gave up: {}", crash_->text));
-  }
-}
-
-void VehicleRuntime::watch_contacts(Time now) {
-  const physics::Contact* touched = nullptr;
-  for (const physics::Contact& contact : run_.physics.contacts()) {
-    // Between two vehicles a contact is listed once, from either side.
-    const auto is_ours = [this](physics::BodyId body) {
-      return body.index >= first_body_ && body.index < end_body_;
-    };
-    if (!is_ours(contact.body) && !is_ours(contact.other)) continue;
-    if (contact.depth_m >= 0.0 && !is_ground(contact)) touched = &contact;
-  }
-  const bool was_touching = contacts_.values[1] != 0.0;
-  if (!touched && !was_touching) return;
-  const double touches_before = contacts_.values[0];
-  contacts_.values[1] = touched ? 1.0 : 0.0;
-  if (touched) {
-    if (now - last_contact_ > kContactGap) {
-      contacts_.values[0] += 1.0;
-      run_.emit(
-          Event::Level::kWarning, config_.name,
-          fmt::format("touches a {} at x = {:.2f} m, y = {:.2f} m",
-                      touched->surface == SurfaceClass::kTerrain ? "wall of the terrain"
-                                                                 : to_string(touched->surface),
-                      touched->p_W.x(), touched->p_W.y()));
-    }
-    last_contact_ = now;
-  }
-  const bool is_touching = touched != nullptr;
-  if (is_touching != was_touching || contacts_.values[0] != touches_before) {
-    contacts_writer_.write(now, contacts_);
-  }
-}
-
-const char* to_string(EndKind kind) {
-  switch (kind) {
-    case EndKind::kStuck:
-      return "is stuck";
-    case EndKind::kGaveUp:
-      return "gave up";
-    case EndKind::kCrashed:
-      break;
-  }
-  return "crashed";
-}
-
-std::string Crash::sentence() const {
-  return fmt::format("{} {} at {:.3f} s: {}", vehicle, to_string(kind), time.s(),
-                     text);
 }
 
 std::map<std::string, double> VehicleRuntime::metric_results() const {

@@ -7,6 +7,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/io/output_folder.h"
 #include "engine/physics/check_world.h"
 #include "engine/physics/world_scene.h"
 #include "engine/sim/pictures.h"
@@ -47,16 +48,6 @@ void check_cloud_arguments(const CloudArguments& arguments,
   if (extension != ".las" && extension != ".ply" && extension != ".xyz" && extension != ".txt") {
     throw ConfigError(
         fmt::format("--out: '{}' must end in .las, .ply, .xyz or .txt", arguments.out.string()));
-  }
-}
-
-void make_folder_of(const std::filesystem::path& file) {
-  if (file.parent_path().empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path(), error);
-  if (error) {
-    throw ConfigError(fmt::format("--out: folder '{}' cannot be made: {}",
-                                  file.parent_path().string(), error.message()));
   }
 }
 
@@ -133,7 +124,7 @@ void make_cloud(const CloudArguments& arguments) {
   const physics::WorldScene scene(*world);
   const worlds::SurveyArea area =
       worlds::make_survey_area(params.area_m, params.margin_m, *world, "--area");
-  make_folder_of(arguments.out);
+  io::make_folder_of(arguments.out);
   const worlds::CloudTarget target = {arguments.out, params.file, arguments.out.string(),
                                       scenario.name};
   const Result<worlds::WrittenCloud> written =

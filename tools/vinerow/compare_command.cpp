@@ -4,6 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/output_folder.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/compare/compare_maps.h"
 #include "tools/vinerow/compare/compare_runs.h"
@@ -57,9 +58,7 @@ int compare_map_folders(const CompareArguments& arguments) {
       compare_maps(arguments.folders[0], arguments.folders[1], arguments.reach_m);
   if (!arguments.geojson.empty()) {
     const std::string geojson = comparison_geojson(comparison);
-    if (!arguments.geojson.parent_path().empty()) {
-      std::filesystem::create_directories(arguments.geojson.parent_path());
-    }
+    io::make_folder_of(arguments.geojson);
     write_whole_file(arguments.geojson, geojson);
   }
   if (arguments.json) {

@@ -5,6 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/output_folder.h"
 #include "engine/sim/coverage_log.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/coverage_picture.h"
@@ -25,14 +26,7 @@ Polygon polygon_of(const std::vector<double>& numbers) {
 }
 
 void write(const SurveyCoverage& coverage, const std::filesystem::path& picture) {
-  if (!picture.parent_path().empty()) {
-    std::error_code failed;
-    std::filesystem::create_directories(picture.parent_path(), failed);
-    if (failed) {
-      throw ConfigError(fmt::format("folder '{}' cannot be made: {}",
-                                    picture.parent_path().string(), failed.message()));
-    }
-  }
+  io::make_folder_of(picture);
   render::write_png(picture.string(), draw_coverage(coverage));
   std::filesystem::path numbers = picture;
   numbers.replace_extension(".json");

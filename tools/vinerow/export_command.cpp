@@ -9,6 +9,7 @@
 #include "engine/core/files.h"
 #include "engine/core/suggest.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/output_folder.h"
 #include "engine/record/mcap_reader.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/export/message_table.h"
@@ -163,7 +164,7 @@ bool read_out(ExportArguments& arguments) {
 
 void write_table(const MessageTable& table, const std::filesystem::path& file,
                  const std::string& bytes) {
-  if (!file.parent_path().empty()) std::filesystem::create_directories(file.parent_path());
+  io::make_folder_of(file);
   write_whole_file(file, bytes);
   fmt::print("{}  {} rows\n", file.string(), table.rows().size());
 }

@@ -6,6 +6,7 @@
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/io/output_folder.h"
 #include "engine/io/ros_map.h"
 #include "engine/sim/simulation.h"
 #include "tools/vinerow/commands.h"
@@ -65,12 +66,7 @@ void add_grid_command(CLI::App& app, int& exit_status) {
     }
     const std::filesystem::path out =
         arguments->out.empty() ? std::filesystem::path("maps") / scenario.name : arguments->out;
-    std::error_code error;
-    std::filesystem::create_directories(out, error);
-    if (error) {
-      throw ConfigError(
-          fmt::format("--out: folder '{}' cannot be made: {}", out.string(), error.message()));
-    }
+    io::make_folder(out);
     io::save_ros_map(world->rows->occupancy, out / "map.yaml");
     render::write_png((out / "grid.png").string(), draw_grid(*world, report, scenario.name));
     print_grid(*world, report);

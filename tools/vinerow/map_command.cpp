@@ -14,6 +14,7 @@
 #include "engine/core/whole_file.h"
 #include "engine/io/mesh_scene_writer.h"
 #include "engine/io/mesh_writer.h"
+#include "engine/io/output_folder.h"
 #include "engine/math/angles.h"
 #include "engine/render/scene.h"
 #include "engine/sim/simulation.h"
@@ -107,15 +108,6 @@ std::vector<Eigen::Vector2d> read_boundary(const fs::path& file, const GeoOrigin
   return polygon;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw ConfigError(
-        fmt::format("--out: folder '{}' cannot be made: {}", folder.string(), error.message()));
-  }
-}
-
 /// All row meshes in one file of each kind, for other programs.
 void export_meshes(const std::vector<RowMesh>& meshes, const std::vector<std::string>& kinds,
                    const fs::path& folder) {
@@ -189,7 +181,7 @@ void make_map(const MapArguments& arguments) {
   if (!arguments.truth.empty()) truth = worlds::read_cloud_truth(arguments.truth);
   worlds::CloudReadOptions read_options = params.reading;
   read_options.origin = find_map_origin(arguments);
-  make_folder(arguments.out);
+  io::make_folder(arguments.out);
   if (!arguments.scenario.empty()) watch.end_phase("scenario");
 
   worlds::CloudReadReport read;

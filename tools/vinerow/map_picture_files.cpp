@@ -7,6 +7,7 @@
 
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
+#include "engine/io/output_folder.h"
 #include "engine/render/png.h"
 #include "engine/sim/frame_words.h"
 #include "tools/vinerow/map_pictures.h"
@@ -41,12 +42,7 @@ std::vector<fs::path> write_map_pictures(const worlds::CloudMap& map,
                                          const worlds::ParcelCloud& cloud,
                                          const worlds::OccupancyOptions& options,
                                          const std::string& title, const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw ConfigError(
-        fmt::format("folder '{}' cannot be made: {}", folder.string(), error.message()));
-  }
+  io::make_folder(folder);
   std::vector<fs::path> files;
   const auto add = [&](const char* name, const render::Image& image) {
     files.push_back(folder / name);

@@ -2,6 +2,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/output_folder.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/report/replay_run.h"
 
@@ -29,7 +30,7 @@ void add_replay_command(CLI::App& app, int& exit_status) {
                                              : arguments->run.parent_path();
     const std::filesystem::path out =
         arguments->out.empty() ? folder / "replay.html" : arguments->out;
-    if (!out.parent_path().empty()) std::filesystem::create_directories(out.parent_path());
+    io::make_folder_of(out);
     write_whole_file(out, page);
     fmt::print("{}  {:.1f} MB\n", out.string(), 1e-6 * static_cast<double>(page.size()));
     exit_status = 0;

@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/output_folder.h"
 #include "engine/sim/plugin_loader.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/report/plot_files.h"
@@ -13,7 +14,7 @@ namespace {
 
 void write_plots(const std::filesystem::path& report, const std::filesystem::path& folder) {
   const std::vector<PlotFile> files = plot_files_of(read_bytes(report).value_or(""));
-  std::filesystem::create_directories(folder);
+  io::make_folder(folder);
   for (const PlotFile& file : files) write_whole_file(folder / file.name, file.svg);
   fmt::print("{}  {} plots\n", folder.string(), files.size());
 }
@@ -27,7 +28,8 @@ void add_report_command(CLI::App& app, int& exit_status) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "report", "build the one-page HTML report of a run: verdicts, events, map, plots, pictures, replay");
+      "report",
+      "build the one-page HTML report of a run: verdicts, events, map, plots, pictures, replay");
   command->add_option("run", arguments->run, "folder of a run")->required();
   command->add_option("--out", arguments->out,
                       "page to write (default: report.html in the folder)");

@@ -9,6 +9,7 @@
 #include "controllers/planning/survey_plan.h"
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/output_folder.h"
 #include "engine/io/qgc_plan.h"
 #include "engine/io/qgc_wpl.h"
 #include "engine/math/angles.h"
@@ -104,12 +105,7 @@ void print_survey(const SurveyTask& task, const SurveyPlan& plan) {
 void plan_and_write(const SurveyTask& task, const std::filesystem::path& out) {
   const auto plan = plan_survey(task.request, task.start_W, task.ground);
   if (!plan) throw ConfigError("survey: " + plan.reason());
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error) {
-    throw ConfigError(
-        fmt::format("--out: folder '{}' cannot be made: {}", out.string(), error.message()));
-  }
+  io::make_folder(out);
   const double home_m = task.ground(task.start_W.p.head<2>()).value_or(task.start_W.p.z());
   const io::MissionFile mission =
       make_survey_mission(*plan, task.origin, home_m, task.request.returns);

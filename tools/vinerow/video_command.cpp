@@ -4,6 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/io/output_folder.h"
 #include "engine/render/scene.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/picture_arguments.h"
@@ -44,7 +45,7 @@ int make_video(const VideoArguments& arguments) {
                                         ? log.parent_path() / (options.cameras.front() + ".mp4")
                                         : arguments.out;
   VideoEncoder encoder(out, arguments.fps);
-  if (!out.parent_path().empty()) std::filesystem::create_directories(out.parent_path());
+  io::make_folder_of(out);
   ProgressLine line(arguments.quiet);
   int frames = 0;
   options.take_frame = [&](const render::Image& image) {

@@ -337,36 +337,36 @@ TEST(RowHull, BudgetIsKeptOverAllRows) {
   }
 }
 
-// Sections between swellings are taken away first on a small budget: the straight sides that then
-// pass under or over a swelling must not be bought by moving the sides of the whole row.
-TEST(RowHull, ARowThatSwellsKeepsItsVolumeOnASmallBudget) {
-  const auto radius_m = [](double s_m) {
-    const double from_swelling_m = std::remainder(s_m - 1.5, 3.0);
-    return 0.25 + 0.25 * std::exp(-from_swelling_m * from_swelling_m / (0.4 * 0.4));
-  };
-  const auto octagon = [&](double s_m) {
-    std::vector<Eigen::Vector2d> corners;
-    for (int k = 0; k < 8; ++k) {
-      const double angle = (k + 0.5) * kPi / 4.0;
-      corners.emplace_back(radius_m(s_m) * std::cos(angle), 1.0 + radius_m(s_m) * std::sin(angle));
-    }
-    return corners;
-  };
-  constexpr double kLength_m = 24.0;
-  double volume_m3 = 0.0;  // an octagon in a circle: 2 sqrt(2) r^2; midpoint rule
-  constexpr int kPieces = 24'000;
-  for (int i = 0; i < kPieces; ++i) {
-    const double r_m = radius_m((i + 0.5) * kLength_m / kPieces);
-    volume_m3 += 2.0 * std::sqrt(2.0) * r_m * r_m * kLength_m / kPieces;
-  }
-  const RowCanopy row = row_of(octagon, 0.0, kLength_m, {.per_m2 = 1500.0, .noise_m = 0.015});
-  for (const double bytes_per_m : {1300.0, 700.0, 400.0}) {
-    RowHullOptions options;
-    options.budget_bytes_per_m = bytes_per_m;
-    const RowHulls hulls = hulls_of(row, options);
-    double mesh_m3 = 0.0;
-    for (const TriangleMesh& mesh : hulls.meshes_W) mesh_m3 += mesh_volume_m3(mesh);
-    EXPECT_NEAR(mesh_m3 / volume_m3, 1.0, 0.25) << bytes_per_m << " bytes per metre";
+// A small budget takes sections away. Where a row swells between two that stay, the straight side
+// between them passes deep inside of it: who does not see the points out there takes the section
+// for cheap, and moves the sides of the whole row out afterwards to get them back.
+TEST(RowHull, ASmallBudgetDoesNotSwellARowOfBushes) {
+  for (const double thin_m : {0.10, 0.25}) {
+    // Bushes of 0.5 m more, 0.3 m long, 3 m apart.
+    const auto octagon = [&](double s_m) {
+      const double from_bush_m = std::remainder(s_m - 1.5, 3.0);
+      const double radius_m = thin_m + 0.5 * std::exp(-from_bush_m * from_bush_m / (0.15 * 0.15));
+      std::vector<Eigen::Vector2d> corners;
+      for (int k = 0; k < 8; ++k) {
+        const double angle = (k + 0.5) * kPi / 4.0;
+        corners.emplace_back(radius_m * std::cos(angle), 1.0 + radius_m * std::sin(angle));
+      }
+      return corners;
+    };
+    const RowCanopy row = row_of(octagon, 0.0, 24.0, {.per_m2 = 600.0, .noise_m = 0.03});
+    const auto volume_m3 = [&](double bytes_per_m) {
+      RowHullOptions options;
+      options.budget_bytes_per_m = bytes_per_m;
+      const RowHulls hulls = hulls_of(row, options);
+      double sum_m3 = 0.0;
+      for (const TriangleMesh& mesh : hulls.meshes_W) sum_m3 += mesh_volume_m3(mesh);
+      return sum_m3;
+    };
+    const double wide_m3 = volume_m3(1300.0);
+    // 1.04 and 1.07 are reached; blind beyond 3 cm it was 1.9 and 2.0 of the thin row, 1.6 of the
+    // other.
+    EXPECT_LT(volume_m3(700.0) / wide_m3, 1.15) << thin_m;
+    EXPECT_LT(volume_m3(400.0) / wide_m3, 1.15) << thin_m;
   }
 }
 

@@ -131,6 +131,11 @@ class Video(unittest.TestCase):
         told = subprocess.run(probe, capture_output=True, text=True, cwd=self.folder).stdout
         self.assertEqual(told.strip(), "64,36,11")
 
+    def test_a_folder_of_plots_that_cannot_be_made_is_bad_input(self):
+        run = self.vinerow("report", "run", "--out", "page.html", "--plots", "/proc/none")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("folder '/proc/none' cannot be made", run.stderr)
+
     def test_plots_of_a_report_are_files_that_stand_alone(self):
         run = self.vinerow("report", "run", "--out", "page.html", "--plots", "plots")
         self.assertEqual(run.returncode, 0, run.stderr)

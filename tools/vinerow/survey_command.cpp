@@ -57,7 +57,7 @@ void print_survey(const SurveyTask& task, const SurveyPlan& plan) {
       "highest\n",
       n("gsd_mm"), n("height_m"), n("gsd_min_mm"), n("gsd_max_mm"));
   fmt::print(
-      "overlap          {:.1f} % ahead, {:.1f} % aside ({:.1f} %, {:.1f} % where the flight is "
+      "overlap          {:.1f} % forward, {:.1f} % sideways ({:.1f} %, {:.1f} % where the flight is "
       "lowest)\n",
       100.0 * n("forward_overlap"), 100.0 * n("side_overlap"), 100.0 * n("forward_overlap_min"),
       100.0 * n("side_overlap_min"));

@@ -192,7 +192,7 @@ void draw_survey_legend(Canvas& canvas, double y, const SurveyPlan& plan, double
   words(fmt::format("lanes, first to last ({})", plan.order.size()));
   canvas.line({x, y}, {x + 30, y}, 2.0, kWay);
   x += 38.0;
-  words("turns, ways there and home");
+  words("turns and transit legs");
   canvas.outline({{x, y - 7}, {x + 24, y - 7}, {x + 24, y + 7}, {x, y + 7}}, 2.0, kFootprint);
   x += 32.0;
   words("one picture");
@@ -202,7 +202,7 @@ void draw_survey_legend(Canvas& canvas, double y, const SurveyPlan& plan, double
   if (!is_flat) {
     canvas.line({x, y}, {x + 30, y}, 2.0, kSurveyContour);
     x += 38.0;
-    words(fmt::format("each {:g} m of height", contour_m));
+    words(fmt::format("contour interval {:g} m", contour_m));
   }
 }
 
@@ -245,7 +245,7 @@ render::Image draw_survey(const SurveyRequest& request, const SurveyPlan& plan,
   canvas.text(title, 22, {kNumberedMargin, top + 30.0}, kInk);
   canvas.text(
       fmt::format("{} at {:.0f} m: {:.1f} mm a pixel; {:.0f} lanes {:.1f} m apart; {} waypoints; "
-                  "{} pictures, overlap {:.0f} % ahead, {:.0f} % aside; {:.1f} km in {:.0f} min",
+                  "{} pictures, overlap {:.0f} % forward, {:.0f} % sideways; {:.1f} km in {:.0f} min",
                   request.camera.name, request.height_m, number("gsd_mm"), number("lanes"),
                   number("lane_spacing_m"), plan.path.points.size(), plan.shots.size(),
                   100.0 * number("forward_overlap_min"), 100.0 * number("side_overlap_min"),

@@ -40,6 +40,7 @@ int compare_run_folders(const CompareArguments& arguments) {
   } else {
     fmt::print("{}", comparison_text(comparison, arguments.all));
   }
+  // Without --fail-on a difference is an answer and no failure.
   const bool worse = !comparison.regressions.empty();
   const bool other = worse || comparison.differences > 0;
   if (arguments.fail_on == "regression") return worse ? 1 : 0;

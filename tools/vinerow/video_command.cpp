@@ -44,6 +44,7 @@ int make_video(const VideoArguments& arguments) {
   const std::filesystem::path out = arguments.out.empty()
                                         ? log.parent_path() / (options.cameras.front() + ".mp4")
                                         : arguments.out;
+  // Before any frame: it refuses where ffmpeg is not installed.
   VideoEncoder encoder(out, arguments.fps);
   io::make_folder_of(out);
   ProgressLine line(arguments.quiet);

@@ -12,6 +12,7 @@ namespace {
 
 using record::RosKind;
 
+/// By RFC 4180: quotes around what holds a comma, a quote or a line end, quotes doubled.
 std::string quoted_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -35,7 +36,7 @@ void print_cell(const char* bytes, std::string& out) {
 void print_number(RosKind kind, const char* bytes, std::string& out) {
   switch (kind) {
     case RosKind::kBool:
-      out += *bytes != 0 ? "True" : "False";
+      out += *bytes != 0 ? "True" : "False";  // what pandas reads as booleans
       return;
     case RosKind::kInt8:
       return print_cell<std::int8_t>(bytes, out);
@@ -105,7 +106,7 @@ std::string csv_of(const MessageTable& table, const std::string& what) {
       const TableColumn& column = table.columns()[c];
       for (std::size_t i = 0; i < widths[c]; ++i) {
         out += ',';
-        if (i >= column.counts[row]) continue;
+        if (i >= column.counts[row]) continue;  // a shorter sequence leaves cells empty
         if (column.kind == RosKind::kText) {
           out += quoted_cell(cells.text(c, row, i));
         } else {

@@ -7,6 +7,8 @@ namespace vinerow::worlds {
 
 std::vector<CanopyLeft> find_canopy_left(const CanopyRaster& raster, const RowLocator& rows,
                                          double least_m2) {
+  // Coarse squares join what gaps of a metre or two part: a row that was left out is one piece, not
+  // a hundred vines. A square with less canopy than a leaf or two joins nothing.
   constexpr double kSquare_m = 2.0, kFewest_m2 = 0.1;
   const auto count = [&](int cells) {
     return static_cast<int>(std::ceil(cells * raster.cell_m / kSquare_m)) + 1;
@@ -14,6 +16,7 @@ std::vector<CanopyLeft> find_canopy_left(const CanopyRaster& raster, const RowLo
   const int columns = count(raster.columns), lines = count(raster.rows);
   std::vector<double> area_m2(static_cast<std::size_t>(columns) * lines, 0.0);
   const double cell_m2 = raster.cell_m * raster.cell_m;
+  // Canopy of each square that no row has.
   for (int j = 0; j < raster.rows; ++j) {
     for (int i = 0; i < raster.columns; ++i) {
       const float weight = raster.weights[static_cast<std::size_t>(j) * raster.columns + i];
@@ -25,6 +28,7 @@ std::vector<CanopyLeft> find_canopy_left(const CanopyRaster& raster, const RowLo
           cell_m2;
     }
   }
+  // Squares that touch, at corners too, are one piece; what is counted is emptied.
   std::vector<CanopyLeft> pieces;
   std::vector<std::pair<int, int>> open;
   for (int j = 0; j < lines; ++j) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Counts the sources that see each header, and fails where one of those below is seen by more than it may be.
+"""Counts the sources that see each header, and fails where one of those below is seen by a larger share than it may be.
 
 An edit of such a header compiles all of them again. Headers that only point at a type include
 engine/api/forward.h instead of the header that defines it. Every source sees what is precompiled. `--all` prints every header's count.
@@ -14,12 +14,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ["engine", "vehicles", "worlds", "controllers", "tools", "tests"]
 EXTRA = [ROOT, ROOT / "tools/testing/include"]
 
+# Percent of all sources, so that a new source does not break the build; a header that turns hot does.
 MOST = {
-    "engine/api/map.h": 212,
-    "engine/api/world_model.h": 249,
-    "engine/api/mesh.h": 399,
-    "engine/api/height_field.h": 375,
-    "engine/api/messages.h": 92,
+    "engine/api/map.h": 21,
+    "engine/api/world_model.h": 24,
+    "engine/api/mesh.h": 38,
+    "engine/api/height_field.h": 36,
+    "engine/api/messages.h": 9,
 }
 
 PRECOMPILED = [ROOT / "cmake/targets.cmake", ROOT / "tests/CMakeLists.txt"]
@@ -58,8 +59,8 @@ def main() -> int:
     if "--all" in sys.argv[1:]:
         for header, count in seen_by.most_common():
             print(f"{count:5} {header}")
-    faults = [f"{name} is seen by {seen_by[name]} of {len(sources)} sources, at most {most} should be"
-              for name, most in MOST.items() if seen_by[name] > most]
+    faults = [f"{name} is seen by {seen_by[name]} of {len(sources)} sources, at most {most} % should be"
+              for name, most in MOST.items() if 100 * seen_by[name] > most * len(sources)]
     print("\n".join(faults) if faults else f"{len(sources)} sources: no header is hotter than it may be")
     return 1 if faults else 0
 

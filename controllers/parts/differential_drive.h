@@ -7,12 +7,11 @@
 
 #include <vector>
 
-#include "engine/api/messages/commands.h"
-#include "engine/api/vehicle.h"
+#include "controllers/parts/twist_drive.h"
 
 namespace vinerow {
 
-class DifferentialDrive {
+class DifferentialDrive final : public TwistDrive {
  public:
   DifferentialDrive() = default;
   /// Finds the wheels by their actuators' names, wheel_<place>_speed_radps, where the place is
@@ -22,12 +21,10 @@ class DifferentialDrive {
   /// @param who  part that asks, e.g. "rover.controller (pure_pursuit)"
   DifferentialDrive(const VehicleDescription& description, const std::string& who);
 
-  /// Fills `actuators` (names and size as made by make_actuators()). Values are not limited.
-  void mix(const VelocityCommand& command, NamedValues& actuators) const;
-  NamedValues make_actuators() const;
-
-  /// The command scaled so that no wheel exceeds its limits; the curvature stays.
-  VelocityCommand limit(const VelocityCommand& command) const;
+  NamedValues make_actuators() const override;
+  void mix(const VelocityCommand& command, NamedValues& actuators) const override;
+  VelocityCommand limit(const VelocityCommand& command) const override;
+  bool turns_on_the_spot() const override { return true; }
 
   /// Speeds that the mean wheel speed of each side stands for; inverse of mix().
   /// @param values  one entry per actuator, rad/s

@@ -1,9 +1,11 @@
 #pragma once
-/// What every path follower of a speed-steered vehicle reads and writes.
+/// What every path follower reads and writes whose vehicle is driven by a speed and a yaw rate.
 
-#include "controllers/parts/differential_drive.h"
+#include <memory>
+
 #include "controllers/parts/pose2.h"
 #include "controllers/parts/stop_profile.h"
+#include "controllers/parts/twist_drive.h"
 #include "engine/api/messages/event.h"
 #include "engine/api/stepped_parts.h"
 
@@ -13,7 +15,7 @@ namespace vinerow {
 /// "authority"; writes "actuators", "command", "follower".
 class DrivePorts {
  public:
-  /// @throws ConfigError as DifferentialDrive
+  /// @throws ConfigError as make_twist_drive()
   DrivePorts(const ControllerContext& context, const std::string& type);
 
   void connect(Ports& ports);
@@ -26,6 +28,9 @@ class DrivePorts {
   /// True once per new plan.
   bool has_new_plan() { return plan_.is_newer_than(seen_plan_); }
   const PlannedPath& plan() const { return plan_.value(); }
+  /// Why the vehicle cannot drive the plan: a corner that it would have to turn on the spot. Empty
+  /// where it can.
+  std::string find_fault_in_plan() const;
   bool has_estimate() const { return estimate_.has_value(); }
   const Odometry& estimate() const { return estimate_.value(); }
   Pose2 pose() const;
@@ -40,10 +45,10 @@ class DrivePorts {
   void write(Time now, const VelocityCommand& command, const VelocityCommand& wheels,
              const FollowerState& state);
 
-  const DifferentialDrive& drive() const { return drive_; }
+  const TwistDrive& drive() const { return *drive_; }
 
  private:
-  DifferentialDrive drive_;
+  std::unique_ptr<TwistDrive> drive_;
   std::string part_;
   NamedValues actuator_values_;
   std::uint64_t seen_plan_ = 0;

@@ -90,6 +90,11 @@ FollowerParams read_params(const ParameterSet& parameters, const ControllerConte
   params.slip.response_s = params.law.response_s;
   params.law.speed.corner_m = params.law.lookahead_min_m;
   const VehicleDescription& vehicle = *context.vehicle_description;
+  if (vehicle.ackermann) {
+    // Its wheels do not slide: it turns about a point on its rear axle's line, and stays there.
+    params.slip.arm_m = -vehicle.ackermann->rear_axle_m;
+    params.slip.learns_arm = false;
+  }
   if (params.turn_effectiveness) {
     params.slip.effectiveness = *params.turn_effectiveness;
   } else if (vehicle.wheeled && vehicle.wheeled->effective_track_m > 0.0) {
@@ -119,11 +124,12 @@ class PathFollower final : public Controller, public MayFail {
     if (ports_.has_new_plan()) {
       law_.set_path(ports_.plan());
       watch_.reset();
+      fault_ = ports_.find_fault_in_plan();
       const std::string slower = tell_plan_too_fast(ports_.plan(), speed_mps_, "speed_mps");
       if (!slower.empty()) ports_.tell(now, Event::Level::kWarning, slower);
     }
     VelocityCommand command;
-    if (ports_.has_estimate() && !watch_.is_lost()) {
+    if (ports_.has_estimate() && !watch_.is_lost() && fault_.empty()) {
       const Odometry& estimate = ports_.estimate();
       slip_.update(wheels_.yaw_rate_radps, estimate.w_WB_B.z(), estimate.v_WB_B.head<2>(),
                    period_s_);
@@ -144,7 +150,9 @@ class PathFollower final : public Controller, public MayFail {
   }
 
   bool finished() const override { return law_.finished(); }
-  std::string_view failure() const override { return watch_.failure(); }
+  std::string_view failure() const override {
+    return fault_.empty() ? watch_.failure() : std::string_view(fault_);
+  }
 
  private:
   void watch(double speed_mps) {
@@ -157,7 +165,8 @@ class PathFollower final : public Controller, public MayFail {
   PathFollowerLaw law_;
   SlipEstimate slip_;
   PathWatch watch_;
-  double speed_mps_;  ///< on straights
+  std::string fault_;  ///< of the plan
+  double speed_mps_;   ///< on straights
   double period_s_;
   double speed_gain_;
   double wheel_yaw_max_radps_;

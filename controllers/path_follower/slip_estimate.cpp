@@ -42,7 +42,7 @@ void SlipEstimate::update(double asked_radps, double measured_radps, const Eigen
   }
   if (v_B_.x() < kCrawl_mps) return;
   const double turning = weight_of(measured_radps_);
-  if (std::abs(measured_radps_) > kNoTurn_radps) {
+  if (params_.learns_arm && std::abs(measured_radps_) > kNoTurn_radps) {
     const double seen = (v_B_.x() * slide_.drift_rad - v_B_.y()) / measured_radps_;
     slide_.arm_m += learn * turning * (std::clamp(seen, -1.0, 1.0) - slide_.arm_m);
     slide_.arm_m = std::clamp(slide_.arm_m, -kLargestArm_m, kLargestArm_m);

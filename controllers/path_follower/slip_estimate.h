@@ -15,6 +15,7 @@ namespace vinerow {
 struct SlipEstimateParams {
   double effectiveness = 1.0;  ///< eta at the start
   double arm_m = 0.0;          ///< at the start
+  bool learns_arm = true;      ///< else it stays
   double learn_time_s = 1.0;   ///< time constant of learning; 0 = all stay
   double filter_s = 0.2;       ///< low-pass of what is measured
   double response_s = 0.0;     ///< lag of the vehicle's yaw rate behind the wheels'

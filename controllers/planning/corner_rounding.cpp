@@ -105,7 +105,7 @@ RoundedWay round_corners(const std::vector<Eigen::Vector2d>& points,
 double find_corner_radius_m(const std::optional<double>& wanted_m,
                             const VehicleDescription& vehicle, const std::string& who) {
   constexpr double kReserve = 1.1;
-  const double least_m = vehicle.steered ? vehicle.min_turning_radius_m.value_or(0.0) : 0.0;
+  const double least_m = vehicle.steers_by_axles() ? vehicle.min_turning_radius_m.value_or(0.0) : 0.0;
   if (!wanted_m) return kReserve * least_m;
   if (*wanted_m >= least_m) return *wanted_m;
   throw ConfigError(

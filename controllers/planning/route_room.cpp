@@ -32,6 +32,14 @@ std::string to_string(const Pose2& pose) {
                      deg_from_rad(wrap_angle(pose.yaw_rad)));
 }
 
+std::string describe_room(const Pose2& pose, const Footprint& footprint) {
+  if (!footprint.field().covers(pose.p)) {
+    return to_string(pose) + " lies outside the map's occupancy grid";
+  }
+  return fmt::format("at {} the footprint has {:.3f} m of room, the margin is {:.3f} m",
+                     to_string(pose), footprint.clearance_m(pose), footprint.margin_m());
+}
+
 bool RouteRoom::is_free(const std::vector<PathPiece>& pieces) const {
   return std::all_of(pieces.begin(), pieces.end(), [&](const PathPiece& piece) {
     return footprint_.is_free_along(piece.start, piece.length_m, piece.curvature_per_m, step_m_);
@@ -43,17 +51,13 @@ double RouteRoom::clearance_m(const PathPiece& piece) const {
 }
 
 std::string RouteRoom::tell(const Pose2& pose) const {
-  if (!footprint_.field().covers(pose.p)) {
-    return to_string(pose) + " lies outside the map's occupancy grid";
-  }
   double distance_m = 0.0;
   if (const PlantRow* row = find_row_at(map_, pose.p, distance_m)) {
     return fmt::format(
         "{} lies in a row: {:.2f} m from the centre line of row {}, whose canopy is {:.2f} m wide",
         to_string(pose), distance_m, row->id, row->canopy_width_m);
   }
-  return fmt::format("at {} the footprint has {:.3f} m of room, the margin is {:.3f} m",
-                     to_string(pose), footprint_.clearance_m(pose), footprint_.margin_m());
+  return describe_room(pose, footprint_);
 }
 
 std::optional<std::string> RouteRoom::find_blocked_end(const RouteLeg& leg) const {

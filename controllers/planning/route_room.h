@@ -37,4 +37,8 @@ class RouteRoom {
 /// "(1.25, 3.00) heading 90.0 deg"
 std::string to_string(const Pose2& pose);
 
+/// Why a pose is not free, without its row: "at (1.25, 3.00) heading 90.0 deg the footprint has 0.010
+/// m of room, the margin is 0.050 m", or that it lies outside the map.
+std::string describe_room(const Pose2& pose, const Footprint& footprint);
+
 }  // namespace vinerow

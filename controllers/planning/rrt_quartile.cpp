@@ -6,6 +6,7 @@
 
 #include "controllers/planning/analytic_turn.h"
 #include "controllers/planning/route_planner.h"
+#include "controllers/planning/route_room.h"
 #include "controllers/planning/shortcut.h"
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
@@ -16,14 +17,6 @@ namespace {
 
 /// Paper A, section 4.1: steering angles -pi/6, 0, pi/6.
 constexpr double kPaperSteer_rad = kPi / 6.0;
-
-std::string describe_taken(const char* which, const Pose2& pose, const Footprint& footprint) {
-  return fmt::format(
-      "the {} at ({:.2f}, {:.2f}) heading {:.1f} deg is taken: {:.3f} m of room, "
-      "the margin is {:.3f} m",
-      which, pose.p.x(), pose.p.y(), deg_from_rad(wrap_angle(pose.yaw_rad)),
-      footprint.clearance_m(pose), footprint.margin_m());
-}
 
 QuartileTreeParams refine(QuartileTreeParams params) {
   params.step_m *= 0.5;
@@ -130,8 +123,8 @@ RrtQuartile::RrtQuartile(const RrtQuartileParams& params, PartContext context)
 Result<std::vector<PathPiece>> RrtQuartile::find(const Pose2& from, const Pose2& to,
                                                  const Footprint& footprint, int problem,
                                                  SearchReport& report) {
-  if (!footprint.is_free(from)) return Failure{describe_taken("start", from, footprint)};
-  if (!footprint.is_free(to)) return Failure{describe_taken("goal", to, footprint)};
+  if (!footprint.is_free(from)) return Failure{"start in collision: " + describe_room(from, footprint)};
+  if (!footprint.is_free(to)) return Failure{"goal in collision: " + describe_room(to, footprint)};
   const GoalDistance distance(params_.heuristic, footprint, from.p, to.p);
   if (std::isinf(distance.at(from.p))) {
     return Failure{"no free ground as wide as the vehicle joins start and goal"};

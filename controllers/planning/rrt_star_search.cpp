@@ -18,9 +18,7 @@ namespace {
 std::optional<std::string> find_taken(const Pose2& pose, const char* name,
                                       const Footprint& footprint) {
   if (footprint.is_free(pose)) return std::nullopt;
-  return fmt::format(
-      "{} in collision: at {} the footprint has {:.3f} m of room, the margin is {:.3f} m", name,
-      to_string(pose), footprint.clearance_m(pose), footprint.margin_m());
+  return fmt::format("{} in collision: {}", name, describe_room(pose, footprint));
 }
 
 /// Adds what a tree holds, its edges as straight strokes.

@@ -86,7 +86,7 @@ class PurePursuit final : public Controller, public MayFail {
     if (ports_.has_new_plan()) take_plan(now);
     VelocityCommand command;
     FollowerState state;
-    if (law_.has_path() && ports_.has_estimate() && !watch_.is_lost()) {
+    if (law_.has_path() && ports_.has_estimate() && !watch_.is_lost() && fault_.empty()) {
       const Pose2 pose = ports_.pose();
       command = law_.step(pose);
       state = describe(pose);
@@ -97,7 +97,9 @@ class PurePursuit final : public Controller, public MayFail {
   }
 
   bool finished() const override { return law_.finished(); }
-  std::string_view failure() const override { return watch_.failure(); }
+  std::string_view failure() const override {
+    return fault_.empty() ? watch_.failure() : std::string_view(fault_);
+  }
 
  private:
   void take_plan(Time now) {
@@ -106,6 +108,7 @@ class PurePursuit final : public Controller, public MayFail {
     law_.set_path(ports_.plan());
     stop_.reset();
     watch_.reset();
+    fault_ = ports_.find_fault_in_plan();
     if (law_.has_path()) polyline_ = PolylineDistance(law_.points());
   }
 
@@ -156,7 +159,8 @@ class PurePursuit final : public Controller, public MayFail {
   PurePursuitLaw law_;
   StopProfile stop_;
   PathWatch watch_;
-  double speed_mps_;  ///< on straights
+  std::string fault_;  ///< of the plan
+  double speed_mps_;   ///< on straights
   double period_s_;
   PolylineDistance polyline_;
 };

@@ -10,11 +10,12 @@
 namespace vinerow {
 namespace {
 
-/// "wheels and steered axles"
+/// "wheels and two steered axles"
 std::string say_kinds(const VehicleDescription& vehicle) {
   std::vector<std::string> kinds;
   if (vehicle.wheeled) kinds.emplace_back("wheels");
-  if (vehicle.steered) kinds.emplace_back("steered axles");
+  if (vehicle.steered) kinds.emplace_back("two steered axles");
+  if (vehicle.ackermann) kinds.emplace_back("a steered front axle");
   if (vehicle.rotorcraft) kinds.emplace_back("rotors");
   if (vehicle.fixed_wing) kinds.emplace_back("wings");
   if (kinds.empty()) return "neither wheels nor rotors nor wings";
@@ -40,7 +41,11 @@ const WheeledVehicle& VehicleDescription::need_wheeled(const std::string& who) c
 }
 
 const SteeredVehicle& VehicleDescription::need_steered(const std::string& who) const {
-  return need_kind(*this, steered, "with steered axles", who);
+  return need_kind(*this, steered, "with two steered axles", who);
+}
+
+const AckermannVehicle& VehicleDescription::need_ackermann(const std::string& who) const {
+  return need_kind(*this, ackermann, "with a steered front axle", who);
 }
 
 const Rotorcraft& VehicleDescription::need_rotorcraft(const std::string& who) const {

@@ -50,11 +50,14 @@ struct VehicleDescription {
 
   /// What it has; see vehicle_kinds.h. At least one, and each that is there is filled whole.
   std::optional<WheeledVehicle> wheeled;
-  std::optional<SteeredVehicle> steered;  ///< only with `wheeled`
+  std::optional<SteeredVehicle> steered;      ///< only with `wheeled`
+  std::optional<AckermannVehicle> ackermann;  ///< only with `wheeled`, not with `steered`
   std::optional<Rotorcraft> rotorcraft;
   std::optional<FixedWingAircraft> fixed_wing;
 
   bool flies() const { return rotorcraft.has_value() || fixed_wing.has_value(); }
+  /// Drives by steering angles and cannot turn on the spot.
+  bool steers_by_axles() const { return steered.has_value() || ackermann.has_value(); }
 
   /// The record a part cannot do without.
   /// @param who  part that asks, "rover.controller (pure_pursuit)"
@@ -62,6 +65,7 @@ struct VehicleDescription {
   /// 'quadrotor' has rotors"
   const WheeledVehicle& need_wheeled(const std::string& who) const;
   const SteeredVehicle& need_steered(const std::string& who) const;
+  const AckermannVehicle& need_ackermann(const std::string& who) const;
   const Rotorcraft& need_rotorcraft(const std::string& who) const;
   const FixedWingAircraft& need_fixed_wing(const std::string& who) const;
   /// A number a part cannot do without. @param name  of its field, "min_turning_radius_m"

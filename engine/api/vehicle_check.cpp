@@ -25,6 +25,7 @@ class Check {
     check_kinds();
     if (vehicle_.wheeled) check_wheeled(*vehicle_.wheeled);
     if (vehicle_.steered) check_steered(*vehicle_.steered);
+    if (vehicle_.ackermann) check_ackermann(*vehicle_.ackermann);
     if (vehicle_.rotorcraft) check_rotorcraft(*vehicle_.rotorcraft);
     if (vehicle_.fixed_wing) check_fixed_wing(*vehicle_.fixed_wing);
     return fault_;
@@ -88,6 +89,8 @@ class Check {
     demand(vehicle_.wheeled || vehicle_.flies(),
            "none of wheeled, rotorcraft and fixed_wing is told");
     demand(!vehicle_.steered || vehicle_.wheeled, "steered is told without wheeled");
+    demand(!vehicle_.ackermann || vehicle_.wheeled, "ackermann is told without wheeled");
+    demand(!vehicle_.ackermann || !vehicle_.steered, "ackermann and steered are both told");
   }
 
   void check_wheeled(const WheeledVehicle& wheeled) {
@@ -127,6 +130,20 @@ class Check {
     }
     has_actuator("steered", "axle_front_steer_rad");
     has_actuator("steered", "axle_rear_steer_rad");
+  }
+
+  void check_ackermann(const AckermannVehicle& ackermann) {
+    positive("ackermann.rear_axle_m", ackermann.rear_axle_m);
+    acute("ackermann.max_axle_steer_rad", ackermann.max_axle_steer_rad);
+    positive("ackermann.steer_rate_radps", ackermann.steer_rate_radps);
+    not_negative("ackermann.steer_lag_s", ackermann.steer_lag_s);
+    if (vehicle_.wheeled) {
+      demand(ackermann.rear_axle_m < vehicle_.wheeled->wheel_base_m,
+             fmt::format("ackermann.rear_axle_m = {:g} puts the front axle behind B's origin; "
+                         "wheeled.wheel_base_m = {:g}",
+                         ackermann.rear_axle_m, vehicle_.wheeled->wheel_base_m));
+    }
+    has_actuator("ackermann", "axle_front_steer_rad");
   }
 
   void check_rotorcraft(const Rotorcraft& craft) {

@@ -37,6 +37,15 @@ struct SteeredVehicle {
   double steer_lag_s = 0.0;         ///< first-order lag of the servos; 0: none
 };
 
+/// Steers by its front wheels as a car does ("axle_front_steer_rad", of one wheel in the middle of
+/// the axle, positive to the left); the rear axle is fixed. Comes with WheeledVehicle.
+struct AckermannVehicle {
+  double rear_axle_m = 0.0;         ///< behind B's origin, positive
+  double max_axle_steer_rad = 0.0;  ///< to either side
+  double steer_rate_radps = 0.0;    ///< of the servo, most
+  double steer_lag_s = 0.0;         ///< first-order lag of the servo; 0: none
+};
+
 /// One rotor; its thrust is along +z of B.
 struct RotorPlace {
   Eigen::Vector2d p_B = {0, 0};  ///< hub, m

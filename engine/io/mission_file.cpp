@@ -8,6 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/io/gis_mission.h"
 #include "engine/io/mav_command.h"
 #include "engine/io/mission_item_check.h"
 #include "engine/io/qgc_plan.h"
@@ -75,6 +76,7 @@ Geodetic place_of(const MissionItem& item) {
 }
 
 MissionFile read_mission(const std::filesystem::path& file) {
+  if (is_gis_mission(file)) return read_gis_mission(file);
   std::optional<std::string> bytes = read_bytes(file);
   if (!bytes) throw ConfigError(fmt::format("mission file '{}' does not exist", file.string()));
   std::string& text = *bytes;
@@ -87,7 +89,8 @@ MissionFile read_mission(const std::filesystem::path& file) {
   if (text.compare(begin, 3, "QGC") == 0) return parse_qgc_wpl(text.substr(begin), file);
   if (text[begin] == '{') return parse_qgc_plan(text, file);
   throw ConfigError(fmt::format(
-      "mission file '{}' is neither a QGroundControl plan (JSON) nor a 'QGC WPL 110' text",
+      "mission file '{}' is neither a QGroundControl plan (JSON) nor a 'QGC WPL 110' text; lines "
+      "and points of a map are read from .gpkg, .kml, .kmz, .shp and .geojson",
       file.string()));
 }
 

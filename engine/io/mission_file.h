@@ -1,5 +1,6 @@
 #pragma once
-/// Missions of ground stations: QGroundControl's `.plan` and the text format `QGC WPL 110`.
+/// Missions of ground stations, QGroundControl's `.plan` and the text format `QGC WPL 110`, and
+/// those drawn in a geographic information system (gis_mission.h).
 
 #include <array>
 #include <filesystem>
@@ -35,7 +36,7 @@ struct FenceCircle {
 
 struct MissionFile {
   std::filesystem::path file;
-  std::string format;  ///< "QGroundControl plan" or "QGC WPL 110"
+  std::string format;  ///< "QGroundControl plan", "QGC WPL 110", "lines and points of a map"
   std::vector<MissionItem> items;
   std::optional<Geodetic> planned_home;    ///< altitude above mean sea level
   std::optional<double> cruise_speed_mps;  ///< of vehicles with wings
@@ -46,7 +47,7 @@ struct MissionFile {
   std::vector<Geodetic> rally_points;
 };
 
-/// Reads either format, told apart by the content.
+/// Reads any of the formats, told apart by ending and content.
 /// @throws ConfigError in one sentence, with the file, the item's number and what is known: missing
 /// file, neither format, versions other than `.plan` 1, mission 2, survey 5, fences 2; missing
 /// parts; unknown commands and frames; complex items other than surveys; numbers that are none

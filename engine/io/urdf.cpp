@@ -13,6 +13,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/core/program.h"
 
 namespace vinerow::io {
 namespace {
@@ -74,6 +75,34 @@ bool has_xacro_element(const tinyxml2::XMLElement& element) {
   return false;
 }
 
+/// Whether the text is well-formed and one that only xacro makes a URDF of.
+bool is_xacro(const std::string& text) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return false;
+  const tinyxml2::XMLElement* root = document.RootElement();
+  if (root == nullptr || std::string_view(root->Name()) != "robot") return false;
+  return text.find("${") != std::string::npos || has_xacro_element(*root);
+}
+
+/// @throws ConfigError where xacro is not installed or refuses the file, with its reason
+std::string expand_xacro(const std::filesystem::path& file, std::vector<std::string>& notes) {
+  if (!has_program("xacro")) {
+    throw ConfigError(fmt::format(
+        "{0}: a xacro source, not a URDF, and xacro is not installed; expand it elsewhere: xacro "
+        "{0} > robot.urdf",
+        file.string()));
+  }
+  // An absolute path is never taken for an option.
+  const ProgramOutput expanded =
+      run_program({"xacro", std::filesystem::absolute(file).string()});
+  if (!expanded.succeeded) {
+    throw ConfigError(fmt::format("{}: xacro does not expand it: {}", file.string(),
+                                  expanded.complaint.substr(0, 300)));
+  }
+  notes.push_back("expanded by xacro");
+  return expanded.output;
+}
+
 /// Checks the XML, and drops a material that is defined again under the same name: liburdfdom
 /// refuses the whole file for it. @returns the text to parse
 std::string check_xml(const std::string& text, const std::string& file,
@@ -88,10 +117,6 @@ std::string check_xml(const std::string& text, const std::string& file,
     throw ConfigError(
         fmt::format("{}:1: not a URDF: the outermost element is <{}>, must be <robot>", file,
                     root ? root->Name() : ""));
-  }
-  if (text.find("${") != std::string::npos || has_xacro_element(*root)) {
-    throw ConfigError(fmt::format(
-        "{0}: a xacro source, not a URDF; expand it first: xacro {0} > robot.urdf", file));
   }
 
   std::set<std::string> materials;
@@ -253,6 +278,9 @@ void add_tree(const urdf::Link& source, int parent_joint, const Packages& packag
     joint.X_PJ = pose_of(source_joint.parent_to_joint_origin_transform);
     const Eigen::Vector3d axis = from_urdf(source_joint.axis);
     if (axis.norm() > 1e-9) joint.axis_J = axis.normalized();
+    if (const auto& limits = source_joint.limits) {
+      joint.limits = {limits->lower, limits->upper, limits->velocity};
+    }
     model.joints.push_back(joint);
     add_tree(*child, static_cast<int>(model.joints.size()) - 1, packages, model);
   }
@@ -263,8 +291,10 @@ void add_tree(const urdf::Link& source, int parent_joint, const Packages& packag
 UrdfModel load_urdf(const std::filesystem::path& file, const Packages& packages) {
   UrdfModel model;
   model.file = std::filesystem::absolute(file);
+  std::string source = read_urdf_text(file);
+  if (is_xacro(source)) source = expand_xacro(file, model.notes);
   const std::string text =
-      check_xml(replace_optenv(read_urdf_text(file), model.notes), file.string(), model.notes);
+      check_xml(replace_optenv(source, model.notes), file.string(), model.notes);
 
   urdf::ModelInterfaceSharedPtr parsed;
   ComplaintCatcher complaints;

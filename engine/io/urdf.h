@@ -2,7 +2,8 @@
 /// Robots from URDF files, as plain data. Parsed by liburdfdom; lengths in metres, angles in
 /// radians.
 ///
-/// Beyond plain URDF: `$(optenv NAME default)` left behind by xacro is replaced by its default (the
+/// A xacro source is expanded first, by the program `xacro` where that is installed. Beyond plain
+/// URDF: `$(optenv NAME default)` left behind by xacro is replaced by its default (the
 /// environment is not asked: a run must not depend on it). `package://name/rest` is looked up in
 /// `packages`, else in the nearest folder above the file that is called `name`.
 
@@ -41,6 +42,13 @@ struct UrdfLink {
   int parent_joint = -1;  ///< index into UrdfModel::joints; -1: the root
 };
 
+/// Of a joint's position and speed: rad and rad/s, m and m/s of what slides.
+struct UrdfLimits {
+  double lower = 0.0;
+  double upper = 0.0;
+  double velocity = 0.0;  ///< 0: not given
+};
+
 enum class UrdfJointKind { kFixed, kContinuous, kRevolute, kPrismatic, kFloating, kPlanar };
 
 struct UrdfJoint {
@@ -50,6 +58,7 @@ struct UrdfJoint {
   int child_link = -1;
   Pose X_PJ;  ///< child's frame in the parent's, at joint position zero
   Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();  ///< unit, in the child's frame
+  std::optional<UrdfLimits> limits;
 };
 
 struct UrdfModel {
@@ -62,7 +71,8 @@ struct UrdfModel {
 
 /// @param packages  folder of each `package://` name
 /// @throws ConfigError in one sentence: the file does not exist, is not well-formed XML (with the
-///         line), is not a URDF (with the parser's reason), or names a mesh that is not there
+///         line), is not a URDF (with the parser's reason), names a mesh that is not there, or is
+///         a xacro source that cannot be expanded
 UrdfModel load_urdf(const std::filesystem::path& file,
                     const std::map<std::string, std::filesystem::path>& packages = {});
 

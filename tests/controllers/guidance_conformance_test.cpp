@@ -390,7 +390,7 @@ TEST_P(EveryFlightGuidance, RefusesVehiclesThatDoNotFly) {
     const std::string text = error.what();
     EXPECT_EQ(text, "drone.guidance (" + GetParam() +
                         ") needs a vehicle with rotors; vehicle type 'four_wheel_steering_rover' "
-                        "has wheels and steered axles");
+                        "has wheels and two steered axles");
   }
 }
 
@@ -488,7 +488,7 @@ TEST_P(EveryAirGuidance, RefusesVehiclesWithoutWings) {
     const std::string text = error.what();
     EXPECT_EQ(text, "plane.guidance (" + GetParam() +
                         ") needs a vehicle with wings; vehicle type 'four_wheel_steering_rover' "
-                        "has wheels and steered axles");
+                        "has wheels and two steered axles");
   }
 }
 

@@ -244,6 +244,13 @@ class Export(unittest.TestCase):
         self.assertEqual(len(self.table("/rover/kinds", "--from", "1.06")), 1)
         self.assertEqual(len(self.table("/rover/kinds", "--to", "1.04")), 0)
 
+    def test_a_span_that_no_message_lies_in_is_refused(self):
+        self.write_kinds()
+        late = self.run_export("--topic", "/rover/kinds", "--from", "500", status=2).stderr
+        self.assertIn("export: --from 500 s is after the end of", late)
+        turned = self.run_export("--topic", "/rover/kinds", "--from", "2", "--to", "1.5", status=2).stderr
+        self.assertIn("export: --from 2 s is after --to 1.5 s", turned)
+
     def test_patterns_give_a_file_for_each_topic_in_the_folder_alone(self):
         log = Log()
         for topic in ["/a/x", "/a_x", "/../../escape", "/b"]:

@@ -39,6 +39,20 @@ std::vector<Setup> setups() {
                           set.set("urdf", std::string(VINEROW_SOURCE_DIR) +
                                               "/tests/vehicles/data/plain_rover.urdf");
                         }});
+      result.push_back({name + "_car", name, [](ParameterSet& set) {
+                          set.set("urdf", std::string(VINEROW_SOURCE_DIR) +
+                                              "/tests/vehicles/data/plain_car.urdf");
+                          // Motors and brakes of a machine of 200 kg, on two wheels alone.
+                          set.set("max_torque_Nm", 150.0);
+                          set.set("max_power_W", 2000.0);
+                          set.set("speed_gain_Nms", 60.0);
+                          set.set("speed_integral_gain_Nm", 300.0);
+                          set.set("brake_torque_Nm", 200.0);
+                        }});
+      result.push_back({name + "_four_steered", name, [](ParameterSet& set) {
+                          set.set("urdf", std::string(VINEROW_SOURCE_DIR) +
+                                              "/tests/vehicles/data/plain_four_steered.urdf");
+                        }});
       continue;
     }
     result.push_back({name, name, [](ParameterSet&) {}});
@@ -131,20 +145,22 @@ class Rig {
     const double radius = about().wheeled->wheel_radius_m;
     const bool steers = about().actuators[0].name == "axle_front_steer_rad";
     const double v = 0.5 * (left_mps + right_mps), track = about().wheeled->track_m;
-    const double half_base = 0.5 * about().wheeled->wheel_base_m;
+    // The centre of the turn lies beside the rear axle of a car, else beside the middle.
+    const double base = about().wheeled->wheel_base_m;
+    const double rear_lever = about().ackermann ? 0.0 : 0.5 * base;
+    const double front_lever = base - rear_lever;
     double curvature = 0.0;
     if (steers) {
-      const double most = std::tan(about().actuators[0].max) / half_base;
+      const double most = std::tan(about().actuators[0].max) / front_lever;
       const double wanted = (right_mps - left_mps) / track / (v == 0.0 ? 1e-9 : v);
       curvature = std::clamp(wanted, -most, most);
     }
     for (std::size_t i = 0; i < values_.size(); ++i) {
       const ActuatorSpec& actuator = about().actuators[i];
-      const double axle_rad = std::atan(curvature * half_base);
       if (actuator.name == "axle_front_steer_rad") {
-        values_[i] = axle_rad;
+        values_[i] = std::atan(curvature * front_lever);
       } else if (actuator.name == "axle_rear_steer_rad") {
-        values_[i] = -axle_rad;
+        values_[i] = -std::atan(curvature * rear_lever);
       } else {
         // "wheel_fl_...", "wheel_rl_...", "wheel_l1_...": the side's letter is the last before '_'
         // or the first with a number behind it.
@@ -153,7 +169,8 @@ class Rig {
         double speed_mps = left ? left_mps : right_mps;
         if (steers) {
           const double lever = 1.0 - curvature * (left ? 0.5 : -0.5) * track;
-          speed_mps = v * std::hypot(lever, curvature * half_base);
+          speed_mps =
+              v * std::hypot(lever, curvature * (wheel[0] == 'f' ? front_lever : rear_lever));
         }
         values_[i] = speed_mps / radius;
       }

@@ -169,10 +169,25 @@ void write_table(const MessageTable& table, const std::filesystem::path& file,
   fmt::print("{}  {} rows\n", file.string(), table.rows().size());
 }
 
+/// @throws ConfigError if no message can lie between --from and --to
+void check_span(const record::McapReader& log, const ExportArguments& arguments) {
+  if (arguments.from_s > arguments.to_s) {
+    throw ConfigError(
+        fmt::format("export: --from {} s is after --to {} s", arguments.from_s, arguments.to_s));
+  }
+  // A message is never logged before it is published, so none is of a later time than this.
+  const double end_s = static_cast<double>(log.end_time()) / 1e9;
+  if (arguments.from_s > end_s) {
+    throw ConfigError(fmt::format("export: --from {} s is after the end of '{}', which is at {} s",
+                                  arguments.from_s, arguments.log.string(), end_s));
+  }
+}
+
 void export_topics(ExportArguments arguments) {
   const bool one_file = read_out(arguments);
   arguments.log = log_of(arguments.log);
   record::McapReader log(arguments.log);
+  check_span(log, arguments);
   const std::vector<ChosenTopic> topics = chosen_topics(log, arguments);
   if (one_file && topics.size() > 1) {
     throw ConfigError(fmt::format("export: -o '{}' is one file for {} topics, must be a folder",

@@ -8,29 +8,17 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/core/program.h"
 #include "engine/core/whole_file.h"
 
 extern char** environ;
 
 namespace vinerow::tools {
-
-bool has_program(const char* name) {
-  const char* path = std::getenv("PATH");
-  std::string_view rest = path ? path : "";
-  while (!rest.empty()) {
-    const std::string_view folder = rest.substr(0, rest.find(':'));
-    if (::access((std::filesystem::path(folder) / name).c_str(), X_OK) == 0) return true;
-    rest.remove_prefix(std::min(folder.size() + 1, rest.size()));
-  }
-  return false;
-}
 
 VideoEncoder::VideoEncoder(std::filesystem::path out, double fps)
     : out_(std::move(out)), fps_(fps) {

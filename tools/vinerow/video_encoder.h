@@ -36,7 +36,4 @@ class VideoEncoder {
   int pipe_ = -1;
 };
 
-/// Whether a program stands in PATH.
-bool has_program(const char* name);
-
 }  // namespace vinerow::tools

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/core/check.h"
 #include "vehicles/four_wheel_steering_rover/four_wheel_steering_mesh.h"
 
 namespace vinerow::vehicles {
@@ -53,12 +52,12 @@ FourWheelSteeringRover::FourWheelSteeringRover(const FourWheelSteeringRoverParam
 
 void FourWheelSteeringRover::describe() {
   const FourWheelSteeringRoverParams& p = params_;
-  const double max_axle = p.max_axle_steer_rad();
   description_.type = "four_wheel_steering_rover";
-  for (const char* axle : {"front", "rear"}) {
-    description_.actuators.push_back(
-        {fmt::format("axle_{}_steer_rad", axle), "rad", -max_axle, max_axle});
-  }
+  build_steering({.axles = p.axles(),
+                  .servo = p.servo,
+                  .max_axle_steer_rad = p.max_axle_steer_rad(),
+                  .steered_axles = 2,
+                  .knuckles = {0, 1, 2, 3}});
   append_wheel_speed_actuators(p, description_.actuators);
   description_.mass_kg = p.mass_kg;
   description_.height_above_ground_m = p.com_height_m;
@@ -67,18 +66,11 @@ void FourWheelSteeringRover::describe() {
                                            0.5 * (p.track_m + p.tyre_width_m),
                                            0.5 * (kHullTop_m - kHullBottom_m)};
   description_.collision_centre_B = {0.0, 0.0, 0.5 * (kHullTop_m + kHullBottom_m) - p.com_height_m};
-  const TwoAxles axles = p.axles();
   WheeledVehicle& wheeled = description_.wheeled.emplace();
   wheeled.track_m = p.track_m;
   wheeled.wheel_base_m = p.wheel_base_m;
   wheeled.wheel_radius_m = p.wheel_radius_m;
   wheeled.wheel_speed_limit_radps = p.wheel_speed_limit_radps;
-  SteeredVehicle& steered = description_.steered.emplace();
-  steered.front_axle_m = axles.front_m;
-  steered.rear_axle_m = axles.rear_m;
-  steered.max_axle_steer_rad = max_axle;
-  steered.steer_rate_radps = p.servo.rate_radps;
-  steered.steer_lag_s = p.servo.lag_s;
   description_.max_speed_mps = p.wheel_speed_limit_radps * p.wheel_radius_m;
   description_.min_turning_radius_m = p.min_turning_radius_m();
   description_.battery_capacity_J = p.battery.capacity_Wh * 3600.0;
@@ -105,42 +97,6 @@ void FourWheelSteeringRover::make_links() {
     links_.push_back({fmt::format("knuckle_{}", corner.name),
                       std::make_shared<TriangleMesh>(make_steering_knuckle(params_, corner)),
                       material});
-  }
-}
-
-void FourWheelSteeringRover::actuate(std::span<const double> values) {
-  VINEROW_ASSERT(values.size() == kFirstWheel + kCorners.size());
-  steer_command_rad_ = {values[kFrontSteer], values[kRearSteer]};
-  PlatformVehicle::actuate(values.subspan(kFirstWheel));
-}
-
-void FourWheelSteeringRover::steer(double dt_s) {
-  bool moved = false;
-  for (const std::size_t axle : {kFrontSteer, kRearSteer}) {
-    double& angle_rad = actuator_states_[axle];
-    if (steer_command_rad_[axle] == angle_rad) continue;
-    angle_rad = advance_servo(params_.servo, steer_command_rad_[axle], dt_s, angle_rad);
-    moved = true;
-  }
-  if (!moved) return;
-  const std::array<double, 4> angles_rad = calc_wheel_angles(
-      params_.axles(), actuator_states_[kFrontSteer], actuator_states_[kRearSteer]);
-  for (std::size_t i = 0; i < angles_rad.size(); ++i) platform_->set_steer(i, angles_rad[i]);
-}
-
-void FourWheelSteeringRover::before_physics(Time now, Duration dt) {
-  steer(dt.s());
-  PlatformVehicle::before_physics(now, dt);
-}
-
-void FourWheelSteeringRover::read_links(std::vector<Pose>& X_WL) const {
-  PlatformVehicle::read_links(X_WL);
-  // A knuckle steers and moves with its wheel, but does not turn with it.
-  const WheeledPlatformState& state = platform_->state();
-  for (std::size_t i = 0; i < kCorners.size(); ++i) {
-    WheelState unturned = state.wheels[i];
-    unturned.angle_rad = 0.0;
-    X_WL[1 + kCorners.size() + i] = state.body.X_WB * platform_->wheel(i).link_pose_B(unturned);
   }
 }
 

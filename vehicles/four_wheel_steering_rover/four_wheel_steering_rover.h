@@ -14,35 +14,25 @@
 ///
 /// B: centre of mass, in the middle between the wheels, com_height_m above level ground.
 
-#include <array>
 #include <memory>
 
 #include "engine/api/registry.h"
 #include "vehicles/four_wheel_steering_rover/four_wheel_steering_rover_params.h"
-#include "vehicles/parts/platform_vehicle.h"
+#include "vehicles/parts/steered_platform_vehicle.h"
 
 namespace vinerow::vehicles {
 
-class FourWheelSteeringRover final : public PlatformVehicle {
+class FourWheelSteeringRover final : public SteeredPlatformVehicle {
  public:
-  /// Places in the actuator vector.
-  static constexpr std::size_t kFrontSteer = 0, kRearSteer = 1, kFirstWheel = 2;
-
   /// @throws ConfigError
   explicit FourWheelSteeringRover(const FourWheelSteeringRoverParams& params,
                                   double gravity_mps2 = 9.80665);
 
-  void actuate(std::span<const double> values) override;
-  void before_physics(Time now, Duration dt) override;
-  void read_links(std::vector<Pose>& X_WL) const override;
-
  private:
   void describe();
   void make_links();
-  void steer(double dt_s);
 
   FourWheelSteeringRoverParams params_;
-  std::array<double, 2> steer_command_rad_{};  ///< front, rear; the angles are actuator states
 };
 
 std::unique_ptr<Vehicle> make_four_wheel_steering_rover(const ParameterSet& parameters,

@@ -19,7 +19,6 @@ std::string find_fault_in_tightest_turn(const FourWheelSteeringRoverParams& p) {
 
 const ParameterTable<FourWheelSteeringRoverParams>& four_wheel_steering_rover_table() {
   using P = FourWheelSteeringRoverParams;
-  using Servo = SteeringServoParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .degrees("max_steer_deg", &P::max_steer_rad, between(1.0, 45.0),
@@ -27,10 +26,7 @@ const ParameterTable<FourWheelSteeringRoverParams>& four_wheel_steering_rover_ta
           .choice("steer_limit", &P::limits_wheels, {{"axle", false}, {"wheel", true}},
                   "whose range that is: of the axle's (bicycle) angle, or of the inner wheel in "
                   "the tightest turn")
-          .number("steer_rate_radps", "rad/s", inside(&P::servo, &Servo::rate_radps), kPositive,
-                  "largest rate of an axle angle")
-          .number("steer_lag_s", "s", inside(&P::servo, &Servo::lag_s), between(0.0, 10.0),
-                  "time constant of the steering servos")
+          .include(&P::servo, steering_servo_table())
           .include(chassis_of, chassis_table())
           .rule(find_fault_in_tightest_turn);
   return table;

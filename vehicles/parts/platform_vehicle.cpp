@@ -1,11 +1,19 @@
 #include "vehicles/parts/platform_vehicle.h"
 
+#include <numeric>
+
 #include "engine/core/check.h"
 
 namespace vinerow::vehicles {
 
-void PlatformVehicle::build_platform(WheeledPlatformParams params) {
+void PlatformVehicle::build_platform(WheeledPlatformParams params,
+                                     std::vector<std::size_t> driven) {
   platform_.emplace(std::move(params));
+  driven_ = std::move(driven);
+  if (driven_.empty()) {
+    driven_.resize(platform_->state().wheels.size());
+    std::iota(driven_.begin(), driven_.end(), std::size_t{0});
+  }
   actuator_states_.assign(description_.actuators.size(), 0.0);
 }
 
@@ -18,8 +26,8 @@ void PlatformVehicle::connect(Ports& ports) {
 }
 
 void PlatformVehicle::actuate(std::span<const double> values) {
-  VINEROW_ASSERT(values.size() == platform_->state().wheels.size());
-  for (std::size_t i = 0; i < values.size(); ++i) platform_->command_speed(i, values[i]);
+  VINEROW_ASSERT(values.size() == driven_.size());
+  for (std::size_t i = 0; i < values.size(); ++i) platform_->command_speed(driven_[i], values[i]);
 }
 
 void PlatformVehicle::before_physics(Time now, Duration dt) {
@@ -31,9 +39,9 @@ void PlatformVehicle::after_physics(Time /*now*/, Duration dt) {
   platform_->after_physics(dt);
   const std::vector<WheelState>& wheels = platform_->state().wheels;
   // Wheel speeds are the last actuators; what stands before them is the vehicle's own.
-  const std::size_t first = actuator_states_.size() - wheels.size();
-  for (std::size_t i = 0; i < wheels.size(); ++i) {
-    actuator_states_[first + i] = wheels[i].spin_radps;
+  const std::size_t first = actuator_states_.size() - driven_.size();
+  for (std::size_t i = 0; i < driven_.size(); ++i) {
+    actuator_states_[first + i] = wheels[driven_[i]].spin_radps;
   }
 }
 

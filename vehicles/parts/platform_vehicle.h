@@ -2,8 +2,8 @@
 /// A vehicle whose mechanics are one WheeledPlatform: what all of them do alike.
 ///
 /// A vehicle class fills description_ and links_, calls build_platform() in its constructor, and
-/// overrides what it does otherwise. Here the actuators are the wheels' speeds in the platform's
-/// order, and the links the body, then the wheels; further links stand behind them.
+/// overrides what it does otherwise. Here the actuators are the driven wheels' speeds in the
+/// platform's order, and the links the body, then the wheels; further links stand behind them.
 
 #include <optional>
 
@@ -36,12 +36,14 @@ class PlatformVehicle : public Vehicle {
   const WheeledPlatform& platform() const { return *platform_; }
 
  protected:
+  /// @param driven  places of the wheels that have an actuator, ascending; empty: all
   /// @throws ConfigError
-  void build_platform(WheeledPlatformParams params);
+  void build_platform(WheeledPlatformParams params, std::vector<std::size_t> driven = {});
 
   VehicleDescription description_;
   std::vector<VehicleLink> links_;
   std::optional<WheeledPlatform> platform_;
+  std::vector<std::size_t> driven_;      ///< wheels with an actuator, whose place is the same
   std::vector<double> actuator_states_;  ///< written after each step
 };
 

@@ -7,12 +7,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/parameter_table_fwd.h"
+
 namespace vinerow::vehicles {
 
 struct SteeringServoParams {
   double rate_radps = 2.0;  ///< > 0
   double lag_s = 0.05;      ///< T, >= 0
 };
+
+/// steer_rate_radps, steer_lag_s
+const ParameterTable<SteeringServoParams>& steering_servo_table();
 
 /// Angle at the end of the step: the exact solution while the rate limit is not met; without
 /// overshoot for any step. The last nanoradian is closed at once, so that a servo comes to rest.

@@ -2,15 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/api/file_shelf.h"
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
+#include "engine/math/angles.h"
+#include "vehicles/parts/chassis.h"
 #include "vehicles/parts/effective_track.h"
 
 namespace vinerow::vehicles {
 namespace {
+
+/// Some files limit a joint by what it could turn alone.
+constexpr double kMostJointLimit_rad = rad_from_deg(60.0);
+
+/// Two radii that differ by less are the same but for a mesh's facets.
+constexpr double kSameRadius = 0.02;
 
 std::string find_fault_in_packages(const UrdfRoverParams& p) {
   for (const std::string& entry : p.packages) {
@@ -41,11 +50,23 @@ const ParameterTable<UrdfRoverParams>& urdf_rover_table() {
                  "axis points across")
           .texts("right_wheel_joints", inside(&P::options, &Options::right_joints),
                  "joints of the right wheels")
+          .texts("steering_joints", inside(&P::options, &Options::steering_joints),
+                 "joints that the front wheels, or all four, steer by; without the list: those "
+                 "that wheels hang on and that turn about the vertical through their hubs")
+          .degrees("max_steer_deg", &P::max_steer_rad, between(1.0, 60.0),
+                   "of a steered wheel, both ways; default the steering joints' limits, at most 60")
+          .include(&P::servo, steering_servo_table())
+          .choice("driven_wheels", &P::driven,
+                  {{"auto", DrivenWheels::kAuto},
+                   {"all", DrivenWheels::kAll},
+                   {"rear", DrivenWheels::kRear}},
+                  "which have a motor; auto: the rear ones of a robot that steers by its front "
+                  "wheels, else all")
           .number("wheel_radius_m", "m", inside(&P::options, &Options::wheel_radius_m), kPositive,
                   "instead of the radius of the wheel's collision shape or mesh")
           .number("max_speed_mps", "m/s", &P::max_speed_mps, kPositive, "told to controllers")
           .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
-                  "told to planners and controllers")
+                  "told to planners and controllers; of steered axles at least what they turn")
           .number("wheel_speed_limit_radps", "rad/s", &P::wheel_speed_limit_radps, kPositive,
                   "largest wheel speed command, both ways")
           .number("static_deflection_m", "m", &P::static_deflection_m, kPositive,
@@ -79,14 +100,42 @@ UrdfRoverModel read_model(const UrdfRoverParams& params, FileShelf* shelf) {
       }
     }
   }
-  key += fmt::format("{} {} {}", fmt::join(params.options.left_joints, ","),
+  key += fmt::format("{} {} {} {}", fmt::join(params.options.left_joints, ","),
                      fmt::join(params.options.right_joints, ","),
+                     fmt::join(params.options.steering_joints, ","),
                      params.options.wheel_radius_m.value_or(0.0));
   return *keep<UrdfRoverModel>(shelf, key,
                                [&] { return read_urdf_rover(*urdf, params.options); });
 }
 
+/// Places of the wheels that have a motor. @throws ConfigError
+std::vector<std::size_t> find_driven(const UrdfRoverParams& p, const UrdfRoverModel& model) {
+  const bool is_car = model.steering && model.steering->axles == 1;
+  if (p.driven == DrivenWheels::kRear && !is_car) {
+    throw ConfigError(fmt::format(
+        "{}: driven_wheels = rear is for a robot that steers by its front wheels, this one {}",
+        p.urdf.string(), model.steering ? "steers by all four" : "has no steered wheels"));
+  }
+  const bool rear = p.driven == DrivenWheels::kRear || (p.driven == DrivenWheels::kAuto && is_car);
+  std::vector<std::size_t> driven;
+  for (std::size_t i = 0; i < model.wheels.size(); ++i) {
+    if (!rear || model.wheels[i].name[0] == 'r') driven.push_back(i);
+  }
+  // Controllers know one radius.
+  const UrdfWheel& first = model.wheels[driven.front()];
+  for (const std::size_t i : driven) {
+    const UrdfWheel& wheel = model.wheels[i];
+    if (std::abs(wheel.radius_m - first.radius_m) <= kSameRadius * first.radius_m) continue;
+    throw ConfigError(fmt::format(
+        "{}: driven wheels '{}' and '{}' have radii of {:.4g} and {:.4g} m, must be alike{}",
+        p.urdf.string(), first.joint, wheel.joint, first.radius_m, wheel.radius_m,
+        is_car ? "; or set driven_wheels = rear" : ""));
+  }
+  return driven;
+}
+
 WheeledPlatformParams platform_params(const UrdfRoverParams& p, const UrdfRoverModel& model,
+                                      const std::vector<std::size_t>& driven,
                                       double gravity_mps2) {
   std::vector<Eigen::Vector3d> hubs;
   for (const UrdfWheel& wheel : model.wheels) hubs.push_back(wheel.hub_B);
@@ -119,6 +168,10 @@ WheeledPlatformParams platform_params(const UrdfRoverParams& p, const UrdfRoverM
     wheel.probes = p.wheel_probes;
     wheel.tyre = p.tyre;
     wheel.motor = p.motor;
+    if (!std::binary_search(driven.begin(), driven.end(), i)) {
+      wheel.motor.max_torque_Nm = 0.0;  // it rolls freely
+      wheel.motor.brake_torque_Nm = 0.0;
+    }
     wheel.suspension.stiffness_N_per_m = stiffness;
     wheel.suspension.damping_Ns_per_m = damping;
     wheel.suspension.design_load_N = loads[i];
@@ -148,7 +201,8 @@ PartSpec urdf_rover_spec() {
   PartSpec spec;
   spec.name = "urdf_rover";
   spec.description =
-      "Skid-steered robot from a URDF file, on the shared wheel, with the file's own masses";
+      "Wheeled robot from a URDF file, on the shared wheel, with the file's own masses: skid "
+      "steering, Ackermann steering, or four steered wheels";
   spec.writes = {"wheels", "battery"};
   spec.parameters = urdf_rover_table().specs();
   return spec;
@@ -161,16 +215,18 @@ UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std
 }
 
 UrdfRover::UrdfRover(const UrdfRoverParams& params, double gravity_mps2, FileShelf* shelf)
-    : model_(read_model(params, shelf)) {
+    : model_(read_model(params, shelf)), driven_wheels_(find_driven(params, model_)) {
   describe(params);
   links_ = model_.links;
-  build_platform(platform_params(params, model_, gravity_mps2));
+  build_platform(platform_params(params, model_, driven_wheels_, gravity_mps2), driven_wheels_);
 }
 
 void UrdfRover::describe(const UrdfRoverParams& params) {
   description_.type = "urdf_rover";
-  for (const UrdfWheel& wheel : model_.wheels) {
-    description_.actuators.push_back({fmt::format("wheel_{}_speed_radps", wheel.name), "rad/s",
+  if (model_.steering) describe_steering(params);
+  for (const std::size_t i : driven_wheels_) {
+    description_.actuators.push_back({fmt::format("wheel_{}_speed_radps", model_.wheels[i].name),
+                                      "rad/s",
                                       -params.wheel_speed_limit_radps,
                                       params.wheel_speed_limit_radps});
   }
@@ -181,11 +237,49 @@ void UrdfRover::describe(const UrdfRoverParams& params) {
   WheeledVehicle& wheeled = description_.wheeled.emplace();
   wheeled.track_m = model_.track_m;
   wheeled.wheel_base_m = model_.wheel_base_m;
-  wheeled.wheel_radius_m = model_.wheels.front().radius_m;
+  wheeled.wheel_radius_m = model_.wheels[driven_wheels_.front()].radius_m;
   wheeled.wheel_speed_limit_radps = params.wheel_speed_limit_radps;
-  wheeled.effective_track_m = calc_effective_track_m(model_.track_m, model_.wheel_base_m);
+  if (!model_.steering) {
+    wheeled.effective_track_m = calc_effective_track_m(model_.track_m, model_.wheel_base_m);
+    description_.min_turning_radius_m = params.min_turning_radius_m;
+  }
   description_.max_speed_mps = params.max_speed_mps;
-  description_.min_turning_radius_m = params.min_turning_radius_m;
+}
+
+void UrdfRover::describe_steering(const UrdfRoverParams& params) {
+  const UrdfSteering& steering = *model_.steering;
+  std::optional<double> most_rad = params.max_steer_rad;
+  if (!most_rad && steering.max_wheel_steer_rad) {
+    most_rad = std::min(*steering.max_wheel_steer_rad, kMostJointLimit_rad);
+  }
+  if (!most_rad) {
+    throw ConfigError(fmt::format("{}: the steering joints have no limits; give max_steer_deg",
+                                  params.urdf.string()));
+  }
+  // The wheels roll about a centre at k = tan(d) axles / L beside the middle; the inner one, half a
+  // track nearer, is turned by tan(d_inner) = tan(d) / (1 - k B / 2).
+  const double base_m = model_.wheel_base_m, axles = static_cast<double>(steering.axles);
+  const double inner = std::tan(*most_rad);
+  const double tangent = inner / (1.0 + inner * axles * 0.5 * model_.track_m / base_m);
+  const double radius_m = base_m / (axles * tangent);
+  SteeringGear gear;
+  gear.axles = {steering.front_m, steering.rear_m, model_.track_m};
+  gear.servo = params.servo;
+  gear.max_axle_steer_rad = std::atan(tangent);
+  gear.steered_axles = steering.axles;
+  for (std::size_t corner = 0; corner < kCorners.size(); ++corner) {
+    const auto at = std::find_if(
+        model_.wheels.begin(), model_.wheels.end(),
+        [&](const UrdfWheel& wheel) { return wheel.name == kCorners[corner].name; });
+    gear.wheels[corner] = static_cast<std::size_t>(at - model_.wheels.begin());
+  }
+  gear.knuckles = model_.knuckles;
+  build_steering(std::move(gear));
+  // Of B: it stands beside the fixed rear axle, or between two axles that steer alike.
+  const double behind_m = steering.axles == 1 ? steering.rear_m
+                                              : 0.5 * (steering.rear_m - steering.front_m);
+  description_.min_turning_radius_m =
+      std::max(std::hypot(radius_m, behind_m), params.min_turning_radius_m);
 }
 
 std::unique_ptr<Vehicle> make_urdf_rover(const ParameterSet& parameters,

@@ -1,23 +1,35 @@
 #pragma once
-/// Any skid-steered robot from a URDF file, on the shared wheel, with the file's own masses.
+/// Any wheeled robot from a URDF file, on the shared wheel, with the file's own masses: steered by
+/// its wheels' speeds (skid steering), by its front wheels (Ackermann), or by all four.
 ///
-/// Actuators: wheel_<name>_speed_radps for each wheel joint, positive forward whatever the sign of
+/// A wheel steers where it hangs on a joint about the vertical through its hub, or on one that is
+/// named. The wheels of a steered axle then stand as an Ackermann mechanism has them, whatever
+/// linkage or servos the robot has. Each driven wheel has a motor of its own.
+///
+/// Actuators: of steered robots axle_front_steer_rad and, with four steered wheels,
+/// axle_rear_steer_rad (of one wheel in the middle of the axle, positive to the left); then
+/// wheel_<name>_speed_radps for each driven wheel, positive forward whatever the sign of
 /// the joint's axis; names fl, fr, rl, rr with two wheels a side, else l1.., r1... Signals:
 /// "wheels", "battery". B: centre of mass of the whole robot, axes of the root link.
 
 #include <memory>
 
 #include "engine/api/registry.h"
-#include "vehicles/parts/platform_vehicle.h"
+#include "vehicles/parts/steered_platform_vehicle.h"
 #include "vehicles/urdf_rover/urdf_rover_model.h"
 
 namespace vinerow::vehicles {
+
+enum class DrivenWheels { kAuto, kAll, kRear };
 
 struct UrdfRoverParams {
   std::string name = "rover";
   std::filesystem::path urdf;
   std::vector<std::string> packages;  ///< folders of package:// names, "name=folder" each
   UrdfRoverOptions options;
+  std::optional<double> max_steer_rad;  ///< of a wheel; absent: the joints' limits
+  SteeringServoParams servo;
+  DrivenWheels driven = DrivenWheels::kAuto;  ///< auto: the rear ones of an Ackermann robot
   double max_speed_mps = 1.0;
   double min_turning_radius_m = 0.5;
   double wheel_speed_limit_radps = 10.0;
@@ -44,7 +56,7 @@ struct UrdfRoverParams {
 PartSpec urdf_rover_spec();
 UrdfRoverParams read_urdf_rover_params(const ParameterSet& parameters, const std::string& name);
 
-class UrdfRover final : public PlatformVehicle {
+class UrdfRover final : public SteeredPlatformVehicle {
  public:
   /// @param shelf  where the file and its meshes are kept; null: nowhere. @throws ConfigError
   explicit UrdfRover(const UrdfRoverParams& params, double gravity_mps2 = 9.80665,
@@ -54,8 +66,11 @@ class UrdfRover final : public PlatformVehicle {
 
  private:
   void describe(const UrdfRoverParams& params);
+  /// Fills what steering takes. @throws ConfigError without a limit of the angle
+  void describe_steering(const UrdfRoverParams& params);
 
   UrdfRoverModel model_;
+  std::vector<std::size_t> driven_wheels_;  ///< places in the model
 };
 
 std::unique_ptr<Vehicle> make_urdf_rover(const ParameterSet& parameters,

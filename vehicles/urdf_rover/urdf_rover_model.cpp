@@ -20,6 +20,8 @@ using Eigen::Vector3d;
 /// An axle may lean this much (camber, toe) and still be taken as straight across.
 constexpr double kMinAcross = 0.98;
 constexpr double kDensityGuess_kgpm3 = 300.0;
+/// A hub farther than that share of the radius before or behind its steering axis trails: a castor.
+constexpr double kMostTrail = 0.3;
 
 std::vector<Pose> link_poses(const io::UrdfModel& urdf) {
   std::vector<Pose> X_RL(urdf.links.size());
@@ -100,6 +102,16 @@ void append_visual(const io::UrdfShape& shape, const Pose& X_ML, MeshBuilder& bu
   }
 }
 
+/// @throws ConfigError if there is no joint of that name
+std::size_t find_joint(const io::UrdfModel& urdf, const std::string& name) {
+  std::vector<std::string> known;
+  for (const io::UrdfJoint& joint : urdf.joints) known.push_back(joint.name);
+  const auto at = std::find(known.begin(), known.end(), name);
+  if (at != known.end()) return static_cast<std::size_t>(at - known.begin());
+  throw ConfigError(fmt::format("{}: no joint '{}'{} (joints: {})", urdf.file.string(), name,
+                                did_you_mean(name, known), join(known)));
+}
+
 /// Indices of the wheel joints, left ones first, each side from front to rear.
 std::vector<std::size_t> find_wheel_joints(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL,
                                            const UrdfRoverOptions& options) {
@@ -121,16 +133,9 @@ std::vector<std::size_t> find_wheel_joints(const io::UrdfModel& urdf, const std:
           file, urdf.joints.size()));
     }
   } else {
-    std::vector<std::string> known;
-    for (const io::UrdfJoint& joint : urdf.joints) known.push_back(joint.name);
     for (const auto* names : {&options.left_joints, &options.right_joints}) {
       for (const std::string& name : *names) {
-        const auto at = std::find(known.begin(), known.end(), name);
-        if (at == known.end()) {
-          throw ConfigError(fmt::format("{}: no joint '{}'{} (joints: {})", file, name,
-                                        did_you_mean(name, known), join(known)));
-        }
-        const auto index = static_cast<std::size_t>(at - known.begin());
+        const std::size_t index = find_joint(urdf, name);
         const double across = std::abs((X_RL[child(index)].q * urdf.joints[index].axis_J).y());
         if (across <= kMinAcross) {
           throw ConfigError(fmt::format(
@@ -181,6 +186,83 @@ void measure_wheel(const io::UrdfLink& link, const Vector3d& axis_L, UrdfWheel& 
   }
 }
 
+/// The joint above a wheel joint that turns about the vertical, -1 where there is none.
+int find_upright_joint(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL,
+                       std::size_t wheel_joint) {
+  int link = urdf.joints[wheel_joint].parent_link;
+  while (urdf.links[static_cast<std::size_t>(link)].parent_joint >= 0) {
+    const int index = urdf.links[static_cast<std::size_t>(link)].parent_joint;
+    const io::UrdfJoint& joint = urdf.joints[static_cast<std::size_t>(index)];
+    const bool turns =
+        joint.kind == io::UrdfJointKind::kRevolute || joint.kind == io::UrdfJointKind::kContinuous;
+    const Vector3d axis = X_RL[static_cast<std::size_t>(joint.child_link)].q * joint.axis_J;
+    if (turns && std::abs(axis.z()) > kMinAcross) return index;
+    link = joint.parent_link;
+  }
+  return -1;
+}
+
+/// Finds the joint that each wheel steers by. @throws ConfigError
+void find_steering_joints(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL,
+                          const std::vector<std::size_t>& wheel_joints,
+                          const UrdfRoverOptions& options, std::vector<UrdfWheel>& wheels) {
+  const std::string file = urdf.file.string();
+  std::vector<int> wanted;
+  for (const std::string& name : options.steering_joints) {
+    wanted.push_back(static_cast<int>(find_joint(urdf, name)));
+  }
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    const int joint = find_upright_joint(urdf, X_RL, wheel_joints[i]);
+    if (joint < 0) continue;
+    const io::UrdfJoint& found = urdf.joints[static_cast<std::size_t>(joint)];
+    if (options.steering_joints.empty()) {
+      const double trail_m =
+          std::abs(X_RL[static_cast<std::size_t>(urdf.joints[wheel_joints[i]].child_link)].p.x() -
+                   X_RL[static_cast<std::size_t>(found.child_link)].p.x());
+      if (trail_m > kMostTrail * wheels[i].radius_m) {
+        throw ConfigError(fmt::format(
+            "{}: wheel joint '{}' trails {:.3f} m behind joint '{}': castors are not supported; if "
+            "it is steered by a motor, name its joint in steering_joints",
+            file, wheels[i].joint, trail_m, found.name));
+      }
+    } else if (std::erase(wanted, joint) == 0) {
+      continue;  // held fast
+    }
+    wheels[i].steering_joint = joint;
+  }
+  if (wanted.empty()) return;
+  throw ConfigError(fmt::format(
+      "{}: no wheel hangs on steering joint '{}', or it does not turn about the vertical (z)", file,
+      urdf.joints[static_cast<std::size_t>(wanted.front())].name));
+}
+
+/// Axles, places and limits of what steers. @param model  its wheels are named
+/// @throws ConfigError unless it is the two front wheels of four, or all of them
+std::optional<UrdfSteering> read_steering(const io::UrdfModel& urdf, const UrdfRoverModel& model) {
+  std::vector<std::string> steered;
+  UrdfSteering steering;
+  for (const UrdfWheel& wheel : model.wheels) {
+    // Two of four are on each axle, so each hub counts by half.
+    (wheel.name[0] == 'f' ? steering.front_m : steering.rear_m) +=
+        (wheel.name[0] == 'f' ? 0.5 : -0.5) * wheel.hub_B.x();
+    if (wheel.steering_joint < 0) continue;
+    steered.push_back(wheel.name);
+    const auto& limits = urdf.joints[static_cast<std::size_t>(wheel.steering_joint)].limits;
+    if (!limits || !(limits->lower < 0.0 && limits->upper > 0.0)) continue;
+    const double most_rad = std::min(-limits->lower, limits->upper);
+    steering.max_wheel_steer_rad =
+        std::min(most_rad, steering.max_wheel_steer_rad.value_or(most_rad));
+  }
+  if (steered.empty()) return std::nullopt;
+  steering.axles = steered.size() == 4 ? 2 : 1;
+  const bool fits = model.wheels.size() == 4 &&
+                    (steered.size() == 4 || steered == std::vector<std::string>{"fl", "fr"});
+  if (fits) return steering;
+  throw ConfigError(
+      fmt::format("{}: {} of {} wheels steer ({}), must be the two front ones of four, or all four",
+                  urdf.file.string(), steered.size(), model.wheels.size(), join(steered)));
+}
+
 void name_wheels(std::vector<UrdfWheel>& wheels) {
   std::size_t count[2] = {0, 0};
   for (const UrdfWheel& wheel : wheels) ++count[wheel.left ? 0 : 1];
@@ -215,6 +297,76 @@ void merge_masses(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL, Urdf
   }
 }
 
+/// What a link moves with: the body, a wheel, or the knuckle that a wheel steers by.
+struct Carrier {
+  int wheel = -1;  ///< -1: the body
+  bool is_knuckle = false;
+};
+
+std::vector<Carrier> find_carriers(const io::UrdfModel& urdf,
+                                   const std::vector<std::size_t>& wheel_joints,
+                                   const std::vector<UrdfWheel>& wheels) {
+  std::vector<Carrier> carriers(urdf.links.size());
+  for (std::size_t i = 1; i < urdf.links.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(urdf.links[i].parent_joint);
+    carriers[i] = carriers[static_cast<std::size_t>(urdf.joints[joint].parent_link)];
+    for (std::size_t wheel = 0; wheel < wheels.size(); ++wheel) {
+      if (wheel_joints[wheel] == joint) carriers[i] = {static_cast<int>(wheel), false};
+      if (wheels[wheel].steering_joint == static_cast<int>(joint)) {
+        carriers[i] = {static_cast<int>(wheel), true};
+      }
+    }
+  }
+  return carriers;
+}
+
+/// Collision shapes, bounds and drawn links. The knuckles' collision shapes are left out as those
+/// of the wheels are: they stay inside the wheels' reach.
+void build_shapes(const io::UrdfModel& urdf, const std::vector<Pose>& X_RL,
+                  const std::vector<std::size_t>& wheel_joints, UrdfRoverModel& model) {
+  const Pose X_BR{Eigen::Quaterniond::Identity(), -model.com_root};
+  const std::vector<Carrier> carriers = find_carriers(urdf, wheel_joints, model.wheels);
+  MeshBuilder body;
+  std::vector<MeshBuilder> wheels(model.wheels.size()), knuckles(model.wheels.size());
+  for (std::size_t i = 0; i < urdf.links.size(); ++i) {
+    const io::UrdfLink& link = urdf.links[i];
+    const auto& drawn = link.visuals.empty() ? link.collisions : link.visuals;
+    const Pose X_BL = X_BR * X_RL[i];
+    if (carriers[i].wheel >= 0) {
+      const auto index = static_cast<std::size_t>(carriers[i].wheel);
+      const Pose X_HB{Eigen::Quaterniond::Identity(), -model.wheels[index].hub_B};
+      for (const io::UrdfShape& visual : drawn) {
+        append_visual(visual, X_HB * X_BL,
+                      carriers[i].is_knuckle ? knuckles[index] : wheels[index]);
+      }
+      continue;
+    }
+    for (const io::UrdfShape& visual : drawn) append_visual(visual, X_BL, body);
+    for (const io::UrdfShape& collision : link.collisions) {
+      const Eigen::AlignedBox3d box = shape_bounds(collision);
+      const Pose X_BS = X_BL * collision.X_LS;
+      extend(model.bounds_B, box, X_BS);
+      const Pose centre = X_BS * Pose{Eigen::Quaterniond::Identity(), box.center()};
+      model.shapes.push_back({physics::BoxShape{0.5 * box.sizes()}, centre});
+    }
+  }
+  Material material;
+  material.name = urdf.name;
+  material.colour = {1.0f, 1.0f, 1.0f};
+  material.roughness = 0.7f;
+  model.links.push_back({"body", std::make_shared<TriangleMesh>(body.take()), material});
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    model.links.push_back({"wheel_" + model.wheels[i].name,
+                           std::make_shared<TriangleMesh>(wheels[i].take()), material});
+  }
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    auto mesh = std::make_shared<TriangleMesh>(knuckles[i].take());
+    if (mesh->vertices.empty()) continue;
+    model.links.push_back({"knuckle_" + model.wheels[i].name, std::move(mesh), material});
+    model.knuckles.push_back(i);
+  }
+}
+
 }  // namespace
 
 UrdfRoverModel read_urdf_rover(const io::UrdfModel& urdf, const UrdfRoverOptions& options) {
@@ -224,17 +376,7 @@ UrdfRoverModel read_urdf_rover(const io::UrdfModel& urdf, const UrdfRoverOptions
   merge_masses(urdf, X_RL, model);
   const Pose X_BR{Eigen::Quaterniond::Identity(), -model.com_root};
 
-  // Each link belongs to the body or to the wheel whose joint is above it.
-  std::vector<int> wheel_of(urdf.links.size(), -1);
-  for (std::size_t i = 1; i < urdf.links.size(); ++i) {
-    const auto joint = static_cast<std::size_t>(urdf.links[i].parent_joint);
-    const auto found = std::find(wheel_joints.begin(), wheel_joints.end(), joint);
-    wheel_of[i] = found != wheel_joints.end()
-                      ? static_cast<int>(found - wheel_joints.begin())
-                      : wheel_of[static_cast<std::size_t>(urdf.joints[joint].parent_link)];
-  }
-
-  double track = 0.0, front = 0.0, rear = 0.0;
+  double track = 0.0;
   for (const std::size_t joint_index : wheel_joints) {
     const io::UrdfJoint& joint = urdf.joints[joint_index];
     const auto link_index = static_cast<std::size_t>(joint.child_link);
@@ -262,12 +404,16 @@ UrdfRoverModel read_urdf_rover(const io::UrdfModel& urdf, const UrdfRoverOptions
     }
     model.wheels.push_back(wheel);
     track += std::abs(X_RL[link_index].p.y());
-    front = std::max(front, X_RL[link_index].p.x());
-    rear = std::min(rear, X_RL[link_index].p.x());
   }
   name_wheels(model.wheels);
+  find_steering_joints(urdf, X_RL, wheel_joints, options, model.wheels);
+  model.steering = read_steering(urdf, model);
   model.track_m = 2.0 * track / static_cast<double>(model.wheels.size());
-  model.wheel_base_m = front - rear;
+  const auto [rear, front] = std::minmax_element(
+      model.wheels.begin(), model.wheels.end(),
+      [](const UrdfWheel& a, const UrdfWheel& b) { return a.hub_B.x() < b.hub_B.x(); });
+  model.wheel_base_m = model.steering ? model.steering->front_m + model.steering->rear_m
+                                      : front->hub_B.x() - rear->hub_B.x();
 
   for (const UrdfWheel& wheel : model.wheels) {
     const Vector3d half(wheel.radius_m, wheel.half_width_m, wheel.radius_m);
@@ -275,39 +421,7 @@ UrdfRoverModel read_urdf_rover(const io::UrdfModel& urdf, const UrdfRoverOptions
     model.height_above_ground_m =
         std::max(model.height_above_ground_m, wheel.radius_m - wheel.hub_B.z());
   }
-  MeshBuilder body;
-  std::vector<MeshBuilder> wheels(model.wheels.size());
-  for (std::size_t i = 0; i < urdf.links.size(); ++i) {
-    const io::UrdfLink& link = urdf.links[i];
-    const auto& drawn = link.visuals.empty() ? link.collisions : link.visuals;
-    const Pose X_BL = X_BR * X_RL[i];
-    const int wheel = wheel_of[i];
-    if (wheel >= 0) {
-      const auto index = static_cast<std::size_t>(wheel);
-      const Pose X_HB{Eigen::Quaterniond::Identity(), -model.wheels[index].hub_B};
-      for (const io::UrdfShape& visual : drawn) {
-        append_visual(visual, X_HB * X_BL, wheels[index]);
-      }
-      continue;
-    }
-    for (const io::UrdfShape& visual : drawn) append_visual(visual, X_BL, body);
-    for (const io::UrdfShape& collision : link.collisions) {
-      const Eigen::AlignedBox3d box = shape_bounds(collision);
-      const Pose X_BS = X_BL * collision.X_LS;
-      extend(model.bounds_B, box, X_BS);
-      const Pose centre = X_BS * Pose{Eigen::Quaterniond::Identity(), box.center()};
-      model.shapes.push_back({physics::BoxShape{0.5 * box.sizes()}, centre});
-    }
-  }
-  Material material;
-  material.name = urdf.name;
-  material.colour = {1.0f, 1.0f, 1.0f};
-  material.roughness = 0.7f;
-  model.links.push_back({"body", std::make_shared<TriangleMesh>(body.take()), material});
-  for (std::size_t i = 0; i < wheels.size(); ++i) {
-    model.links.push_back({"wheel_" + model.wheels[i].name,
-                           std::make_shared<TriangleMesh>(wheels[i].take()), material});
-  }
+  build_shapes(urdf, X_RL, wheel_joints, model);
   return model;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a URDF robot is as a skid-steered rover: one rigid body, its wheels, its pictures.
+/// What a URDF robot is as a rover: one rigid body, its wheels, how they steer, its pictures.
 
 #include <map>
 #include <optional>
@@ -20,6 +20,15 @@ struct UrdfWheel {
   double radius_m = 0.0;
   double half_width_m = 0.0;
   double spin_inertia_kgm2 = 0.0;  ///< about the joint's axis
+  int steering_joint = -1;         ///< index into UrdfModel::joints; -1: it does not steer
+};
+
+/// Of a robot with four wheels of which the front ones, or all, hang on steering joints.
+struct UrdfSteering {
+  std::size_t axles = 1;                      ///< 1: the front one, 2: both
+  double front_m = 0.0;                       ///< front axle ahead of B
+  double rear_m = 0.0;                        ///< rear axle behind B
+  std::optional<double> max_wheel_steer_rad;  ///< least of the joints' limits, where they have any
 };
 
 /// Frame B: origin at the centre of mass of everything, axes of the URDF's root link.
@@ -30,21 +39,26 @@ struct UrdfRoverModel {
   std::vector<UrdfWheel> wheels;             ///< left ones first, each side from front to rear
   std::vector<physics::PlacedShape> shapes;  ///< of the body, without wheels
   Eigen::AlignedBox3d bounds_B;              ///< of body and wheels
-  std::vector<VehicleLink> links;            ///< "body", then the wheels in their order
+  std::vector<VehicleLink> links;            ///< "body", the wheels in their order, drawn knuckles of those that steer
+  std::vector<std::size_t> knuckles;         ///< wheels of the last links
   double track_m = 0.0;
   double wheel_base_m = 0.0;
   double height_above_ground_m = 0.0;  ///< of B, with the wheels' lowest points on the ground
+  std::optional<UrdfSteering> steering;  ///< none: it steers by its wheels' speeds
 };
 
 /// How to read the robot.
 struct UrdfRoverOptions {
   std::vector<std::string> left_joints, right_joints;  ///< empty: continuous joints by position
+  /// Empty: those that a wheel hangs on and that turn about the vertical through its hub.
+  std::vector<std::string> steering_joints;
   std::optional<double> wheel_radius_m;                ///< absent: from collision shape or mesh
 };
 
-/// Everything that does not roll is taken as one rigid body with all joints at zero. The wheels'
+/// Everything that neither rolls nor steers is taken as one rigid body with all joints at zero. The wheels'
 /// masses belong to it too (their suspension has no mass of its own); their spin inertia is kept.
-/// @throws ConfigError: no wheel joints, unknown joint, axle not across, no radius, no mass
+/// @throws ConfigError: no wheel joints, unknown joint, axle not across, no radius, no mass, a
+/// castor, steered wheels that are neither the two front ones nor all of four
 UrdfRoverModel read_urdf_rover(const io::UrdfModel& urdf, const UrdfRoverOptions& options);
 
 }  // namespace vinerow::vehicles

@@ -220,7 +220,7 @@ TEST(Dwa, RefusesWithOneSentence) {
   EXPECT_NE(refusal({{"horizon_s", 0.0}}, same).find("horizon_s = 0 s, must be > 0"),
             std::string::npos);
   EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.steered.reset(); }),
-            "rover.guidance (dwa) needs a vehicle with steered axles; vehicle type "
+            "rover.guidance (dwa) needs a vehicle with two steered axles; vehicle type "
             "'four_wheel_steering_rover' has wheels");
   EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.steered->rear_axle_m = -0.75; }),
             "rover.guidance (dwa) needs 'rear_axle_m' > 0, but vehicle type "

@@ -234,8 +234,8 @@ TEST(FourWheelSteering, RefusesVehiclesItCannotSteer) {
             "'test_steered_rover' tells 0");
   vehicle.steered.reset();
   EXPECT_EQ(refusal_of(vehicle),
-            "rover.controller (four_wheel_steering) needs a vehicle with steered axles; vehicle "
-            "type 'test_steered_rover' has wheels");
+            "rover.controller (four_wheel_steering) needs a vehicle with two steered axles; "
+            "vehicle type 'test_steered_rover' has wheels");
   vehicle = make_steered_description();
   vehicle.steered->rear_axle_m = -0.75;
   EXPECT_EQ(refusal_of(vehicle),

@@ -124,11 +124,14 @@ TEST(RrtQuartile, SaysWhyThereIsNoWay) {
   };
   RrtQuartileParams params = make_params();
   EXPECT_EQ(reason({{10, 1.25}, 0.0}, vineyard.entry(1), params),
-            "the start at (10.00, 1.25) heading 0.0 deg is taken: 0.000 m of room, the margin is "
-            "0.050 m");
+            "start in collision: at (10.00, 1.25) heading 0.0 deg the footprint has 0.000 m of room, "
+            "the margin is 0.050 m");
   EXPECT_EQ(reason(vineyard.exit(0), {{10, 3.75}, kPi}, params),
-            "the goal at (10.00, 3.75) heading 180.0 deg is taken: 0.000 m of room, the margin is "
-            "0.050 m");
+            "goal in collision: at (10.00, 3.75) heading 180.0 deg the footprint has 0.000 m of "
+            "room, the margin is 0.050 m");
+  EXPECT_EQ(reason(vineyard.exit(0), {{10, 300}, kPi}, params),
+            "goal in collision: (10.00, 300.00) heading 180.0 deg lies outside the map's occupancy "
+            "grid");
   EXPECT_EQ(reason(vineyard.exit(0), {{10, 7.0}, kPi}, params),
             "no free ground as wide as the vehicle joins start and goal");
   params.max_iterations = 50;

@@ -113,16 +113,20 @@ TEST(VehicleKinds, AreMissedInOneSentence) {
   EXPECT_EQ(complaint([&] { make_drone().need_wheeled(who); }),
             "a.controller (b) needs a vehicle with wheels; vehicle type 'hexarotor' has rotors");
   EXPECT_EQ(complaint([&] { make_plane().need_steered(who); }),
-            "a.controller (b) needs a vehicle with steered axles; vehicle type 'delta' has wings");
+            "a.controller (b) needs a vehicle with two steered axles; vehicle type 'delta' has "
+            "wings");
+  EXPECT_EQ(complaint([&] { make_rover().need_ackermann(who); }),
+            "a.controller (b) needs a vehicle with a steered front axle; vehicle type 'straddler' "
+            "has wheels and two steered axles");
   EXPECT_EQ(complaint([&] { make_rover().need_rotorcraft(who); }),
             "a.controller (b) needs a vehicle with rotors; vehicle type 'straddler' has wheels and "
-            "steered axles");
+            "two steered axles");
   VehicleDescription tiltrotor = make_drone();
   tiltrotor.wheeled.emplace();
   tiltrotor.steered.emplace();
   EXPECT_EQ(complaint([&] { tiltrotor.need_fixed_wing(who); }),
             "a.controller (b) needs a vehicle with wings; vehicle type 'hexarotor' has wheels, "
-            "steered axles and rotors");
+            "two steered axles and rotors");
   VehicleDescription box;
   box.type = "box";
   EXPECT_EQ(complaint([&] { box.need_fixed_wing(who); }),
@@ -194,6 +198,25 @@ TEST(VehicleCheck, SaysWhatIsWrongWithWheelsAndAxles) {
             "steered's axles are 1.25 m apart, wheeled.wheel_base_m = 1.5");
   EXPECT_EQ(fault(rover, [](V& v) { v.actuators[0].name = "tiller_rad"; }),
             "steered is told, but there is no actuator 'axle_front_steer_rad'");
+}
+
+TEST(VehicleCheck, SaysWhatIsWrongWithASteeredFrontAxle) {
+  using V = VehicleDescription;
+  V car = make_rover();
+  car.steered.reset();
+  std::erase_if(car.actuators, [](const auto& one) { return one.name == "axle_rear_steer_rad"; });
+  car.ackermann = {.rear_axle_m = 0.6, .max_axle_steer_rad = 0.4, .steer_rate_radps = 2.0};
+  EXPECT_EQ(find_fault(car).value_or("none"), "none");
+  EXPECT_TRUE(car.steers_by_axles());
+  EXPECT_EQ(fault(car, [](V& v) { v.wheeled.reset(), v.rotorcraft = make_drone().rotorcraft; }),
+            "ackermann is told without wheeled");
+  EXPECT_EQ(fault(car, [](V& v) { v.steered = make_rover().steered; }),
+            "ackermann and steered are both told");
+  EXPECT_EQ(fault(car, [](V& v) { v.ackermann->rear_axle_m = 1.5; }),
+            "ackermann.rear_axle_m = 1.5 puts the front axle behind B's origin; "
+            "wheeled.wheel_base_m = 1.5");
+  EXPECT_EQ(fault(car, [](V& v) { v.actuators[0].name = "tiller_rad"; }),
+            "ackermann is told, but there is no actuator 'axle_front_steer_rad'");
 }
 
 TEST(VehicleCheck, SaysWhatIsWrongWithRotors) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "engine/core/error.h"
 #include "engine/io/mesh_file.h"
@@ -21,22 +22,45 @@ using namespace test;
 const std::filesystem::path kPlain =
     std::filesystem::path(VINEROW_SOURCE_DIR) / "tests/vehicles/data/plain_rover.urdf";
 
-UrdfRoverParams params_of(const std::filesystem::path& urdf) {
+UrdfRoverParams params_of(const std::filesystem::path& urdf,
+                          const std::function<void(ParameterSet&)>& more = {}) {
   ParameterSet set(urdf_rover_spec().parameters, "urdf_rover");
   set.set("urdf", urdf.string());
+  if (more) more(set);
   return read_urdf_rover_params(set, "rover");
 }
 
 /// A robot on level ground, stepped at 1 kHz.
 struct Rig {
-  explicit Rig(const std::filesystem::path& urdf)
-      : model(make_flat_world()), world(physics::PhysicsSettings{}, model), rover(params_of(urdf)) {
+  explicit Rig(const std::filesystem::path& urdf,
+               const std::function<void(ParameterSet&)>& more = {})
+      : model(make_flat_world()),
+        world(physics::PhysicsSettings{}, model),
+        rover(params_of(urdf, more)) {
     rover.spawn(world, pose_on_ground(model, 0, 0, 0, rover.description().height_above_ground_m));
   }
   void drive(double left_radps, double right_radps) {
     std::vector<double> values;
     for (const UrdfWheel& wheel : rover.model().wheels) {
       values.push_back(wheel.left ? left_radps : right_radps);
+    }
+    rover.actuate(values);
+  }
+  /// Axle angles, and every wheel as fast as it rolls when B has this forward speed: with the
+  /// curvature k and the slope q of B's velocity, (1 - k y, q + k x) at a wheel.
+  void steer(double front_rad, double rear_rad, double speed_mps) {
+    const UrdfRoverModel& robot = rover.model();
+    const double a = robot.steering->front_m, b = robot.steering->rear_m;
+    const double front = std::tan(front_rad), rear = std::tan(rear_rad);
+    const double k = (front - rear) / (a + b), q = (b * front + a * rear) / (a + b);
+    std::vector<double> values;
+    for (const ActuatorSpec& actuator : rover.description().actuators) {
+      if (actuator.unit == "rad") values.push_back(values.empty() ? front_rad : rear_rad);
+      for (const UrdfWheel& wheel : robot.wheels) {
+        if (actuator.name != "wheel_" + wheel.name + "_speed_radps") continue;
+        const double per_speed = std::hypot(1.0 - k * wheel.hub_B.y(), q + k * wheel.hub_B.x());
+        values.push_back(speed_mps * per_speed / wheel.radius_m);
+      }
     }
     rover.actuate(values);
   }
@@ -157,6 +181,141 @@ TEST(UrdfRover, SaysWhatIsWrong) {
   half.set("left_wheel_joints", std::vector<std::string>{"a"});
   EXPECT_NE(error_of([&] { read_urdf_rover_params(half, "rover"); }).find("must be given together"),
             std::string::npos);
+}
+
+const std::filesystem::path kCar = kPlain.parent_path() / "plain_car.urdf";
+const std::filesystem::path kFourSteered = kPlain.parent_path() / "plain_four_steered.urdf";
+
+/// Radius of the circle that B drives, from its velocity and yaw rate.
+double turning_radius_m(const Rig& rig) {
+  return rig.truth().v_WB_B.head<2>().norm() / rig.truth().w_WB_B.z();
+}
+
+TEST(SteeredUrdf, ReadsACarFromItsJoints) {
+  const UrdfRover rover(params_of(kCar));
+  const UrdfRoverModel& model = rover.model();
+  // 160 kg at x = 0.5; front wheels and knuckles 16 kg at 1.2; rear wheels 24 kg at 0.
+  const double com_m = (160.0 * 0.5 + 16.0 * 1.2) / 200.0;
+  EXPECT_NEAR(model.com_root.x(), com_m, 1e-12);
+  ASSERT_TRUE(model.steering);
+  EXPECT_NEAR(model.steering->front_m, 1.2 - com_m, 1e-12);
+  EXPECT_NEAR(model.steering->rear_m, com_m, 1e-12);
+  EXPECT_EQ(model.steering->max_wheel_steer_rad, 0.6);
+  const VehicleDescription& about = rover.description();
+  std::vector<std::string> names;
+  for (const ActuatorSpec& actuator : about.actuators) names.push_back(actuator.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"axle_front_steer_rad", "wheel_rl_speed_radps",
+                                             "wheel_rr_speed_radps"}));
+  EXPECT_EQ(about.wheeled->wheel_radius_m, 0.3);
+  // The inner wheel, half a track nearer to the centre of the turn, is at its limit of 0.6 rad.
+  const double radius_m = 1.2 / std::tan(0.6) + 0.45;
+  EXPECT_NEAR(about.ackermann->max_axle_steer_rad, std::atan(1.2 / radius_m), 1e-12);
+  EXPECT_NEAR(*about.min_turning_radius_m, std::hypot(radius_m, com_m), 1e-12);
+  std::vector<std::string> links;
+  for (const VehicleLink& link : rover.links()) links.push_back(link.name);
+  EXPECT_EQ(links, (std::vector<std::string>{"body", "wheel_fl", "wheel_rl", "wheel_fr",
+                                             "wheel_rr", "knuckle_fl", "knuckle_fr"}));
+}
+
+TEST(SteeredUrdf, ACarTurnsAboutItsRearAxle) {
+  for (const double axle_rad : {0.1, 0.3, -0.4}) {
+    Rig rig(kCar);
+    rig.steer(axle_rad, 0.0, 0.45);
+    rig.run(4.0);
+    // Bicycle: L / tan(delta) from the middle of the rear axle; B is ahead of that.
+    const double rear_m = rig.rover.model().steering->rear_m;
+    const double expected_m = std::copysign(std::hypot(1.2 / std::tan(axle_rad), rear_m), axle_rad);
+    EXPECT_NEAR(turning_radius_m(rig), expected_m, 0.03 * std::abs(expected_m)) << axle_rad;
+    EXPECT_NEAR(rig.truth().v_WB_B.y(), rear_m * rig.truth().w_WB_B.z(), 0.01) << axle_rad;
+  }
+}
+
+TEST(SteeredUrdf, WheelsStandAsAnAckermannMechanismHasThem) {
+  Rig rig(kCar);
+  rig.steer(rig.rover.description().ackermann->max_axle_steer_rad, 0.0, 0.15);
+  rig.run(3.0);
+  const auto& wheels = rig.rover.platform().state().wheels;  // fl, rl, fr, rr
+  EXPECT_NEAR(wheels[0].steer_rad, 0.6, 1e-9);
+  EXPECT_NEAR(wheels[2].steer_rad, std::atan(1.2 / (1.2 / std::tan(0.6) + 0.9)), 1e-9);
+  EXPECT_EQ(wheels[1].steer_rad, 0.0);
+  EXPECT_EQ(wheels[3].steer_rad, 0.0);
+  // A knuckle is drawn as its wheel stands, without the wheel's turning.
+  std::vector<Pose> X_WL(rig.rover.links().size());
+  rig.rover.read_links(X_WL);
+  const Eigen::Vector3d ahead_B =
+      X_WL[0].q.conjugate() * (X_WL[5].q * Eigen::Vector3d::UnitX());
+  EXPECT_NEAR(std::atan2(ahead_B.y(), ahead_B.x()), 0.6, 1e-3);
+}
+
+TEST(SteeredUrdf, FourSteeredWheelsTurnAndCrab) {
+  Rig rig(kFourSteered);
+  EXPECT_TRUE(rig.rover.description().steered);
+  rig.steer(0.2, -0.2, 0.4);
+  rig.run(4.0);
+  const UrdfSteering& steering = *rig.rover.model().steering;
+  const double middle_m = 0.6 / std::tan(0.2), off_m = 0.5 * (steering.rear_m - steering.front_m);
+  EXPECT_NEAR(turning_radius_m(rig), std::hypot(middle_m, off_m), 0.03 * middle_m);
+  Rig crab(kFourSteered);
+  crab.steer(0.3, 0.3, 0.4);
+  crab.run(4.0);
+  const Odometry truth = crab.truth();
+  EXPECT_NEAR(std::atan2(truth.v_WB_B.y(), truth.v_WB_B.x()), 0.3, 0.01);
+  EXPECT_NEAR(truth.w_WB_B.z(), 0.0, 0.01);
+}
+
+std::string error_of_options(const io::UrdfModel& urdf, const UrdfRoverOptions& options = {}) {
+  return error_of([&] { read_urdf_rover(urdf, options); });
+}
+
+TEST(SteeredUrdf, SaysWhatIsWrong) {
+  const io::UrdfModel car = io::load_urdf(kCar);
+  const std::string file = kCar.string();
+  io::UrdfModel castor = car;
+  for (io::UrdfJoint& joint : castor.joints) {
+    if (joint.name == "front_left_joint") joint.X_PJ.p.x() = -0.1;
+  }
+  EXPECT_EQ(error_of_options(castor),
+            file + ": wheel joint 'front_left_joint' trails 0.100 m behind joint "
+                   "'steer_front_left_joint': castors are not supported; if it is steered by a "
+                   "motor, name its joint in steering_joints");
+  UrdfRoverOptions one;
+  one.steering_joints = {"steer_front_left_joint"};
+  EXPECT_EQ(error_of_options(car, one),
+            file + ": 1 of 4 wheels steer (fl), must be the two front ones of four, or all four");
+  UrdfRoverOptions other;
+  other.steering_joints = {"body_joint"};
+  EXPECT_EQ(error_of_options(car, other),
+            file + ": no wheel hangs on steering joint 'body_joint', or it does not turn about the "
+                   "vertical (z)");
+  other.steering_joints = {"steer_front_lef_joint"};
+  EXPECT_NE(error_of_options(car, other).find("did you mean 'steer_front_left_joint'?"),
+            std::string::npos);
+  const auto driven = [](const char* which) {
+    return [which](ParameterSet& set) { set.set("driven_wheels", std::string(which)); };
+  };
+  EXPECT_EQ(error_of([&] { UrdfRover(params_of(kCar, driven("all"))); }),
+            file + ": driven wheels 'front_left_joint' and 'rear_left_joint' have radii of 0.2 and "
+                   "0.3 m, must be alike; or set driven_wheels = rear");
+  EXPECT_EQ(error_of([&] { UrdfRover(params_of(kPlain, driven("rear"))); }),
+            kPlain.string() + ": driven_wheels = rear is for a robot that steers by its front "
+                              "wheels, this one has no steered wheels");
+}
+
+TEST(Racecar, IsSteeredByItsHinges) {
+  VINEROW_OUTSIDE_DATA(urdf, "bullet3/data/racecar/racecar.urdf");
+  // One of its two hinges is 'continuous', both have limits of 1 rad.
+  Rig rig(urdf, [](ParameterSet& set) { set.set("min_turning_radius_m", 0.1); });
+  const VehicleDescription& about = rig.rover.description();
+  ASSERT_TRUE(about.ackermann);
+  EXPECT_NEAR(about.wheeled->wheel_base_m, 0.325, 1e-12);
+  EXPECT_NEAR(about.wheeled->track_m, 0.2, 1e-12);
+  EXPECT_NEAR(about.ackermann->max_axle_steer_rad,
+              std::atan(0.325 / (0.325 / std::tan(1.0) + 0.1)), 1e-9);
+  rig.steer(0.25, 0.0, 0.5);
+  rig.run(4.0);
+  const double expected_m =
+      std::hypot(0.325 / std::tan(0.25), rig.rover.model().steering->rear_m);
+  EXPECT_NEAR(turning_radius_m(rig), expected_m, 0.05 * expected_m);
 }
 
 TEST(Husky, HasItsOwnMassesAndWheelRadius) {

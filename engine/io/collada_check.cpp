@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
@@ -41,6 +43,8 @@ class ColladaCheck {
     check_number(element, "count", bytes_, ", the file's bytes");
     check_number(element, "stride", kMostStride, "");
     check_number(element, "offset", name == "input" ? kMostInputs : bytes_, "");
+    if (name == "p" || name == "v" || name == "vcount" || name == "h") check_indices(element);
+    if (name == "float_array") check_floats(element);
     if (name == "node") {
       for (const char* key : {"id", "name"}) {
         if (const char* value = element.Attribute(key)) nodes_.try_emplace(value, &element);
@@ -50,6 +54,51 @@ class ColladaCheck {
          child = child->NextSiblingElement()) {
       look_at(*child);
     }
+  }
+
+  /// Every word of the element's own text.
+  template <class Look>
+  static void for_each_word(const tinyxml2::XMLElement& element, const Look& look) {
+    for (const auto* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
+      const tinyxml2::XMLText* text = node->ToText();
+      if (text == nullptr) continue;
+      std::string_view rest = text->Value();
+      constexpr std::string_view kBlanks = " \t\r\n";
+      while (true) {
+        const std::size_t begin = rest.find_first_not_of(kBlanks);
+        if (begin == std::string_view::npos) break;
+        rest.remove_prefix(begin);
+        const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
+        look(word);
+        rest.remove_prefix(word.size());
+      }
+    }
+  }
+
+  /// assimp reads on without end behind a word that is no number.
+  void check_indices(const tinyxml2::XMLElement& element) const {
+    for_each_word(element, [&](std::string_view word) {
+      const auto number = parse_count(word);
+      if (number && *number <= bytes_) return;
+      fail(fmt::format("'{}' in <{}> of line {}, must be a whole number up to {}, the file's bytes",
+                       word.substr(0, 40), element.Name(), element.GetLineNum(), bytes_));
+    });
+  }
+
+  void check_floats(const tinyxml2::XMLElement& element) const {
+    std::uint64_t count = 0;
+    for_each_word(element, [&](std::string_view word) {
+      ++count;
+      const auto number = parse_number(word);
+      if (number && std::isfinite(*number)) return;
+      fail(fmt::format("'{}' in <float_array> of line {}, must be a finite number",
+                       word.substr(0, 40), element.GetLineNum()));
+    });
+    const char* told = element.Attribute("count");
+    const std::uint64_t promised = told ? parse_count(told).value_or(0) : 0;
+    if (count >= promised) return;
+    fail(fmt::format("<float_array> of line {} has {} numbers, its count is {}",
+                     element.GetLineNum(), count, promised));
   }
 
   void check_number(const tinyxml2::XMLElement& element, const char* key, std::uint64_t most,

@@ -17,6 +17,7 @@
 #include "engine/io/crs_text.h"
 #include "engine/io/gdal_handles.h"
 #include "engine/io/geo_features.h"
+#include "engine/io/json_text.h"
 #include "engine/io/quiet_gdal.h"
 #include "engine/math/angles.h"
 
@@ -99,15 +100,7 @@ json parse_file(const std::filesystem::path& file) {
   const std::string kByteOrderMark = "\xEF\xBB\xBF";
   if (text.rfind(kByteOrderMark, 0) == 0) text.erase(0, 3);
   check_depth(text, file);
-  try {
-    return json::parse(text);
-  } catch (const json::parse_error& e) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
-                                        e.byte ? e.byte - 1 : 0, text.size()));
-    const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw ConfigError(
-        fmt::format("GeoJSON file '{}' is not valid JSON (line {})", file.string(), line));
-  }
+  return parse_json(text, fmt::format("GeoJSON file '{}'", file.string()));
 }
 
 Geodetic read_position(const json& position, const Place& place, bool& has_altitude) {

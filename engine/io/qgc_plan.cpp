@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
+#include "engine/io/json_text.h"
 #include "engine/io/mission_item_check.h"
 #include "engine/math/angles.h"
 
@@ -191,19 +192,7 @@ void read_rally_points(const Reader& root, MissionFile& mission) {
 }  // namespace
 
 MissionFile parse_qgc_plan(const std::string& text, const std::filesystem::path& file) {
-  json root;
-  try {
-    root = json::parse(text);
-  } catch (const json::parse_error& e) {
-    const std::size_t end = std::min<std::size_t>(e.byte > 0 ? e.byte - 1 : 0, text.size());
-    const auto line =
-        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    throw ConfigError(
-        fmt::format("mission file '{}' is not valid JSON (line {})", file.string(), line));
-  } catch (const json::exception&) {  // a number beyond double's range
-    throw ConfigError(
-        fmt::format("mission file '{}' has a number that is too large", file.string()));
-  }
+  const json root = parse_json(text, fmt::format("mission file '{}'", file.string()));
   const Reader reader(root, fmt::format("mission '{}'", file.string()));
   if (!reader.has("fileType") || !reader.member("fileType").is_string() ||
       reader.text("fileType") != "Plan") {

@@ -82,6 +82,7 @@ TEST(GeoJson, RefusesBadInputInOneSentence) {
   fails_with(collection(feature("Point", "[\"a\",1]")), "must be [longitude, latitude]");
   fails_with(collection(feature("Point", "[null,1]")), "must be [longitude, latitude]");
   fails_with(collection(feature("Point", "[NaN,1]")), "is not valid JSON");
+  fails_with(collection(feature("Point", "[1e999,1]")), "has a number that is too large");
   fails_with(collection(feature("Point", "[498518.9,375589.6]")),
              "is not WGS84 degrees (longitude within +-180, latitude within +-90)");
   fails_with(collection(feature("LineString", "[[1,1]]")),

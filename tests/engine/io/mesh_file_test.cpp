@@ -334,6 +334,14 @@ TEST_F(MeshFileTest, ColladaThatPromisesMoreThanItHoldsIsRefused) {
             std::string::npos);
   EXPECT_NE(changed("stride=\"3\"", "stride=\"3000000\"").find("stride = '3000000' of <accessor>"),
             std::string::npos);
+  EXPECT_EQ(changed("<p>0 2 1", "<p>0 ~ 1"),
+            file + "is broken: '~' in <p> of line 1, must be a whole number up to " +
+                std::to_string(whole.size()) + ", the file's bytes");
+  EXPECT_NE(changed("<p>0 2 1", "<p>0 -4 1").find("'-4' in <p> of line 1"), std::string::npos);
+  EXPECT_EQ(changed("0 0 0 1 0", "0 0 0 1e999 0"),
+            file + "is broken: '1e999' in <float_array> of line 1, must be a finite number");
+  EXPECT_EQ(changed("0 0 0 1 0", "0 0 1 0"),
+            file + "is broken: <float_array> of line 1 has 11 numbers, its count is 12");
   EXPECT_NE(changed("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#n\"/>")
                 .find("is broken: the node 'n' contains itself"),
             std::string::npos);

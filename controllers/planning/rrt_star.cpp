@@ -16,10 +16,10 @@ const ParameterTable<RrtStarParams>& rrt_star_table() {
   using Cost = WayCostParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .integer("iterations", &P::iterations, between(0, 1e7),
+          .integer("iterations", &P::iterations, between(0, 5e3),
                    "of RRT*, for every turn that a shorter way is possible for; 0: the first way "
-                   "stands")
-          .integer("first_iterations", &P::first_iterations, between(1, 1e7),
+                   "stands; the work grows with the square")
+          .integer("first_iterations", &P::first_iterations, between(1, 1e5),
                    "of RRT, where no turn in closed form fits; it stops at the first way")
           .number("range_m", "m", &P::range_m, between(0.01, 1e4), "longest edge of the tree")
           .number("reach_m", "m", &P::reach_m, between(0.1, 1e4),

@@ -80,9 +80,7 @@ class VehicleRuntime {
   const Vehicle& vehicle() const { return *vehicle_; }
   const Odometry& truth() const { return truth_; }
   /// Its controller has nothing left to do; without a controller always. Never after a crash.
-  bool finished() const {
-    return !crash_ && (controller_ == nullptr || (at_work() && controller_->finished()));
-  }
+  bool finished() const;
   bool has_controller() const { return controller_ != nullptr; }
   /// How it was wrecked, or why its controller gave up, if so.
   const std::optional<Crash>& crash() const { return crash_; }

@@ -107,6 +107,16 @@ void VehicleRuntime::demand_ground(Time now, const Pose& X_WB) const {
                   box.max().y(), remedy));
 }
 
+bool VehicleRuntime::finished() const {
+  if (crash_) return false;
+  if (controller_ == nullptr) return true;
+  // A part may fail in the very instant in which the controller has done its work.
+  const bool has_failed = std::any_of(may_fail_.begin(), may_fail_.end(), [](const MayFail* part) {
+    return !part->failure().empty();
+  });
+  return at_work() && controller_->finished() && !has_failed;
+}
+
 void VehicleRuntime::watch_crash(Time now) {
   if (crash_) return;
   if (!vehicle_->crash().empty()) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "controllers/register.h"
+#include "engine/api/may_fail.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
@@ -212,6 +213,40 @@ TEST(Corners, WhoLosesItsPathGivesUpWithASentence) {
   ASSERT_EQ(crashes.size(), 1u);
   EXPECT_EQ(crashes[0].vehicle, "rover");
   EXPECT_TRUE(crashes[0].text.starts_with("lost its path: ")) << crashes[0].text;
+}
+
+/// Says after a second that it has done its work, and in the same instant that it failed.
+class LateFailure final : public Controller, public MayFail {
+ public:
+  void connect(Ports& ports) override { actuators_ = ports.write<NamedValues>("actuators"); }
+  void step(Time now) override { is_over_ = now.s() >= 1.0; }
+  bool finished() const override { return is_over_; }
+  std::string_view failure() const override { return is_over_ ? "landed elsewhere" : ""; }
+
+ private:
+  SignalWriter<NamedValues> actuators_;
+  bool is_over_ = false;
+};
+
+TEST(MayFail, CountsInTheInstantInWhichTheControllerFinishes) {
+  PartSpec spec;
+  spec.name = "late_failure";
+  spec.default_rate_Hz = 10.0;
+  spec.writes = {"actuators"};
+  auto run = vinerow::testing::SmallWorld()
+                 .vehicle("rover", "diff_drive_rover")
+                 .controller("rover", spec,
+                             [](const ParameterSet&, const ControllerContext&) {
+                               return std::make_unique<LateFailure>();
+                             })
+                 .duration_s(5.0)
+                 .build();
+  run.run_to_end();
+  EXPECT_FALSE(run.finished());
+  EXPECT_LT(run.time_s(), 1.5);
+  const auto crashes = run.session().crashes();
+  ASSERT_EQ(crashes.size(), 1u);
+  EXPECT_EQ(crashes[0].text, "landed elsewhere");
 }
 
 TEST(Guidance, IsRefusedWithoutAController) {

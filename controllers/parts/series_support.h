@@ -31,9 +31,8 @@ class SeriesSupport {
   Bound bound(const Eigen::VectorXd& c) const;
   double operator()(const Eigen::VectorXd& c) const { return bound(c).value; }
 
-  /// m and beta, see above.
+  /// m, see above.
   int block() const { return block_; }
-  double contraction() const { return contraction_; }
 
  private:
   SeriesSupport() = default;

@@ -57,7 +57,6 @@ class QuadrotorLqrLaw {
 
   /// 4 x 16 or 4 x 12.
   const Eigen::MatrixXd& gain() const { return gain_; }
-  const Eigen::Vector3d& disturbance_W() const { return disturbance_.acceleration_W(); }
 
  private:
   void set_up_limits(const FlightLimits& limits);

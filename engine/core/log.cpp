@@ -13,24 +13,17 @@ std::mutex& sink_mutex() {
 }
 
 LogSink& sink() {
-  static LogSink instance = [](LogLevel level, const std::string& text) {
-    std::fprintf(stderr, "%s%s\n", level == LogLevel::kWarning ? "warning: " : "", text.c_str());
+  static LogSink instance = [](const std::string& text) {
+    std::fprintf(stderr, "%s\n", text.c_str());
   };
   return instance;
-}
-
-void write(LogLevel level, const std::string& text) {
-  const std::scoped_lock lock(sink_mutex());
-  sink()(level, text);
 }
 
 }  // namespace
 
 void log_note(const std::string& text) {
-  write(LogLevel::kNote, text);
-}
-void log_warning(const std::string& text) {
-  write(LogLevel::kWarning, text);
+  const std::scoped_lock lock(sink_mutex());
+  sink()(text);
 }
 
 LogSink set_log_sink(LogSink next) {

@@ -44,7 +44,6 @@ class Body {
   void end_step(double dt_s, bool contacts_solved);
 
  private:
-  void make_shape(const BodySpec& spec);
   void place_bullet(const MotionState& motion);
 
   std::string name_;

@@ -95,7 +95,6 @@ double GnssTracking::leaves_m(const Vector3d& p_W, const Vector3d& direction_W) 
   double total_m = 0.0, from_m = 0.0, entered_m = 0.0;
   bool inside = false;
   for (int crossing = 0; crossing < kMostCrossings; ++crossing) {
-    ++rays_cast_;
     const auto hit =
         scene_->cast_ray(p_W + from_m * direction_W, direction_W, kReach_m - from_m, kSeen);
     if (!hit) return inside ? total_m + kLoneLeaves_m : total_m;
@@ -134,7 +133,6 @@ double GnssTracking::weight(double cn0_dBHz, double noise_share) const {
 
 GnssView GnssTracking::look(double time_s, const Vector3d& p_W, bool deaf, double jamming_dB) {
   GnssView view;
-  rays_cast_ = 0;
   for (std::size_t i = 0; i < satellites_.size(); ++i) {
     Satellite& satellite = satellites_[i];
     const double fading = satellite.fading.step(random_);

@@ -69,7 +69,6 @@ class GnssTracking {
   /// @param deaf  hears nothing at all  @param jamming_dB  loss of C/N0 of every satellite
   GnssView look(double time_s, const Eigen::Vector3d& p_W, bool deaf, double jamming_dB);
 
-  int rays_cast() const { return rays_cast_; }  ///< at the last look
 
  private:
   struct Satellite {
@@ -90,7 +89,6 @@ class GnssTracking {
   double period_s_;
   RandomStream random_;
   std::vector<Satellite> satellites_;
-  int rays_cast_ = 0;
 };
 
 }  // namespace vinerow

@@ -34,10 +34,6 @@ std::string picture_title(const io::Scenario& scenario) {
   return capitalised(title);
 }
 
-std::string name_in_words(const std::string& name) {
-  return capitalised(in_words(name));
-}
-
 std::string seen_text(const std::map<std::string, double>& shares) {
   std::string text;
   for (const auto& [vehicle, share] : shares) text += fmt::format("{} {:.5f}\n", vehicle, share);

@@ -15,9 +15,6 @@ namespace vinerow {
 /// enough for a picture, else the name in words: "Paper C in open loop", "Cooperative small".
 std::string picture_title(const io::Scenario& scenario);
 
-/// "cooperative_small" as "Cooperative small".
-std::string name_in_words(const std::string& name);
-
 /// Keyword of the text in a frame's file that says what of it shows which vehicle.
 inline constexpr const char* kSeenKey = "vinerow:seen";
 /// Shares of a picture by vehicle, as such a text and back: "rover 0.0312" a line. What is no such

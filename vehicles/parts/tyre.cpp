@@ -44,10 +44,6 @@ const ParameterTable<TyreParams>& tyre_table() {
   return table;
 }
 
-double Tyre::calc_steady_force_ratio(double slip, double stiffness, double friction) {
-  return friction * -std::expm1(-stiffness * slip / friction);
-}
-
 double Tyre::calc_friction(const Soil& soil, double sliding_speed_mps, double stribeck_mps) {
   const double ratio = sliding_speed_mps / stribeck_mps;
   return soil.sliding_friction +

@@ -74,8 +74,6 @@ class Tyre {
   Eigen::Vector2d finish(const TyreStep& step, double spin_radps, double dt_s,
                          TyreState& state) const;
 
-  /// Force / load in steady pure slip. @param slip |v_s| / |V_r|  @param friction mu at this speed
-  static double calc_steady_force_ratio(double slip, double stiffness, double friction);
   /// Stribeck law: friction at a sliding speed.
   static double calc_friction(const Soil& soil, double sliding_speed_mps, double stribeck_mps);
 

@@ -21,7 +21,6 @@ struct OrchardLayout {
 
   int free_rows() const { return plant_rows + 1; }                   ///< N = n + 1 (eq. 3)
   double step_m() const { return field_width_m / free_rows(); }      ///< P = L1 / N (eq. 4)
-  double row_area_m2() const { return row_width_m * row_length_m; }  ///< A = w l
 };
 
 /// @throws ConfigError where the rows do not fit into the field

@@ -84,7 +84,6 @@ std::shared_ptr<const TriangleMesh> FileMeshStore::get(const std::string& name,
     throw ConfigError(
         fmt::format("mesh file '{}' cannot be written: {}", file.string(), error.message()));
   }
-  ++files_written_;
   known = read_back(file);
   VINEROW_DEMAND(known && mesh_digest(*known) == mesh_digest(fresh));
   return known;

@@ -44,12 +44,10 @@ class FileMeshStore final : public MeshStore {
   std::shared_ptr<const TriangleMesh> get(const std::string& name,
                                           const std::function<TriangleMesh()>& make) override;
   const std::filesystem::path& folder() const { return folder_; }
-  int files_written() const { return files_written_; }
 
  private:
   std::filesystem::path folder_;
   std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes_;
-  int files_written_ = 0;
 };
 
 /// Where mesh files go unless the user says: $VINEROW_CACHE, $XDG_CACHE_HOME/vinerow,

@@ -78,21 +78,6 @@ void append_card(TriangleMesh& mesh, const LeafCard& card) {
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-void append_mesh(TriangleMesh& mesh, const TriangleMesh& other, const Pose& X) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const Eigen::Vector3f& v : other.vertices) {
-    mesh.vertices.push_back((X * v.cast<double>()).cast<float>());
-  }
-  for (const Eigen::Vector3f& n : other.normals) {
-    mesh.normals.push_back((X.q * n.cast<double>()).cast<float>());
-  }
-  mesh.uvs.insert(mesh.uvs.end(), other.uvs.begin(), other.uvs.end());
-  mesh.colours.insert(mesh.colours.end(), other.colours.begin(), other.colours.end());
-  for (const auto& t : other.triangles) {
-    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-}
-
 void calc_vertex_normals(TriangleMesh& mesh) {
   std::vector<Eigen::Vector3d> sums(mesh.vertices.size(), Eigen::Vector3d::Zero());
   for (const auto& t : mesh.triangles) {

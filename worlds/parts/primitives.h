@@ -37,9 +37,6 @@ struct LeafCard {
 /// Appends uv in [0, 1]^2, v from stem to tip.
 void append_card(TriangleMesh& mesh, const LeafCard& card);
 
-/// Appends a mesh moved by X.
-void append_mesh(TriangleMesh& mesh, const TriangleMesh& other, const Pose& X);
-
 /// A unit vector at right angles to a unit vector.
 Eigen::Vector3d any_orthogonal(const Eigen::Vector3d& unit);
 

@@ -345,7 +345,7 @@ TEST(RowMeshMap, RowsWithoutCanopyAreAsWideAndHighAsTheySay) {
   context.scene = &physics.scene();
   std::vector<std::string> notes;
   const LogSink before =
-      set_log_sink([&](LogLevel, const std::string& text) { notes.push_back(text); });
+      set_log_sink([&](const std::string& text) { notes.push_back(text); });
   RowMeshReport report;
   const auto map = make_row_mesh_map(parameters(), context, &report);
   set_log_sink(before);

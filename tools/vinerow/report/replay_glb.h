@@ -42,9 +42,6 @@ class GlbScene {
   /// A node that others hang on.
   int add_frame(const std::string& name, const Pose& X_PF, nlohmann::json extras = {});
 
-  /// Bytes of the meshes so far.
-  std::size_t data_bytes() const { return data_.size(); }
-
   /// The file. z up becomes glTF's y up by the root node's rotation, (x, y, z) to (x, z, -y).
   std::string bytes() const;
 

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 struct Notes {
   std::vector<std::string> texts;
   LogSink before;
-  Notes() : before(set_log_sink([this](LogLevel, const std::string& t) { texts.push_back(t); })) {}
+  Notes() : before(set_log_sink([this](const std::string& t) { texts.push_back(t); })) {}
   ~Notes() { set_log_sink(before); }
 };
 

@@ -99,7 +99,9 @@ AirMission::Wanted AirMission::fly_land(double dt_s, const GuidanceState& state)
   // So slow only what lies on the ground is, wherever that is.
   const bool is_stalled = state.airspeed_mps() < 0.5 * params_.stall_mps;
   const double above_m = state.height_m - slope_.touchdown_m();
-  if (above_m < params_.power_off_m || is_stalled) has_power_ = false;
+  // Past the place with power it would float on in the flare, half a metre too high, for a long way.
+  const bool is_past = frame.along_m(state.position) > frame.length_m();
+  if (above_m < params_.power_off_m || is_past || is_stalled) has_power_ = false;
   constexpr double kStanding_mps = 0.5, kStanding_s = 1.0;
   const bool stands =
       std::hypot(state.velocity.norm(), state.climb_mps) < kStanding_mps && !has_power_;

@@ -150,7 +150,7 @@ def write_page(page: Page, runs: int, cpu_s: float) -> None:
     page.add("# The three papers' tables and figures, and what comes out here\n\n"
              "Every table and every figure of papers A, B and C, and what their texts claim in numbers: what is printed, "
              "what this program gives, the scenario\nthat gives it, and why they differ. This page is made by one command; "
-             "its numbers are never typed:\n\n"
+             "the numbers in its tables are never typed:\n\n"
              "    tools/results            # builds, runs what is not kept under runs/results, writes this page\n"
              "    tools/results --check    # compares the page with fresh numbers\n"
              "    tools/results --quick    # the same of what takes seconds\n\n")

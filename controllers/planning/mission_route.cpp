@@ -39,7 +39,9 @@ const ParameterTable<MissionRouteParams>& mission_route_table() {
   using P = MissionRouteParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .path("file", &P::file, "the mission: a .plan or a QGC WPL 110 text")
+          .path("file", &P::file,
+                "the mission: a .plan, a QGC WPL 110 text, or lines and points of a map (.gpkg, "
+                ".kml, .kmz, .shp, .geojson)")
           .required()
           .number("climb_slope", "", &P::climb_slope, between(0.001, 10.0),
                   "at which wings climb to the first waypoint, rise over run; laps are added "

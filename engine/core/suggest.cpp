@@ -3,9 +3,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace vinerow {
+namespace {
+
+/// The units that keys end in, and what users write in their place.
+constexpr std::array<std::string_view, 46> kUnits{
+    "m",    "mm",  "cm",  "km",  "s",    "ms",   "ns",    "min", "h",  "rad", "deg", "mps",
+    "mps2", "kmh", "kph", "mph", "kn",   "rpm",  "radps", "dps", "Hz", "kHz", "MHz", "N",
+    "Nm",   "Pa",  "kPa", "bar", "kg",   "g",    "t",     "J",   "kJ", "Wh",  "W",   "kW",
+    "V",    "A",   "Ah",  "dB",  "dBHz", "rtHz", "K",     "m2",  "m3", "ha"};
+
+/// "speed" of "speed_mps", of "speed_kmh" and of "speed_m_s"; a name without a unit as it is.
+std::string_view without_unit(std::string_view name) {
+  while (true) {
+    const std::size_t underscore = name.rfind('_');
+    if (underscore == std::string_view::npos || underscore == 0) return name;
+    const std::string_view last = name.substr(underscore + 1);
+    if (std::find(kUnits.begin(), kUnits.end(), last) == kUnits.end()) return name;
+    name = name.substr(0, underscore);
+  }
+}
+
+}  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
   // Optimal string alignment distance, three rows.
@@ -29,6 +51,16 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view wrong, std::span<const std::string> known) {
   std::string nearest;
   int best = -1;
+  // The same quantity in another unit, or without one, is what was meant, however long the unit.
+  for (const std::string& name : known) {
+    if (without_unit(wrong) != without_unit(name)) continue;
+    const int distance = edit_distance(wrong, name);
+    if (best < 0 || distance < best) {
+      best = distance;
+      nearest = name;
+    }
+  }
+  if (best >= 0) return nearest;
   for (const std::string& name : known) {
     const int distance = edit_distance(wrong, name);
     const int allowed = static_cast<int>(std::max(wrong.size(), name.size())) / 3 + 1;

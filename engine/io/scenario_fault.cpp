@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/suggest.h"
+#include "engine/io/known_names.h"
 #include "engine/io/scenario_keys.h"
 #include "engine/io/scenario_reader.h"
 #include "engine/io/yaml_include.h"
@@ -126,12 +127,15 @@ std::string likely_key(const std::string& wrong, const std::vector<std::string>&
   for (const std::string& key : known) {
     if (lower_case(key) == lower) return key;
   }
-  for (const std::string& key : known) {
-    if (lower_case(stem(key)) == lower && stem(key) != key) return key;  // the unit is missing
-  }
-  for (const std::string& key : known) {
-    if (stem(key) != key && lower_case(stem(key)) == lower_case(stem(wrong)))
-      return key;  // other unit
+  // The unit is missing, or another: of several keys that begin alike the one that ends in a unit.
+  for (const std::string& begin : {lower, lower_case(stem(wrong))}) {
+    std::vector<std::string> alike;
+    for (const std::string& key : known) {
+      if (stem(key) != key && lower_case(stem(key)) == begin) alike.push_back(key);
+    }
+    if (alike.empty()) continue;
+    const std::string nearest = nearest_name(wrong, alike);
+    return nearest.empty() ? alike.front() : nearest;
   }
   const std::string nearest = nearest_name(wrong, known);
   if (!nearest.empty() && edit_distance(wrong, nearest) <= 2) return nearest;
@@ -152,14 +156,9 @@ void check_keys(const YamlNode& mapping, const std::string& path,
     std::string hint = context ? belongs_hint(entry.key, *context) : "";
     const std::string likely = likely_key(entry.key, sorted);
     if (hint.empty() && !likely.empty()) hint = fmt::format("; did you mean '{}'?", likely);
-    std::string more;
-    if (sorted.size() > kMaxListedKeys) {
-      more = fmt::format(" and {} more", sorted.size() - kMaxListedKeys);
-      sorted.resize(kMaxListedKeys);
-    }
-    fail_at(entry.mark, fmt::format("{}: unknown key{}{} (known: {}{})", join_path(path, entry.key),
+    fail_at(entry.mark, fmt::format("{}: unknown key{}{} (known: {})", join_path(path, entry.key),
                                     owner.empty() ? "" : " of " + owner, hint,
-                                    sorted.empty() ? "none" : join(sorted), more));
+                                    list_known(sorted, kMaxListedKeys)));
   }
 }
 

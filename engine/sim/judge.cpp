@@ -2,13 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
+#include "engine/io/known_names.h"
 
 namespace vinerow {
 namespace {
+
+/// What metrics there are, from the one that is likeliest meant on: a few where there is a hint,
+/// all where nothing is near.
+std::string list_metrics(const std::string& wrong, std::vector<std::string> known) {
+  constexpr std::size_t kMostWithHint = 10;
+  if (nearest_name(wrong, known).empty()) return join(known);
+  std::stable_sort(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+    return edit_distance(wrong, a) < edit_distance(wrong, b);
+  });
+  const bool is_cut = known.size() > kMostWithHint;
+  return io::list_known(known, kMostWithHint) + (is_cut ? "; see 'vinerow list metric'" : "");
+}
 
 double find_metric(const io::Criterion& criterion,
                    const std::map<std::string, std::map<std::string, double>>& metrics) {
@@ -22,7 +36,8 @@ double find_metric(const io::Criterion& criterion,
   }
   throw ConfigError(fmt::format("{}: criteria: metric '{}' does not exist{} (known: {})",
                                 criterion.where.text(), criterion.metric,
-                                did_you_mean(criterion.metric, known), join(known)));
+                                did_you_mean(criterion.metric, known),
+                                list_metrics(criterion.metric, known)));
 }
 
 /// Why a metric has no value, from what its name says that it looks at.

@@ -25,5 +25,17 @@ TEST(Suggest, NearestNameIsFoundAndAGuessIsNotMade) {
   EXPECT_EQ(did_you_mean("colour", known), "");
 }
 
+TEST(Suggest, TheSameQuantityInAnotherUnitIsNearerThanAnotherQuantity) {
+  const std::vector<std::string> known{"speed_gain", "speed_mps", "turn_speed_mps", "start_yaw_deg",
+                                       "mass_kg"};
+  EXPECT_EQ(nearest_name("speed_kmh", known), "speed_mps");
+  EXPECT_EQ(nearest_name("speed_m_s", known), "speed_mps");
+  EXPECT_EQ(nearest_name("speed", known), "speed_mps");
+  EXPECT_EQ(nearest_name("mass_t", known), "mass_kg");
+  EXPECT_EQ(nearest_name("start_yaw_rad", known), "start_yaw_deg");
+  EXPECT_EQ(nearest_name("speed_gian", known), "speed_gain");
+  EXPECT_EQ(nearest_name("speed_kmh", std::vector<std::string>{"row_kmh"}), "");
+}
+
 }  // namespace
 }  // namespace vinerow::suggest_test

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,6 +46,28 @@ TEST(Judge, UnknownMetricsAreRefusedWithTheNearest) {
                  "x.yaml:7: criteria: metric 'rover.cross_track_rms' does not exist; did you mean "
                  "'rover.cross_track_rms_m'? (known: rover.cross_track_rms_m, rover.distance_m)");
   }
+}
+
+TEST(Judge, ALongListOfMetricsIsCutWhereOneIsNear) {
+  std::map<std::string, double> metrics{{"cross_track_rms_m", 0.0}, {"cross_track_max_m", 0.0}};
+  for (int i = 0; i < 12; ++i) metrics[fmt::format("slip_rms_wheel_{}", i)] = 0.0;
+  const auto refusal = [&](const std::string& metric) -> std::string {
+    try {
+      judge({criterion(metric, {}, 0.1)}, {{"rover", metrics}});
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string near = refusal("rover.cross_track_rms");
+  EXPECT_NE(near.find("did you mean 'rover.cross_track_rms_m'? (known: rover.cross_track_rms_m, "
+                      "rover.cross_track_max_m, "),
+            std::string::npos)
+      << near;
+  EXPECT_TRUE(near.ends_with(" and 4 more; see 'vinerow list metric')")) << near;
+  const std::string far = refusal("rover.temperature_of_the_motor_K");
+  EXPECT_EQ(far.find("did you mean"), std::string::npos) << far;
+  EXPECT_NE(far.find("rover.slip_rms_wheel_9)"), std::string::npos) << far;
 }
 
 }  // namespace

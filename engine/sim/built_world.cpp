@@ -1,8 +1,23 @@
 #include "engine/sim/built_world.h"
 
+#include <fmt/format.h>
+
+#include "engine/core/error.h"
+
 #include "engine/sim/simulation.h"
 
 namespace vinerow {
+namespace {
+
+/// Whether the sentence is about one of the parameters: "terrain_cell_m = 0.5 m gives ...".
+bool begins_with_key(const std::string& text, const ParameterSet& parameters) {
+  for (const ParameterSpec& spec : parameters.specs()) {
+    if (text.starts_with(spec.name + " ")) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry,
                                         FileShelf* shelf) {
@@ -12,7 +27,15 @@ std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Regi
   context.physics_step = scenario.physics_step;
   context.gravity_mps2 = scenario.gravity_mps2;
   context.shelf = shelf;
-  return registry.make_world(scenario.world.type, scenario.world.parameters, context);
+  const ParameterSet& parameters = scenario.world.parameters;
+  try {
+    return registry.make_world(scenario.world.type, parameters, context);
+  } catch (const ConfigError& error) {
+    // What a world finds out only while it is built is told as the loader tells its faults.
+    const std::string text = error.what();
+    if (!begins_with_key(text, parameters)) throw;
+    throw ConfigError(fmt::format("{}: world.{}", scenario.world.where.text(), text));
+  }
 }
 
 BuiltWorld build_static_world(const io::Scenario& scenario, const Registry& registry,

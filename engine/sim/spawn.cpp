@@ -95,8 +95,19 @@ std::string name_free_places(const WorldModel& world) {
 
 }  // namespace
 
+std::string tell_more_ground(const ParameterSet& world) {
+  constexpr const char* kSurroundings = "surroundings_m";
+  for (const ParameterSpec& spec : world.specs()) {
+    if (spec.name != kSurroundings) continue;
+    return fmt::format("; a larger world.{} ({:g} m now) makes more of it", kSurroundings,
+                       world.number(kSurroundings));
+  }
+  return "; keep it on the ground, or give the world more of it";
+}
+
 Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, const SceneQuery& scene,
-                     const std::string& vehicle, double height_above_ground_m) {
+                     const std::string& vehicle, double height_above_ground_m,
+                     const std::string& remedy) {
   Heading heading{Eigen::Vector2d::Zero(), spawn.yaw_rad};
   if (spawn.alley) {
     heading = find_on_alley(spawn, world, vehicle);
@@ -110,8 +121,8 @@ Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, cons
   const auto ground = standing.height_m(x, y);
   if (!ground) {
     throw ConfigError(fmt::format(
-        "{}: vehicles.{}.spawn is at x = {:.3f} m, y = {:.3f} m, where world '{}' has no ground",
-        spawn.where.text(), vehicle, x, y, world.name));
+        "{}: vehicles.{}.spawn is at x = {:.3f} m, y = {:.3f} m, where world '{}' has no ground{}",
+        spawn.where.text(), vehicle, x, y, world.name, remedy));
   }
   const bool obstacles = standing.takes_obstacles(x, y);
   const auto height_at = [&](double dx, double dy) {

@@ -11,13 +11,19 @@
 
 namespace vinerow {
 
+/// How a world gets more ground, for the end of a refusal: "; a larger world.surroundings_m (6 m
+/// now) makes more of it" where it has that key.
+std::string tell_more_ground(const ParameterSet& world);
+
 /// Pose of a vehicle at the start, standing on the ground: the highest terrain there, or where the
 /// world has none the highest obstacle. It is tilted as the ground is a wheel base around; what
 /// stands on the ground, or rises steeper than 45 deg, tilts nothing.
 /// @throws ConfigError naming what the world has, if the alley or spawn point is unknown; or that
 /// there is no ground
+/// @param remedy  what that ends with
 Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, const SceneQuery& scene,
-                     const std::string& vehicle, double height_above_ground_m);
+                     const std::string& vehicle, double height_above_ground_m,
+                     const std::string& remedy = "");
 
 /// The room that a vehicle takes at the start: its collision box, widened to its outline, and down
 /// to its wheels where it has some.

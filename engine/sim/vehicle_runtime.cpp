@@ -114,7 +114,8 @@ VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext
   });
   const VehicleDescription& description = vehicle_->description();
   const Pose X_WB = find_spawn_pose(config_.spawn, run_.world, run_.physics.scene(), name,
-                                    description.height_above_ground_m);
+                                    description.height_above_ground_m,
+                                    tell_more_ground(run_.scenario.world.parameters));
   first_body_ = run_.physics.body_count();
   with_place(config_.vehicle.where, name, [&] { vehicle_->spawn(run_.physics, X_WB); });
   end_body_ = run_.physics.body_count();
@@ -388,8 +389,10 @@ void VehicleRuntime::try_to_plan(Time now) {
   if (const PlanReport* report = planner_ ? planner_->report() : nullptr) {
     plan_numbers_ = report->numbers;
     if (!report->tree.points_W.empty()) tree_writer_.write(now, report->tree);
-    for (const auto& [name, value] : report->numbers)
-      told += fmt::format(", {} {:.4g}", name, value);
+    // Some planners count dozens of things, which no sentence holds.
+    if (!report->numbers.empty()) {
+      told += fmt::format("; its numbers are in summary.json, planning.{}", config_.name);
+    }
   }
   run_.emit(Event::Level::kInfo, config_.name + ".planner", told);
 }

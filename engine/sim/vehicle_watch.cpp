@@ -32,6 +32,19 @@ bool is_ground(const physics::Contact& contact) {
          std::abs(contact.normal_W.z()) >= kSteepestNormal_z;
 }
 
+/// "a post", "obstacle 'crate'": what was touched, by its name where the scenario gives it one.
+std::string name_of(const physics::Contact& contact, const WorldModel& world) {
+  if (contact.surface == SurfaceClass::kTerrain) return "a wall of the terrain";
+  if (contact.surface != SurfaceClass::kObstacle) {
+    return fmt::format("a {}", to_string(contact.surface));
+  }
+  if (contact.mesh < 0) return "an obstacle";
+  std::string name = world.meshes.at(static_cast<std::size_t>(contact.mesh)).name;
+  constexpr std::string_view kPrefix = "obstacle/";
+  if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
+  return name.empty() ? "an obstacle" : fmt::format("obstacle '{}'", name);
+}
+
 /// Of the height field and the meshes of class terrain; of all that is rigid where there are none.
 Eigen::AlignedBox2d find_ground_extent(const WorldModel& world) {
   Eigen::AlignedBox2d terrain, rigid;
@@ -91,20 +104,12 @@ void VehicleRuntime::demand_ground(Time now, const Pose& X_WB) const {
   }
   const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
   const Eigen::AlignedBox2d box = find_ground_extent(run_.world);
-  std::string remedy = "; keep it on the ground, or give the world more of it";
-  constexpr const char* kSurroundings = "surroundings_m";
-  const ParameterSet& world = run_.scenario.world.parameters;
-  for (const ParameterSpec& spec : world.specs()) {
-    if (spec.name != kSurroundings) continue;
-    remedy = fmt::format("; a larger world.{} ({:g} m now) makes more of it", kSurroundings,
-                         world.number(kSurroundings));
-  }
   throw SimulationError(
       culprit, now,
       fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m: the ground of world '{}' "
                   "lies between x = {:.1f} and {:.1f} m, y = {:.1f} and {:.1f} m{}",
                   p.x(), p.y(), run_.world.name, box.min().x(), box.max().x(), box.min().y(),
-                  box.max().y(), remedy));
+                  box.max().y(), tell_more_ground(run_.scenario.world.parameters)));
 }
 
 bool VehicleRuntime::finished() const {
@@ -148,12 +153,9 @@ void VehicleRuntime::watch_contacts(Time now) {
   if (touched) {
     if (now - last_contact_ > kContactGap) {
       contacts_.values[0] += 1.0;
-      run_.emit(
-          Event::Level::kWarning, config_.name,
-          fmt::format("touches a {} at x = {:.2f} m, y = {:.2f} m",
-                      touched->surface == SurfaceClass::kTerrain ? "wall of the terrain"
-                                                                 : to_string(touched->surface),
-                      touched->p_W.x(), touched->p_W.y()));
+      run_.emit(Event::Level::kWarning, config_.name,
+                fmt::format("touches {} at x = {:.2f} m, y = {:.2f} m",
+                            name_of(*touched, run_.world), touched->p_W.x(), touched->p_W.y()));
     }
     last_contact_ = now;
   }

@@ -99,12 +99,48 @@ TEST(MeshWorldRun, AWallThatIsPartOfTheTerrainIsTouchedAndHoldsWhoGoesOn) {
   EXPECT_THAT(summary, HasSubstr("\"status\": \"a vehicle is stuck\""));
 }
 
+TEST(MeshWorldRun, AnObstacleIsTouchedByItsName) {
+  const ScratchFolder folder("mesh_obstacle");
+  folder.file("hill.obj", hillside());
+  folder.file("crate.obj",
+              "v 6 -20 -12\nv 6 20 -12\nv 6 20 -9.9\nv 6 -20 -9.9\nv 6.3 -20 -9.9\nv 6.3 20 -9.9\n"
+              "v 6.3 20 -12\nv 6.3 -20 -12\nf 1 4 3 2\nf 4 5 6 3\nf 5 8 7 6\n");
+  const auto result =
+      run(folder, scenario("{type: mesh, items: [{file: hill.obj, surface: terrain}, {file: "
+                           "crate.obj, name: crate, surface: obstacle}]}",
+                           "{x_m: 0, y_m: 0}", 15));
+  EXPECT_EQ(result.status, 1) << result.output;
+  EXPECT_THAT(events(folder), HasSubstr("touches obstacle 'crate' at x = 6.0"));
+}
+
 TEST(Edges, LeavingAParcelNamesTheKeyThatMakesItLarger) {
   std::string text = test::kFreeRover;
   text.replace(text.find("duration_s: 3"), 13, "duration_s: 60");
   const std::string told = drive_off(open_session_text(text, ".", {}, driven()), -20.0);
   EXPECT_THAT(told, HasSubstr("it left the terrain at"));
   EXPECT_THAT(told, HasSubstr("; a larger world.surroundings_m (6 m now) makes more of it"));
+}
+
+TEST(Starts, BesideTheGroundNamesTheKeyThatMakesItLarger) {
+  const ScratchFolder folder("beside");
+  const std::string world = "{type: vineyard, row_count: 3, row_length_m: 20}";
+  const auto result = test::run_vinerow(
+      "validate " + folder.file("s.yaml", scenario(world, "{x_m: 4000, y_m: 0}", 5)));
+  EXPECT_EQ(result.status, 2) << result.output;
+  EXPECT_THAT(result.output,
+              HasSubstr("s.yaml:8: vehicles.rover.spawn is at x = 4000.000 m, y = 0.000 m, where "
+                        "world 'vineyard' has no ground; a larger world.surroundings_m ("));
+  EXPECT_THAT(result.output, HasSubstr(" m now) makes more of it"));
+}
+
+TEST(Worlds, AFaultThatIsFoundWhileBuildingHasItsPlaceToo) {
+  const ScratchFolder folder("too_fine");
+  const std::string world =
+      "{type: vineyard, row_count: 900, row_length_m: 5000, terrain_cell_m: 0.5}";
+  const auto result =
+      test::run_vinerow("validate " + folder.file("s.yaml", scenario(world, "{alley: 0}", 5)));
+  EXPECT_EQ(result.status, 2) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("s.yaml:4: world.terrain_cell_m = 0.5 m gives "));
 }
 
 TEST(Starts, InsideARowOrAVehicleAreRefusedBeforeTheRun) {

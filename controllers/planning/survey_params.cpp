@@ -66,6 +66,7 @@ struct SurveyFlightParams {
   double wind_from_deg = 0.0;              ///< clockwise from north
   std::optional<double> lane_bearing_deg;  ///< clockwise from north
   std::optional<double> bank_rad, stall_speed_mps;
+  std::optional<bool> rotorcraft;
 };
 
 const ParameterTable<SurveyFlightParams>& survey_flight_table() {
@@ -79,9 +80,9 @@ const ParameterTable<SurveyFlightParams>& survey_flight_table() {
           .number("gsd_m", "m", &P::gsd_m, kPositive,
                   "ground sampling distance, which gives the height instead")
           .number("forward_overlap", "", request(&R::forward_overlap), between(0.0, 0.98),
-                  "of consecutive pictures of a lane, as a share")
+                  "of consecutive pictures of a lane; fraction, 0 to 1")
           .number("side_overlap", "", request(&R::side_overlap), between(0.0, 0.98),
-                  "of the pictures of neighbouring lanes, at least, as a share")
+                  "of the pictures of neighbouring lanes, at least; fraction, 0 to 1")
           .number("speed_mps", "m/s", request(&R::speed_mps), kPositive,
                   "through the air; of rotorcraft over ground")
           .number("wind_speed_mps", "m/s", &P::wind_speed_mps, between(0.0, 100.0),
@@ -93,7 +94,7 @@ const ParameterTable<SurveyFlightParams>& survey_flight_table() {
                   "lanes")
           .choice("order", request(&R::order),
                   {{"best", R::Order::kBest}, {"snake", R::Order::kSnake}},
-                  "best: every lane once with the least added way, skipping lanes where turns "
+                  "best: every lane once with the least extra distance, skipping lanes where turns "
                   "do not fit between neighbours; snake: neighbour after neighbour")
           .degrees("bank_deg", &P::bank_rad, between(1.0, 75.0),
                    "in turns; absent: 35 deg, or what the vehicle can")
@@ -105,19 +106,20 @@ const ParameterTable<SurveyFlightParams>& survey_flight_table() {
           .number("max_slope", "", &P::max_slope, between(0.001, 1.0),
                   "of the way, rise over run; above steeper terrain the flight stays higher; "
                   "absent: 0.12, of rotorcraft a descent of 1.5 m/s")
-          .boolean("rotorcraft", request(&R::rotorcraft),
+          .boolean("rotorcraft", &P::rotorcraft,
                    "plans for a multirotor: straight up to the first height, corners on the spot, "
-                   "speed_mps over ground; false: for wings")
+                   "speed_mps over ground; false: for wings; absent: what the vehicle is, wings "
+                   "without a vehicle")
           .number("run_out_m", "m", request(&R::run_out_m), between(0.0, 1e4),
                   "straight on beyond a lane's pictures before and after turns; "
                   "absent: turn radius and two seconds of flight; of rotorcraft what it takes to "
                   "reach the speed at 2 m/s2")
           .number("end_margin", "", request(&R::end_margin), between(0.0, 2.0),
-                  "by which the pictures of a lane go on beyond the area, as a share of their "
+                  "by which the pictures of a lane go on beyond the area, as a fraction of their "
                   "length; 0.5: the ends are seen as often as the middle")
           .number("edge_margin", "", request(&R::edge_margin), between(-0.5, 0.5),
-                  "by which the outermost lanes lie beyond the area, as a share of a picture's "
-                  "width; -0.5: pictures end at the edges")
+                  "by which the outermost lanes lie beyond the area, as a fraction of a "
+                  "picture's width; -0.5: pictures end at the edges")
           .boolean("return_home", request(&R::returns), "fly back to the start after the last lane")
           .rule([](const P& p) -> std::string {
             return p.height_m && p.gsd_m ? "give height_m or gsd_m, not both" : "";
@@ -197,6 +199,7 @@ SurveyRequest read_survey_request(const ParameterSet& parameters, const PlannerC
   SurveyRequest request = flight.request;
   request.polygon_W = find_polygon(survey_area_table().read(parameters, who), context, who);
   request.camera = read_survey_camera(parameters);
+  request.rotorcraft = flight.rotorcraft.value_or(vehicle != nullptr && vehicle->rotorcraft);
   if (flight.gsd_m) {
     request.height_m = request.camera.height_for_gsd_m(*flight.gsd_m);
   } else if (flight.height_m) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/height_field.h"
+#include "engine/io/height_raster.h"
 #include "engine/io/mission_file.h"
 #include "engine/math/angles.h"
 #include "engine/render/png.h"
@@ -129,6 +131,33 @@ TEST(SurveyCommand, RefusesInOneSentence) {
       "point 3");
   expect_refused("survey --origin 44,8 --polygon " + folder.file("two.csv", "0,0\n1,1\n"),
                  "it has 2 different points, needs at least 3");
+}
+
+TEST(SurveyCommand, SaysWhereLatitudeAndLongitudeAreSwapped) {
+  const ScratchFolder folder("survey_swapped");
+  HeightField field;
+  field.columns = field.rows = 61;
+  field.cell_m = 20.0;
+  field.corner_W = {-400.0, -400.0};
+  field.heights_m.assign(61u * 61u, 2.0f);
+  const std::filesystem::path dem = folder.path() / "dem.tif";
+  io::write_height_raster(field, GeoOrigin{rad_from_deg(44.7), rad_from_deg(8.03), 300.0}, dem);
+  const auto field_of = [&](const std::string& name, const std::string& ring) {
+    return folder.file(name, R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon",)"
+                             R"("coordinates":[[)" +
+                                 ring + "]]}}");
+  };
+  const std::string start = "survey --dem " + dem.string() + " --height_m 80 --speed_mps 5 --out " +
+                            (folder.path() / "out").string() + " --polygon ";
+  const auto right = run_vinerow(
+      start + field_of("right.geojson",
+                       "[8.03,44.7],[8.033,44.7],[8.033,44.702],[8.03,44.702],[8.03,44.7]"));
+  EXPECT_EQ(right.status, 0) << right.output;
+  expect_refused(
+      start + field_of("swapped.geojson",
+                       "[44.7,8.03],[44.7,8.033],[44.702,8.033],[44.702,8.03],[44.7,8.03]"),
+      "at latitude 8.030000 deg, longitude 44.700000 deg lies outside the terrain of '" +
+          dem.string() + "'; are latitude and longitude swapped?");
 }
 
 TEST(SurveyCommand, SurveysMountainsAndRefusesWhatTheirModelDoesNotHold) {

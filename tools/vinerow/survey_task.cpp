@@ -79,11 +79,34 @@ GeoOrigin find_survey_origin(const SurveyArguments& arguments) {
   return origin;
 }
 
+/// Swapped coordinates lie far away, where "outside" alone would not tell what is wrong.
+void refuse_swapped_corner(const SurveyArguments& arguments, const io::ElevationLookup& lookup) {
+  if (arguments.polygon.extension() == ".csv") return;  // in metres
+  for (const io::GeoFeature& feature : io::read_features(arguments.polygon)) {
+    if (feature.kind != io::GeometryKind::kPolygon) continue;
+    for (std::size_t i = 0; i < feature.points.size(); ++i) {
+      const double latitude_rad = feature.points[i].latitude_rad;
+      const double longitude_rad = feature.points[i].longitude_rad;
+      if (lookup.height_m(latitude_rad, longitude_rad)) continue;
+      const bool is_swapped =
+          std::abs(longitude_rad) <= 0.5 * kPi && lookup.height_m(longitude_rad, latitude_rad);
+      if (!is_swapped) continue;
+      throw ConfigError(
+          fmt::format("--polygon: point {} of '{}' at latitude {:.6f} deg, longitude {:.6f} deg "
+                      "lies outside the terrain of '{}'; are latitude and longitude swapped?",
+                      i + 1, arguments.polygon.string(), deg_from_rad(latitude_rad),
+                      deg_from_rad(longitude_rad), arguments.dem.string()));
+    }
+    return;
+  }
+}
+
 /// Flat ground, or that of an elevation model.
 GroundHeight find_ground(const SurveyArguments& arguments, GeoOrigin& origin) {
   if (arguments.dem.empty()) return make_ground(nullptr, 0.0);
   const auto lookup =
       std::make_shared<io::ElevationLookup>(io::read_elevation(arguments.dem, arguments.crs));
+  refuse_swapped_corner(arguments, *lookup);
   if (arguments.origin.size() < 3) {  // W's zero is the ground at the origin
     origin.altitude_m = lookup->height_m(origin.latitude_rad, origin.longitude_rad).value_or(0.0);
   }

@@ -72,6 +72,18 @@ TEST(SurveyPart, GivesHeightsForAGroundSamplingDistance) {
               149.6, 0.1);
 }
 
+TEST(SurveyPart, PlansForRotorsWhereTheVehicleHasThem) {
+  VehicleDescription drone;
+  drone.type = "quadrotor";
+  drone.rotorcraft.emplace();
+  const Outcome by_vehicle = run({}, drone);
+  EXPECT_EQ(by_vehicle.fault, "none");
+  EXPECT_EQ(by_vehicle.numbers.at("turn_radius_m"), 0.0);
+  EXPECT_EQ(run({{"rotorcraft", true}}, drone).path.length_m, by_vehicle.path.length_m);
+  EXPECT_GT(run({{"rotorcraft", false}}, drone).numbers.at("turn_radius_m"), 1.0);
+  EXPECT_EQ(run({{"rotorcraft", true}}).numbers.at("turn_radius_m"), 0.0);
+}
+
 TEST(SurveyPart, RefusesWhileLoading) {
   const auto expect = [](const Values& values, const std::string& text) {
     const Outcome outcome = run(values);

@@ -31,8 +31,8 @@ void AirMission::lay_landing(const GuidanceState& state) {
   circle_ = LoiterCircle::tangent(entry, course_rad, params_.loiter_radius_m, params_.loiter_side);
   stage_ = Stage::kDescend;
   std::string news = fmt::format(
-      "lands at ({:.1f}, {:.1f}) on a course of {:.0f} deg: circles down to {:.0f} m above it",
-      place.x(), place.y(), deg_from_rad(wrap_angle(course_rad)), above_m);
+      "lands at ({:.1f}, {:.1f}) on bearing {:.0f} deg: circles down to {:.0f} m above it",
+      place.x(), place.y(), bearing_deg(course_rad), above_m);
   // It knows the ground at its start only.
   constexpr double kSameGround_m = 20.0;
   const double away_m = (place - start_.position).norm();

@@ -14,8 +14,8 @@ void AirMission::launch(const GuidanceState& state) {
   generator_.start(state.yaw_rad, state.bank_left_rad);
   height_.start(state.height_m);
   course_ = {state.yaw_rad, 0.0};
-  tell(false, fmt::format("launches on a heading of {:.0f} deg for {:.0f} m of plan",
-                          deg_from_rad(state.yaw_rad), length_m_));
+  tell(false, fmt::format("launches on bearing {:.0f} deg for {:.0f} m of plan",
+                          bearing_deg(state.yaw_rad), length_m_));
 }
 
 void AirMission::join(const GuidanceState& state) {

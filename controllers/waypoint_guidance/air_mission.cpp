@@ -222,10 +222,9 @@ void AirMission::watch_wind(double dt_s, const GuidanceState& state) {
   against_s_ = is_possible ? 0.0 : against_s_ + dt_s;
   if (has_told_wind_ || against_s_ < kPatience_s) return;
   has_told_wind_ = true;
-  tell(true,
-       fmt::format("wind of {:.1f} m/s: no heading holds a course of {:.0f} deg at {:.1f} "
-                   "m/s through the air, points as far into it as helps",
-                   state.wind.norm(), deg_from_rad(wrap_angle(course_.course_rad)), airspeed_mps_));
+  tell(true, fmt::format("wind of {:.1f} m/s: no heading holds bearing {:.0f} deg at {:.1f} "
+                         "m/s through the air, points as far into it as helps",
+                         state.wind.norm(), bearing_deg(course_.course_rad), airspeed_mps_));
 }
 
 void AirMission::tell(bool is_bad, std::string text) {

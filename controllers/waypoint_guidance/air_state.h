@@ -22,6 +22,12 @@ struct GuidanceState {
   double airspeed_mps() const { return std::hypot((velocity - wind).norm(), climb_mps); }
 };
 
+/// A direction as events tell it: whole degrees from north, clockwise, 0 to 359.
+inline double bearing_deg(double yaw_rad) {
+  const double rounded = std::round(90.0 - deg_from_rad(wrap_angle(yaw_rad)));
+  return rounded < 0.0 ? rounded + 360.0 : rounded;
+}
+
 /// What a law wants: course over ground, not wrapped, and how fast it changes.
 struct WantedCourse {
   double course_rad = 0.0;

@@ -66,7 +66,16 @@ TEST(AirMission, LaunchesStraightAheadAndFliesToTheFirstWaypoint) {
   EXPECT_THAT(phases.seen,
               ElementsAre(AirPhase::kWait, AirPhase::kLaunch, AirPhase::kTurn, AirPhase::kStraight,
                           AirPhase::kTurn, AirPhase::kStraight, AirPhase::kDone));
-  EXPECT_TRUE(bench.has_event("launches on a heading of 17 deg for 400 m of plan"));
+  EXPECT_TRUE(bench.has_event("launches on bearing 73 deg for 400 m of plan"));
+}
+
+TEST(AirMission, EventsTellBearingsFromNorth) {
+  EXPECT_EQ(bearing_deg(0.0), 90.0);
+  EXPECT_EQ(bearing_deg(rad_from_deg(90.0)), 0.0);
+  EXPECT_EQ(bearing_deg(rad_from_deg(90.4)), 0.0);
+  EXPECT_EQ(bearing_deg(rad_from_deg(150.0)), 300.0);
+  EXPECT_EQ(bearing_deg(rad_from_deg(-180.0)), 270.0);
+  EXPECT_EQ(bearing_deg(rad_from_deg(1.0 + 720.0)), 89.0);
 }
 
 TEST(AirMission, CirclesWhereTheWayIsTooShortToClimb) {

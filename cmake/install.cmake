@@ -1,4 +1,4 @@
-# `cmake --install` gives the command, the shared library, the headers and a package for find_package(vinerow).
+# `cmake --install` gives the command, the shared library, the headers, a package for find_package(vinerow) and the documentation.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -10,6 +10,9 @@ set(VINEROW_INCLUDEDIR \"${CMAKE_INSTALL_INCLUDEDIR}\")")
 install(SCRIPT cmake/install_headers.cmake)
 install(FILES ${CMAKE_BINARY_DIR}/generated/vinerow/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vinerow)
 install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/vinerow)
+# README.md and CHANGELOG.md link to files under docs/, so they lie as in the tree.
+install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vinerow)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vinerow PATTERN Doxyfile EXCLUDE)
 install(EXPORT vinerowTargets NAMESPACE vinerow:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vinerow)
 
 configure_package_config_file(cmake/vinerowConfig.cmake.in ${CMAKE_BINARY_DIR}/vinerowConfig.cmake

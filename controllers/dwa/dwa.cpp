@@ -126,7 +126,7 @@ class Dwa final : public Guidance {
             x, y, news.distance_m);
         break;
       case DwaNews::Kind::kReverse:
-        event.text = fmt::format("jammed at ({:.2f}, {:.2f}) {}; goes back a little", x, y, what);
+        event.text = fmt::format("held up at ({:.2f}, {:.2f}) {}; goes back a little", x, y, what);
         break;
       case DwaNews::Kind::kBlocked:
         event.level = Event::Level::kWarning;

@@ -52,8 +52,7 @@ const ParameterTable<DwaPartParams>& dwa_table() {
                   "speeding up and braking")
           .number("window_s", "s", law(&DwaParams::window_s), kPositive,
                   "the dynamic window is what this time allows")
-          .number("horizon_s", "s", law(&DwaParams::horizon_s), kPositive,
-                  "length of the rollouts")
+          .number("horizon_s", "s", law(&DwaParams::horizon_s), kPositive, "length of the rollouts")
           .number("step_s", "s", law(&DwaParams::step_s), kPositive,
                   "time between poses of a rollout that are checked")
           .integer("speed_samples", law(&DwaParams::speeds), between(2, 50), "speeds tried")
@@ -85,13 +84,13 @@ const ParameterTable<DwaPartParams>& dwa_table() {
           .number("fade_m", "m", plan(&PlanAheadParams::fade_m), kPositive,
                   "length over which the tracking controller is taken to lose its error")
           .number("reverse_speed_mps", "m/s", guide(&Guide::reverse_speed_mps), kPositive,
-                  "speed backwards out of a jam")
+                  "speed backwards where it is blocked")
           .number("reverse_s", "s", recovery(&RecoveryParams::reverse_s), between(0.0, 60.0),
-                  "longest way back out of a jam")
+                  "longest way back where it is blocked")
           .integer("max_recoveries", recovery(&RecoveryParams::max_recoveries), between(0, 100),
                    "ways back before it stands")
           .number("stall_s", "s", recovery(&RecoveryParams::stall_s), kPositive,
-                  "no progress for this long is a jam")
+                  "without progress for this long it counts as blocked")
           .number("retry_s", "s", recovery(&RecoveryParams::retry_s), kPositive,
                   "how often it tries again when it stands")
           .number("look_back_s", "s", recovery(&RecoveryParams::look_back_s), between(0.0, 60.0),

@@ -208,7 +208,7 @@ class DistanceFilter final : public Estimator {
     if (set_news_.is_due(now, counters.set_restarts)) {
       news_.tell(Event::Level::kWarning,
                  fmt::format("the ellipsoid was empty near ({:.1f}, {:.1f}): its bounds contradict "
-                             "each other; it starts anew about the estimate ({} so far)",
+                             "each other; it starts again about the estimate ({} so far)",
                              X_WB.p.x(), X_WB.p.y(), counters.set_restarts));
     }
     if (index_) watch_.look(now, *index_, sensors_, X_WB, reach_m_, news_);

@@ -54,7 +54,7 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
           .number("gate_sigma", "", &P::gate_sigma, kPositive,
                   "measurements farther off are refused")
           .number("restart_after_s", "s", &P::restart_after_s, kPositive,
-                  "position begins anew at a fix when none was accepted for so long")
+                  "position begins again at a fix when none was accepted for so long")
           .number("gnss_std_m", "m", &P::gnss_std_m, between(0.0, 100.0),
                   "1 sigma of a fix; 0 = as the receiver states")
           .number("gnss_velocity_std_mps", "m/s", &P::gnss_velocity_std_mps, between(0.0, 100.0),

@@ -224,7 +224,7 @@ class MapLocalisation final : public Estimator {
     const int lost = law_.counters().lost;
     if (lost_news_.is_due(now, lost)) {
       news_.tell(Event::Level::kWarning,
-                 fmt::format("lost: echoes or fixes contradict the estimate; begins anew near "
+                 fmt::format("lost: echoes or fixes contradict the estimate; begins again near "
                              "({:.1f}, {:.1f}), alleys in question: {} ({} so far)",
                              state.p_W().x(), state.p_W().y(), law_.filter_count(), lost));
     }

@@ -30,7 +30,7 @@ Aircraft read_aircraft(const VehicleDescription& description, double gravity_mps
                        const std::string& who) {
   Aircraft aircraft{description.need_fixed_wing(who), description.type, gravity_mps2};
   if (!aircraft.flight_model) {
-    throw ConfigError(fmt::format("{} needs 'flight_model', which vehicle type '{}' does not tell",
+    throw ConfigError(fmt::format("{} needs 'flight_model', which vehicle type '{}' does not have",
                                   who, description.type));
   }
   const auto demand = [&](double value, const char* name) {

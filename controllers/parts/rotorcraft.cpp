@@ -21,8 +21,8 @@ RotorcraftModel read_rotorcraft(const VehicleDescription& description, double gr
   };
   demand(static_cast<double>(craft.rotors.size()), "rotors");
   if (!(craft.mass_kg > 0.0)) {
-    throw ConfigError(fmt::format("{} needs a mass > 0 kg, but vehicle type '{}' tells {:g} kg",
-                                  who, description.type, craft.mass_kg));
+    throw ConfigError(fmt::format("{} needs a mass > 0 kg, but vehicle type '{}' has {:g} kg", who,
+                                  description.type, craft.mass_kg));
   }
   demand(craft.inertia_kgm2.x(), "inertia_kgm2.x");
   demand(craft.inertia_kgm2.y(), "inertia_kgm2.y");

@@ -60,14 +60,14 @@ double VehicleDescription::need(const std::optional<double>& value, const char* 
                                 const std::string& who) const {
   if (value) return *value;
   throw ConfigError(
-      fmt::format("{} needs '{}', which vehicle type '{}' does not tell", who, name, type));
+      fmt::format("{} needs '{}', which vehicle type '{}' does not have", who, name, type));
 }
 
 double VehicleDescription::need_positive(double value, const char* name,
                                          const std::string& who) const {
   if (value > 0.0 && std::isfinite(value)) return value;
-  throw ConfigError(fmt::format("{} needs '{}' > 0, but vehicle type '{}' tells {:g}", who, name,
-                                type, value));
+  throw ConfigError(
+      fmt::format("{} needs '{}' > 0, but vehicle type '{}' has {:g}", who, name, type, value));
 }
 
 int VehicleDescription::actuator_index(const std::string& name, const std::string& who) const {

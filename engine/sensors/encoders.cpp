@@ -55,10 +55,10 @@ class Encoders final : public ReadingSensor<NamedValues> {
     const EncodersParams params = encoders_table().read(parameters, context.part);
     const VehicleDescription& about = vehicle_->description();
     if (vehicle_->actuator_states().empty()) {
-      throw ConfigError(
-          fmt::format("{}: vehicle type '{}' does not tell the states of its actuators, which "
-                      "encoders measure",
-                      context.part, about.type));
+      throw ConfigError(fmt::format(
+          "{}: encoders measure the states of a vehicle's actuators, which vehicle type "
+          "'{}' does not have",
+          context.part, about.type));
     }
     for (const ActuatorSpec& actuator : about.actuators) {
       if (actuator.unit != "rad" && actuator.unit != "rad/s") {

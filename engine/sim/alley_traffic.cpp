@@ -291,7 +291,7 @@ std::optional<std::string> AlleyTraffic::deadlock() const {
     for (const int alley : wanted(lanes_[i])) {
       const int other = holder_[alley];
       if (other < 0 || !lanes_[other].stays) continue;
-      return fmt::format("{} waits for alley {}, in which {} stands and works no more", name(i),
+      return fmt::format("{} waits for alley {}, in which {} has stopped", name(i),
                          alleys_[alley].id, name(other));
     }
   }

@@ -71,7 +71,7 @@ class AlleyTraffic {
 
   /// A sentence about vehicles that wait for ever, as of the last serve(): "rover holds alley 5 and
   /// waits for alley 6, which drone holds, waiting for alley 5"; "rover waits for alley 6, in which
-  /// drone stands and works no more". Allocates where there is one.
+  /// drone has stopped". Allocates where there is one.
   std::optional<std::string> deadlock() const;
 
  private:

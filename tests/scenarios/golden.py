@@ -3,7 +3,7 @@
 
 usage: golden.py check  VINEROW SCENARIO [--plain]        one scenario against the file; exit status 1 tells what differs
        golden.py start  VINEROW SCENARIO... [--under EMULATOR]  the digest of the first seconds alone
-       golden.py record VINEROW [SCENARIO...]             writes the file anew (all of them, or those named)
+       golden.py record VINEROW [SCENARIO...]             writes the file again (all of them, or those named)
 
 --plain   hides AVX, AVX2, FMA and AVX-512 from the C library (Embree asks the processor itself: for that, --under)
 --under   runs the program by an emulator: --under "qemu-x86_64-static -cpu Nehalem"

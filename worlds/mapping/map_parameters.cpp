@@ -45,10 +45,10 @@ const ParameterTable<MapParams>& map_table() {
                    "serpentine is free")
           .choice("first_wall", inside(&P::grid, &Grid::first_wall),
                   {{"auto", std::nullopt}, {"first", RowEnd::kFirst}, {"last", RowEnd::kLast}},
-                  "point of row 0 that is walled, the ends of the others alternate; auto: "
-                  "open for a serpentine that begins at alley 0's first point")
+                  "point of row 0 that is closed by a virtual wall, the ends of the others "
+                  "alternate; auto: open for a serpentine that begins at alley 0's first point")
           .path("occupancy_file", &P::occupancy_file,
-                "ROS map (YAML with a PGM beside it) that vehicles are told instead of "
+                "ROS map (YAML with a PGM beside it) that vehicles are given instead of "
                 "the true rows");
   return table;
 }

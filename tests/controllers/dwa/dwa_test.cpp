@@ -151,7 +151,7 @@ TEST(Dwa, PureForwardJamsInTheTurnAndRecoveryBringsItThrough) {
   EXPECT_GE(result.reversals, 1);
   EXPECT_LE(result.reversals, 3);
   EXPECT_GT(result.least_known_m, 0.02);
-  EXPECT_EQ(count_events(result, "jammed at ("), result.reversals);
+  EXPECT_EQ(count_events(result, "held up at ("), result.reversals);
 }
 
 TEST(Dwa, PrintedCostLeadsNowhere) {
@@ -224,10 +224,10 @@ TEST(Dwa, RefusesWithOneSentence) {
             "'four_wheel_steering_rover' has wheels");
   EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.steered->rear_axle_m = -0.75; }),
             "rover.guidance (dwa) needs 'rear_axle_m' > 0, but vehicle type "
-            "'four_wheel_steering_rover' tells -0.75");
+            "'four_wheel_steering_rover' has -0.75");
   EXPECT_EQ(refusal({}, [](VehicleDescription& v) { v.max_speed_mps.reset(); }),
             "rover.guidance (dwa) needs 'max_speed_mps', which vehicle type "
-            "'four_wheel_steering_rover' does not tell");
+            "'four_wheel_steering_rover' does not have");
 }
 
 TEST(Dwa, StandingWhereTheAuthorityEndsIsNoJam) {

@@ -231,7 +231,7 @@ TEST(FourWheelSteering, RefusesVehiclesItCannotSteer) {
   vehicle.steered->steer_rate_radps = 0.0;
   EXPECT_EQ(refusal_of(vehicle),
             "rover.controller (four_wheel_steering) needs 'steer_rate_radps' > 0, but vehicle type "
-            "'test_steered_rover' tells 0");
+            "'test_steered_rover' has 0");
   vehicle.steered.reset();
   EXPECT_EQ(refusal_of(vehicle),
             "rover.controller (four_wheel_steering) needs a vehicle with two steered axles; "
@@ -240,7 +240,7 @@ TEST(FourWheelSteering, RefusesVehiclesItCannotSteer) {
   vehicle.steered->rear_axle_m = -0.75;
   EXPECT_EQ(refusal_of(vehicle),
             "rover.controller (four_wheel_steering) needs 'rear_axle_m' > 0, but vehicle type "
-            "'test_steered_rover' tells -0.75");
+            "'test_steered_rover' has -0.75");
   vehicle = make_steered_description();
   vehicle.steered->max_axle_steer_rad = 1.4;
   for (int i = 0; i < 2; ++i) vehicle.actuators[i].min = -(vehicle.actuators[i].max = 1.4);

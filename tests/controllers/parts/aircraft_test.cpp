@@ -51,11 +51,11 @@ TEST(Aircraft, RefusesWhatHasNoWingsOrTellsTooLittle) {
   description.fixed_wing->cruise_speed_mps = 0.0;
   EXPECT_EQ(read(description),
             "plane.controller (trmpc) needs 'cruise_speed_mps' > 0, but vehicle type 'fixed_wing' "
-            "tells 0");
+            "has 0");
   description.fixed_wing->flight_model = nullptr;
   EXPECT_EQ(read(description),
             "plane.controller (trmpc) needs 'flight_model', which vehicle type 'fixed_wing' does "
-            "not tell");
+            "not have");
   description = describe(make_mh900_like());
   description.actuators[1].name = "flap_rad";
   EXPECT_NE(read(description).find("elevon_left_rad"), std::string::npos) << read(description);

@@ -345,10 +345,10 @@ TEST(RoutePlannerParameters, TurningRadiusIsTheVehiclesOrWider) {
   EXPECT_THAT([&] { read_route_planner_params(make_parameters(), context, "me"); },
               ::testing::ThrowsMessage<ConfigError>(HasSubstr("give turning_radius_m")));
   vehicle.min_turning_radius_m.reset();
-  EXPECT_THAT([&] { read_route_planner_params(make_parameters(), context, "me"); },
-              ::testing::ThrowsMessage<ConfigError>(
-                  "me needs 'min_turning_radius_m', which vehicle type "
-                  "'four_wheel_steering_rover' does not tell"));
+  EXPECT_THAT(
+      [&] { read_route_planner_params(make_parameters(), context, "me"); },
+      ::testing::ThrowsMessage<ConfigError>("me needs 'min_turning_radius_m', which vehicle type "
+                                            "'four_wheel_steering_rover' does not have"));
 }
 
 TEST(AnalyticTurn, EveryCandidateArrivesAndTheyAreSorted) {

@@ -138,12 +138,12 @@ TEST(VehicleKinds, NumbersThatAreMissingOrNotPositiveAreSaid) {
   VehicleDescription rover = make_rover();
   EXPECT_EQ(rover.need(rover.max_speed_mps, "max_speed_mps", "me"), 1.6);
   EXPECT_EQ(complaint([&] { rover.need(rover.battery_capacity_J, "battery_capacity_J", "me"); }),
-            "me needs 'battery_capacity_J', which vehicle type 'straddler' does not tell");
+            "me needs 'battery_capacity_J', which vehicle type 'straddler' does not have");
   EXPECT_EQ(rover.need_positive(0.85, "track_m", "me"), 0.85);
   EXPECT_EQ(complaint([&] { rover.need_positive(-0.85, "track_m", "me"); }),
-            "me needs 'track_m' > 0, but vehicle type 'straddler' tells -0.85");
+            "me needs 'track_m' > 0, but vehicle type 'straddler' has -0.85");
   EXPECT_EQ(complaint([&] { rover.need_positive(std::nan(""), "track_m", "me"); }),
-            "me needs 'track_m' > 0, but vehicle type 'straddler' tells nan");
+            "me needs 'track_m' > 0, but vehicle type 'straddler' has nan");
 }
 
 TEST(VehicleCheck, FindsNoFaultInWholeDescriptions) {

@@ -130,8 +130,8 @@ TEST(Encoders, SaysWhichVehicleTellsNothing) {
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
-                 "rover.sensors.s: vehicle type 'fixed' does not tell the states of its actuators, "
-                 "which encoders measure");
+                 "rover.sensors.s: encoders measure the states of a vehicle's actuators, which "
+                 "vehicle type 'fixed' does not have");
   }
   bench.vehicle.states = {0.0, 0.0};
   bench.vehicle.description_.actuators[1].unit = "N";

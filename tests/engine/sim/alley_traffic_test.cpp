@@ -449,8 +449,7 @@ TEST(AlleyTraffic, AVehicleThatStaysClosesItsAlleyForGood) {
     EXPECT_EQ(yard.is_done(), !stays);
     EXPECT_EQ(yard.traffic.deadlock().has_value(), stays);
     if (stays) {
-      EXPECT_EQ(*yard.traffic.deadlock(),
-                "drone waits for alley 100, in which rover stands and works no more");
+      EXPECT_EQ(*yard.traffic.deadlock(), "drone waits for alley 100, in which rover has stopped");
       EXPECT_EQ(yard.traffic.holder(1), -1);
     }
   }

@@ -245,8 +245,7 @@ TEST(TrafficControl, AWreckKeepsItsAlleyClosed) {
   EXPECT_DOUBLE_EQ(run.distance_m("second"), kStand_m);
   ASSERT_EQ(run.errors().size(), 2u);
   EXPECT_THAT(run.errors()[0], HasSubstr("crashed: turned over"));
-  EXPECT_EQ(run.errors()[1],
-            "traffic: second waits for alley 7, in which first stands and works no more");
+  EXPECT_EQ(run.errors()[1], "traffic: second waits for alley 7, in which first has stopped");
 }
 
 TEST(TrafficControl, AWreckBeyondTheAlleyClosesNothing) {

@@ -52,7 +52,7 @@ const ParameterTable<CloudMapJobParams>& cloud_map_job_table() {
                    "serpentine as the only way")
           .choice("first_wall", inside(&P::options, &Options::occupancy, &Grid::first_wall),
                   {{"auto", std::nullopt}, {"first", RowEnd::kFirst}, {"last", RowEnd::kLast}},
-                  "end of row 0 that is walled; the others alternate");
+                  "end of row 0 that is closed by a virtual wall; the others alternate");
   return table;
 }
 

@@ -51,15 +51,15 @@ const ParameterTable<CloudMapParams>& cloud_map_table() {
                    "1 sigma of a shift of the whole map, east, north, up, that estimators are "
                    "told; default: what the map says")
           .number("occupancy_cell_m", "m", &P::occupancy_cell_m, between(0.005, 10.0),
-                  "draws the occupancy grid anew of the map's rows and boundary with cells of "
-                  "this size; default: the map's own grid")
+                  "draws the occupancy grid again from the map's rows and boundary with cells "
+                  "of this size; default: the map's own grid")
           .boolean("virtual_walls", &P::virtual_walls,
-                   "draws the grid anew with or without walls from row ends to the boundary")
+                   "draws the grid again with or without walls from row ends to the boundary")
           .choice("first_wall", &P::first_wall,
                   {{"auto", FirstWall::kAuto},
                    {"first", FirstWall::kFirst},
                    {"last", FirstWall::kLast}},
-                  "draws the grid anew; point of row 0 that is walled");
+                  "draws the grid again; point of row 0 that is closed by a virtual wall");
   return table;
 }
 

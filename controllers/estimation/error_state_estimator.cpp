@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "controllers/estimation/error_state_sources.h"
+#include "controllers/estimation/estimator_news.h"
 #include "controllers/estimation/navigation_start.h"
 
 namespace vinerow {
@@ -24,6 +25,7 @@ class ErrorStateEstimator final : public Estimator {
       report_.names.push_back(name);
     }
     report_.values.assign(report_.names.size(), 0.0);
+    if (!options_.old_key.empty()) news_.tell(Event::Level::kWarning, options_.old_key);
   }
 
   void connect(Ports& ports) override {
@@ -32,9 +34,11 @@ class ErrorStateEstimator final : public Estimator {
     if (!options_.starts_level) truth_ = ports.read<Odometry>("truth");
     estimate_ = ports.write<Odometry>("estimate");
     state_ = ports.write<NamedValues>("estimator_state");
+    news_.connect(ports);
   }
 
   void step(Time now) override {
+    news_.write(now);
     if (!filter_.started() && !try_to_start(now)) return;
     predict(now);
     sources_.correct(!is_silent_);
@@ -158,6 +162,7 @@ class ErrorStateEstimator final : public Estimator {
   SignalReader<ImuSample> imu_;
   SignalWriter<Odometry> estimate_;
   SignalWriter<NamedValues> state_;
+  EstimatorNews news_;
 };
 
 }  // namespace
@@ -171,13 +176,13 @@ PartSpec error_state_kalman_spec() {
   spec.parameters = ErrorStateOptions::parameters();
   spec.default_rate_Hz = 100.0;
   spec.reads = {"<imu>",
-                "<gnss>",
+                "<gps>",
                 "<barometer> (optional)",
                 "<magnetometer> (optional)",
                 "<wheels> (optional)",
                 "<heading> (optional)",
                 "truth (start: drawn)"};
-  spec.writes = {"estimate", "estimator_state"};
+  spec.writes = {"estimate", "estimator_state", "estimator_event"};
   return spec;
 }
 

@@ -1,5 +1,7 @@
 #include "controllers/estimation/error_state_options.h"
 
+#include <fmt/format.h>
+
 #include "engine/api/parameter_table.h"
 
 namespace vinerow {
@@ -12,7 +14,8 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .text("imu", &P::imu, "signal of the inertial unit")
-          .text("gnss", &P::gnss, "signal of the satellite receiver")
+          .text("gps", &P::gps, "signal of the satellite receiver")
+          .text("gnss", &P::gnss, "old form of gps; warns")
           .text("barometer", &P::barometer, "signal of the barometer; empty = none")
           .text("magnetometer", &P::magnetometer, "signal of the magnetometer; empty = none")
           .text("wheels", &P::wheels,
@@ -95,6 +98,11 @@ const ParameterTable<ErrorStateOptions>& error_state_table() {
           .number("standing_std_mps", "m/s", &P::standing_std_mps, kPositive,
                   "1 sigma of a standing vehicle's speed")
           .rule([](const P& p) -> std::string {
+            return p.gnss && p.gps != P{}.gps
+                       ? "gps and gnss, its old form, are both given: leave out gnss"
+                       : "";
+          })
+          .rule([](const P& p) -> std::string {
             return p.standing == P::Standing::kWheels && p.wheels.empty()
                        ? "zero_velocity = wheels, but no signal is named in 'wheels'"
                        : "";
@@ -110,6 +118,10 @@ std::vector<ParameterSpec> ErrorStateOptions::parameters() {
 
 ErrorStateOptions ErrorStateOptions::read(const ParameterSet& parameters, const std::string& who) {
   ErrorStateOptions o = error_state_table().read(parameters, who + " (error_state_kalman)");
+  if (o.gnss) {
+    o.gps = *o.gnss;
+    o.old_key = fmt::format("the key gnss is old: write gps: {}", o.gps);
+  }
   if (o.start_height_std_m == 0.0) o.start_height_std_m = o.start_std_m;
   return o;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Parameters of the estimator `error_state_kalman`.
 
+#include <optional>
 #include <string>
 
 #include "controllers/estimation/error_state_kalman.h"
@@ -11,8 +12,11 @@ namespace vinerow {
 
 struct ErrorStateOptions {
   ErrorStateKalmanParams filter;
-  std::string imu = "imu", gnss = "gps";                 ///< signals
+  std::string imu = "imu", gps = "gps";                  ///< signals
   std::string barometer, magnetometer, wheels, heading;  ///< signals; empty: none
+
+  std::optional<std::string> gnss;  ///< gps by its old key; read() puts it in its place
+  std::string old_key;              ///< what to say about that; empty: nothing
 
   bool starts_level = false;  ///< by levelling instead of a draw about the truth
   double levelling_s = 1.0;
@@ -45,7 +49,8 @@ struct ErrorStateOptions {
   double standing_s = 0.5;
   double standing_std_mps = 0.01;
 
-  /// @throws ConfigError where zero_velocity: wheels is asked for without wheels
+  /// @throws ConfigError where zero_velocity: wheels is asked for without wheels, or
+  /// gps is given by both keys
   static ErrorStateOptions read(const ParameterSet& parameters, const std::string& who);
   static std::vector<ParameterSpec> parameters();
 };

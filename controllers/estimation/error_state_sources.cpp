@@ -31,7 +31,7 @@ ErrorStateSources::ErrorStateSources(const ErrorStateOptions& options,
       filter_(filter),
       gravity_mps2_(context.gravity_mps2),
       standing_(options.standing_s),
-      p_IA_B_(mounting_of(context, options.gnss).p - p_BI_B),
+      p_IA_B_(mounting_of(context, options.gps).p - p_BI_B),
       p_I_barometer_B_(mounting_of(context, options.barometer).p - p_BI_B),
       p_I_constraint_B_(options.constraint_point_B - p_BI_B),
       q_BM_(mounting_of(context, options.magnetometer).q),
@@ -43,7 +43,7 @@ ErrorStateSources::ErrorStateSources(const ErrorStateOptions& options,
 }
 
 void ErrorStateSources::connect(Ports& ports) {
-  gnss_ = ports.read<GnssFix>(options_.gnss);
+  gnss_ = ports.read<GnssFix>(options_.gps);
   if (!options_.barometer.empty()) pressure_ = ports.read<PressureSample>(options_.barometer);
   if (!options_.magnetometer.empty()) field_ = ports.read<MagneticSample>(options_.magnetometer);
   if (!options_.wheels.empty()) wheels_ = ports.read<NamedValues>(options_.wheels);

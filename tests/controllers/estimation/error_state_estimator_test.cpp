@@ -8,6 +8,7 @@
 
 #include "controllers/estimation/navigation_start.h"
 #include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
 #include "engine/api/messages/heading.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
@@ -40,6 +41,7 @@ class Bench {
     antennas = world.write<GnssHeading>("antennas");
     estimate = world.read<Odometry>("estimate");
     state = world.read<NamedValues>("estimator_state");
+    event = world.read<Event>("estimator_event");
     EstimatorContext context;
     context.vehicle = "rover";
     context.part = "rover.estimator";
@@ -165,6 +167,7 @@ class Bench {
   SignalWriter<GnssHeading> antennas;
   SignalReader<Odometry> estimate;
   SignalReader<NamedValues> state;
+  SignalReader<Event> event;
   std::unique_ptr<Estimator> estimator;
 
  private:
@@ -474,6 +477,27 @@ TEST(ErrorStateEstimator, LevelsWithTheHeadingOfTwoAntennas) {
   ASSERT_TRUE(bench.estimate.has_value());
   EXPECT_LT(std::abs(bench.yaw_error_rad()), 1e-3);
   EXPECT_GT(std::abs(yaw_from_quaternion(bench.estimate.value().X_WB.q)), 2.0);
+}
+
+TEST(ErrorStateEstimator, TakesTheOldKeyOfTheReceiverAndWarns) {
+  Bench silent(at_rest());
+  silent.run(1.0);
+  EXPECT_FALSE(silent.event.has_value());
+  Bench bench(at_rest(), {{"gnss", Text("gps")}});
+  bench.run(1.0);
+  EXPECT_GT(bench.value("used_gnss_position"), 0);
+  ASSERT_TRUE(bench.event.has_value());
+  EXPECT_EQ(bench.event.sequence(), 1u);
+  EXPECT_EQ(bench.event.value().level, Event::Level::kWarning);
+  EXPECT_EQ(bench.event.value().text, "the key gnss is old: write gps: gps");
+  try {
+    Bench both(at_rest(), {{"gnss", Text("gps")}, {"gps", Text("rtk")}});
+    FAIL() << "must be refused";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(Text(error.what()),
+              "rover.estimator (error_state_kalman): gps and gnss, its old form, are both given: "
+              "leave out gnss");
+  }
 }
 
 TEST(ErrorStateEstimator, RefusesStandingByWheelsItDoesNotRead) {

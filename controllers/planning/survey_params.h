@@ -13,7 +13,8 @@ namespace vinerow {
 std::vector<ParameterSpec> survey_parameters();
 
 /// The vehicle's `stall_speed_mps`, `min_turning_radius_m` and `max_bank_rad` count where it tells
-/// them. The polygon is the one given, or the parcel of the map.
+/// them. Without `rotorcraft` it is planned for as what it is. The polygon is the one given, or the
+/// parcel of the map.
 /// @throws ConfigError beginning with `who`: no polygon, two of them, gsd_m beside height_m, a bank
 /// that the vehicle does not fly, and all that find_survey_fault() finds
 SurveyRequest read_survey_request(const ParameterSet& parameters, const PlannerContext& context,

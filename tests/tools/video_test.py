@@ -7,6 +7,7 @@ plots of `vinerow report` as files.
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -151,14 +152,37 @@ class Video(unittest.TestCase):
             style = tree.find(SVG + "style").text
             self.assertNotIn("var(", style)
             self.assertNotIn(":is(", style)
+            # What the page hides and enlarges on a telephone is none of a file's.
+            self.assertNotIn("@media", style)
+            self.assertNotIn("visibility", style)
+            self.assertNotIn("18px", style)
             _, _, width, height = map(float, tree.get("viewBox").split())
             self.assertEqual((width, height), (float(tree.get("width")), float(tree.get("height"))))
-        speed = xml.etree.ElementTree.parse(self.folder / "plots" / "rover_speed.svg").getroot()
-        curves = [e for e in speed.iter(SVG + "polyline")]
-        self.assertTrue(curves)
-        for curve in curves:
-            own = "." + ".".join(curve.get("class").split())
-            self.assertIn(f"svg {own} ", speed.find(SVG + "style").text, "the curve has a colour")
+
+    def test_every_class_of_a_plot_has_a_rule(self):
+        run = self.vinerow("report", "run", "--out", "page.html", "--plots", "plots")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # Curves that this run has none of too: the speed over ground is a plane's alone.
+        page = (self.folder / "page.html").read_text()
+        coloured = re.findall(r"(?:^|\} )\.(\w+) \{ --c: var\(", page, re.M)
+        self.assertIn("ground", coloured)
+        curves = 0
+        for file in (self.folder / "plots").iterdir():
+            tree = xml.etree.ElementTree.parse(file).getroot()
+            style = tree.find(SVG + "style").text
+            selectors = re.sub(r"\{[^}]*\}", "", style)
+            for name in coloured:
+                self.assertIn(f"svg .line.{name} {{ fill: none; stroke: #", style, file.name)
+            for element in tree.iter():
+                classes = (element.get("class") or "").split()
+                if element is not tree:
+                    for name in classes:
+                        self.assertRegex(selectors, rf"\.{name}\b", file.name)
+                # Without a rule of its own a curve is filled black.
+                if "line" in classes and element.tag == SVG + "polyline":
+                    curves += 1
+                    self.assertIn(f"svg .{'.'.join(classes)} {{ fill: none; stroke: #", style, file.name)
+        self.assertGreater(curves, 10)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "tools/vinerow/report/page_style.h"
 #include "tools/vinerow/report/svg.h"
@@ -46,15 +47,39 @@ void add_colours(std::string_view declarations, std::map<std::string, std::strin
   }
 }
 
-/// Colours of ":root" on a light page; those inside other rules are of other media.
-std::map<std::string, std::string> light_colours(std::string_view style) {
-  std::map<std::string, std::string> colours;
+struct Rule {
+  std::string selector;  ///< ends with the space before the brace
+  std::string body;      ///< with its braces
+};
+
+/// The rules that hold on every medium: what stands inside "@media ... { }" is of a telephone, a
+/// dark page or paper.
+std::vector<Rule> rules_of_all_media(std::string_view style) {
+  std::vector<Rule> rules;
   int depth = 0;
+  std::size_t begin = 0, open = 0;
   for (std::size_t i = 0; i < style.size(); ++i) {
-    if (style[i] == '{' && depth++ == 0 && style.substr(0, i).ends_with(":root ")) {
-      add_colours(style.substr(i + 1, style.find('}', i) - i - 1), colours);
+    if (style[i] == '{' && depth++ == 0) open = i;
+    if (style[i] != '}' || --depth != 0) continue;
+    begin = std::min(style.find_first_not_of(" \n", begin), open);
+    if (style[begin] != '@') {
+      rules.push_back({std::string(style.substr(begin, open - begin)),
+                       std::string(style.substr(open, i + 1 - open))});
     }
-    if (style[i] == '}') --depth;
+    begin = i + 1;
+  }
+  return rules;
+}
+
+/// Classes that give curves a colour of their own: of ".ref { --c: var(--ink); }" "ref", "--ink".
+std::vector<std::pair<std::string, std::string>> curve_colours(const std::vector<Rule>& rules) {
+  std::vector<std::pair<std::string, std::string>> colours;
+  for (const Rule& rule : rules) {
+    const std::string_view name(rule.selector);
+    const std::string_view colour = between(rule.body, "--c: var(", ")");
+    // ".key.limit " is no class of a curve.
+    if (!name.starts_with('.') || name.find('.', 1) != kNowhere || colour.empty()) continue;
+    colours.emplace_back(name.substr(1, name.find(' ') - 1), colour);
   }
   return colours;
 }
@@ -74,24 +99,16 @@ std::string plain_selector(std::string selector) {
 
 /// The page's rules for pictures, with plain colours in place of variables.
 std::string plain_style() {
-  const std::string page = report::page_style();
-  const std::string_view style = page;
-  const std::map<std::string, std::string> colours = light_colours(style);
+  const std::vector<Rule> rules = rules_of_all_media(report::page_style());
+  std::map<std::string, std::string> colours;
+  for (const Rule& rule : rules) {
+    if (rule.selector == ":root ") add_colours(between(rule.body, "{", "}"), colours);
+  }
+  const auto own_colours = curve_colours(rules);
   std::string plain;
-  // Rules of other media stand at the style's begin; those of pictures are for all.
-  std::string_view rest = style.substr(std::min(style.find("\n* {"), style.size()));
-  while (true) {
-    const std::size_t open = rest.find('{'), close = rest.find('}');
-    if (open == kNowhere || close == kNowhere) break;
-    if (close < open) {  // of a rule that holds rules
-      rest.remove_prefix(close + 1);
-      continue;
-    }
-    std::string selector(rest.substr(0, open)), body(rest.substr(open, close + 1 - open));
-    rest.remove_prefix(close + 1);
-    selector = selector.substr(std::min(selector.find_first_not_of(" \n"), selector.size()));
-    if (!selector.starts_with("svg")) continue;
-    selector = plain_selector(selector);
+  for (const Rule& rule : rules) {
+    if (!rule.selector.starts_with("svg")) continue;
+    std::string selector = plain_selector(rule.selector), body = rule.body;
     for (const auto& [name, value] : colours) {
       body = replaced(body, fmt::format("var({})", name), value);
     }
@@ -107,17 +124,10 @@ std::string plain_style() {
     }
     // A curve's own colour comes with its class.
     selector.erase(selector.find_last_not_of(' ') + 1);
-    const auto add_own = [&](const std::string& css_class, const char* colour) {
-      const auto found = colours.find(colour);
-      if (found == colours.end()) return;
-      plain +=
-          fmt::format("{}.{} {}\n", selector, css_class, replaced(body, "var(--c)", found->second));
-    };
-    for (int i = 0; i < 8; ++i) {
-      add_own(fmt::format("s{}", i), fmt::format("--s{}", i).c_str());
-      add_own(fmt::format("v{}", i), fmt::format("--v{}", i).c_str());
+    for (const auto& [css_class, colour] : own_colours) {
+      plain += fmt::format("{}.{} {}\n", selector, css_class,
+                           replaced(body, "var(--c)", colours.at(colour)));
     }
-    add_own("ref", "--ink");
   }
   return plain;
 }

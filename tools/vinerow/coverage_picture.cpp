@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "tools/vinerow/canvas.h"
 #include "tools/vinerow/colour_scale.h"
 #include "tools/vinerow/picture_style.h"
+#include "tools/vinerow/report/run_facts.h"
 
 namespace vinerow::tools {
 namespace {
@@ -22,7 +24,7 @@ using Eigen::Vector2d;
 
 constexpr Rgb kPlainGround = {232, 229, 220}, kNone = {190, 92, 76}, kTrack = {255, 255, 255};
 constexpr Rgb kShot = {20, 24, 26}, kParcelEdge = {20, 24, 26};
-constexpr int kPanelMargin = 32, kPanelGap = 36, kTitle = 34, kScales = 86, kNumbers = 174;
+constexpr int kPanelMargin = 32, kPanelGap = 36, kTitle = 34, kScales = 86, kNumbers = 198;
 constexpr int kTallestPanel = 900;
 
 /// What both maps show of the world: the parcel. Where the plane turns is of no interest.
@@ -263,11 +265,23 @@ std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "not measured";
 }
 
+/// The overlap that every pair keeps on half of the parcel or more of it.
+double held_on_half(const CoverageMap& map) {
+  std::vector<float> held;
+  std::copy_if(map.forward_overlap.begin(), map.forward_overlap.end(), std::back_inserter(held),
+               [](float overlap) { return overlap >= 0.0f; });
+  if (held.empty()) return 0.0;
+  const auto middle = held.begin() + static_cast<std::ptrdiff_t>((held.size() - 1) / 2);
+  std::nth_element(held.begin(), middle, held.end());
+  return *middle;
+}
+
 void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& coverage) {
   const auto number = [&](const char* name) { return coverage.map.numbers.at(name); };
   const double left = kPanelMargin, top = layout.numbers_top + 18;
-  canvas.text(fmt::format("{}: {}, {}", coverage.scenario, coverage.vehicle, coverage.camera), 22,
-              {left, top + 6}, kInk);
+  canvas.text(fmt::format("{}: {} of {}", report::title_of(coverage.scenario), coverage.camera,
+                          coverage.vehicle),
+              22, {left, top + 6}, kInk);
   const double area_ha = 1e-4 * std::abs(signed_area_m2(coverage.options.parcel_W));
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
@@ -283,6 +297,12 @@ void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& co
       percent(number("forward_overlap_mean")), percent(number("forward_overlap_min")),
       100 * coverage.options.wanted_overlap, percent(number("overlap_covered_share")),
       percent(number("overlap_held_share"))));
+  // A parcel that keeps a little less than wanted is not one that keeps nothing.
+  const double half = held_on_half(coverage.map);
+  if (half > 0.0 && half < coverage.options.wanted_overlap) {
+    lines.push_back(
+        fmt::format("every pair keeps at least {} on half of the parcel", percent(half)));
+  }
   lines.push_back(fmt::format("side overlap: mean {}, least {}",
                               percent(number("side_overlap_mean")),
                               percent(number("side_overlap_min"))));

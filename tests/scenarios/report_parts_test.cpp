@@ -22,6 +22,7 @@
 #include "tools/vinerow/report/axis.h"
 #include "tools/vinerow/report/base64.h"
 #include "tools/vinerow/report/canopy_strips.h"
+#include "tools/vinerow/report/estimate_plots.h"
 #include "tools/vinerow/report/events.h"
 #include "tools/vinerow/report/html.h"
 #include "tools/vinerow/report/jpeg.h"
@@ -481,6 +482,29 @@ TEST(ReportPlot, CutsABandThatWouldFlattenTheLine) {
   charge.lines = {{"charge", {{0, 1}, {100.0, 90.0}}, "s0"}};
   charge.most = 100.0;
   EXPECT_EQ(y_range(charge).high, 100.0);
+}
+
+TEST(ReportPlot, PutsABandThatWouldFillThePlotIntoWords) {
+  VehicleLog vehicle;
+  for (int i = 0; i <= 10; ++i) {
+    const Time t = Time{} + duration_from_s(i);
+    Odometry truth, fine, coarse;
+    fine.X_WB.p = {0.0, 0.02 * (i % 2), 0.0};
+    coarse.X_WB.p = {0.0, 0.1 * (i - 5), 0.0};  // at most 0.5 m
+    fine.position_variance_m2 = Eigen::Vector3d::Constant(0.02 * 0.02);
+    coarse.position_variance_m2 = Eigen::Vector3d::Constant(1.0);
+    for (auto* trace : {&vehicle.truth, &vehicle.estimates["fine"], &vehicle.estimates["coarse"]}) {
+      trace->times.push_back(t);
+      trace->values.push_back(trace == &vehicle.truth               ? truth
+                              : trace == &vehicle.estimates["fine"] ? fine
+                                                                    : coarse);
+    }
+  }
+  const LinePlot across = estimate_plots(vehicle, nullptr).front();
+  ASSERT_EQ(across.bands.size(), 1u);
+  EXPECT_EQ(across.bands.front().label, "fine, ±2σ stated");
+  EXPECT_THAT(across.caption, HasSubstr("would fill the plot: coarse, ±2σ stated (±2 m)"));
+  EXPECT_LT(y_range(across).high, 0.6);
 }
 
 TEST(ReportColours, AreThoseOfTheFrames) {

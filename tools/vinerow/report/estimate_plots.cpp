@@ -8,6 +8,7 @@
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/math/deviation.h"
+#include "tools/vinerow/report/html.h"
 
 namespace vinerow::tools::report {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 constexpr double kRowReach_m = 5.0;
 /// More bands hide each other.
 constexpr std::size_t kMostBands = 2;
+/// A band of more than so many times the largest error would be the plot's ground.
+constexpr double kWidestBand = 1.2;
 
 std::vector<PolylineDistance> rows_of(const WorldModel* world) {
   std::vector<PolylineDistance> rows;
@@ -77,6 +80,32 @@ PlotBand band_of(const std::string& name, const std::vector<double>& t_s,
   return band;
 }
 
+double largest_error_m(const LinePlot& plot) {
+  double largest_m = plot.least_span;
+  for (const PlotLine& line : plot.lines) {
+    for (const double error_m : line.samples.y) largest_m = std::max(largest_m, std::abs(error_m));
+  }
+  return largest_m;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Bands that would fill the plot go into its caption in words.
+void put_far_bands_in_words(LinePlot& plot) {
+  const double widest_m = kWidestBand * largest_error_m(plot);
+  std::erase_if(plot.bands, [&](const PlotBand& band) {
+    const double half_width_m = median(band.high);
+    if (half_width_m <= widest_m) return false;
+    plot.caption += fmt::format(" Not drawn, as it would fill the plot: {} (±{:.2g} m).",
+                                escaped(band.label), half_width_m);
+    return true;
+  });
+}
+
 }  // namespace
 
 std::vector<LinePlot> estimate_plots(const VehicleLog& vehicle, const WorldModel* world) {
@@ -88,8 +117,7 @@ std::vector<LinePlot> estimate_plots(const VehicleLog& vehicle, const WorldModel
   lateral.y_label = longitudinal.y_label = "estimate minus truth, m";
   lateral.caption = longitudinal.caption =
       "Error of the estimated position, and the band of two standard deviations that the estimator "
-      "states of itself: about 95 % of the line should lie inside; a "
-      "band wider than the plot is cut at its edge. As paper C, figure 8.";
+      "states of itself: about 95 % of the line should lie inside. As paper C, figure 8.";
   lateral.least_span = longitudinal.least_span = 0.01;
   std::size_t colour = 0;
   for (const auto& [name, estimate] : vehicle.estimates) {
@@ -104,6 +132,8 @@ std::vector<LinePlot> estimate_plots(const VehicleLog& vehicle, const WorldModel
     longitudinal.lines.push_back({name, std::move(errors.longitudinal), style});
     ++colour;
   }
+  put_far_bands_in_words(lateral);
+  put_far_bands_in_words(longitudinal);
   return {lateral, longitudinal};
 }
 

@@ -233,6 +233,7 @@ TEST_F(ReplaySection, TellsWhatItLeavesOut) {
   EXPECT_TRUE(tells("meshes are simplified: what is smaller than")) << notes;
   EXPECT_TRUE(tells("times a second and straight between")) << notes;
   EXPECT_TRUE(tells("plans are not shown")) << notes;
+  EXPECT_TRUE(tells("around the parcel are in the pictures only")) << notes;
   const std::size_t small_scene = ReplayPage(small).scene.size(),
                     whole_scene = ReplayPage(whole).scene.size();
   EXPECT_LT(2 * small_scene, whole_scene);

@@ -80,6 +80,9 @@ class SceneMaker {
     add_ground();
     add_world();
     add_vehicles();
+    if (!input_.world->scenery.empty()) {
+      notes_.push_back("fields, tracks and trees around the parcel are in the pictures only");
+    }
     return {scene_.bytes(), std::move(notes_)};
   }
 

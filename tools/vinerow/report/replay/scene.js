@@ -11,6 +11,8 @@
   const kSpinTurns = 7.3;
   // Trails of the others while the eye goes with one vehicle.
   const kFaint = 0.3;
+  // Around the vehicle that the eye goes with they are left out, so many of its sizes far and a bit more, m.
+  const kClear = 3, kClear_m = 2;
   // Farther from where it began a vehicle has set out.
   const kSetOut = 0.3;
 
@@ -31,6 +33,19 @@
     if (material.uniforms.opacity) material.uniforms.opacity.value = opacity;
     else material.uniforms.opacity = { value: opacity };
     material.needsUpdate = true;
+  }
+
+  /** A line's parts near a place are not drawn, and fade in up to twice as far. @param clearing {place, reach} uniforms */
+  function clearAround(material, clearing) {
+    material.uniforms.clearPlace = clearing.place;
+    material.uniforms.clearReach = clearing.reach;
+    const own = (code, from, to) => code.replace(from, from + to);
+    const fromPlace = "\nfromClear = mvPosition.xyz - (viewMatrix * vec4(clearPlace, 1.0)).xyz;\n";
+    material.vertexShader = "uniform vec3 clearPlace;\nvarying vec3 fromClear;\n" +
+      own(material.vertexShader, "vec4 mvPosition = ( position.y < 0.5 ) ? start : end;", fromPlace);
+    const fade = "\ndiffuseColor.a *= clamp(length(fromClear) / max(clearReach, 1e-6) - 1.0, 0.0, 1.0);\nif (diffuseColor.a < 0.01) discard;\n";
+    material.fragmentShader = "uniform float clearReach;\nvarying vec3 fromClear;\n" +
+      own(material.fragmentShader, "vec4 diffuseColor = vec4( diffuse, opacity );", fade);
   }
 
   /** Moves what hangs in the file's tree to where it stands in W. */
@@ -74,6 +89,11 @@
 
     /** Lines of the others do not run through the one that is looked at. */
     setFocus(vehicle, t) {
+      for (const each of this.vehicles) {
+        const clear = vehicle !== null && each !== vehicle;
+        each.clearing.reach.value = clear ? kClear * vehicle.track.entry.size_m + kClear_m : 0;
+        if (clear) each.clearing.place.value.copy(vehicle.position);
+      }
       if (vehicle === this.focus) return;
       this.focus = vehicle;
       for (const each of this.vehicles) {
@@ -148,6 +168,8 @@
         vehicle.links.push({ l, object, link, disc: link.axis ? addDisc(object, link.axis) : null });
       });
       vehicle.trail = this.addTrail(vehicle, v);
+      vehicle.clearing = { place: { value: new THREE.Vector3() }, reach: { value: 0 } };
+      clearAround(vehicle.trail.material, vehicle.clearing);
       vehicle.plans = track.plans.map((plan) => this.addPlan(vehicle, plan));
       return vehicle;
     }

@@ -21,6 +21,8 @@ struct FrameBlock {
   float mask_rect[4];
   float shadow_info[4];
   float land_rect[4];
+  float soil_look[4];
+  float grass_look[4];
 };
 
 /// Column-major floats.

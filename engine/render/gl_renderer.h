@@ -10,6 +10,7 @@
 #include "engine/render/drawables.h"
 #include "engine/render/frame_target.h"
 #include "engine/render/grid_overlay.h"
+#include "engine/render/ground_look.h"
 #include "engine/render/ground_mask.h"
 #include "engine/render/land_use.h"
 #include "engine/render/light.h"
@@ -77,6 +78,8 @@ class GlRenderer final : public Renderer {
   Gl gl_;
   Light light_;
   GroundMask mask_;
+  GroundLook look_;
+  std::vector<SceneryTrack> tracks_;
   std::optional<HeightField> terrain_;
   DrawableStore store_;
   FrameTarget target_;

@@ -176,6 +176,8 @@ void GlRenderer::upload_frame_block(const Frame& frame, const Eigen::Matrix4d& c
   block.mask_rect[2] = static_cast<float>(1.0 / mask_.size_m.x());
   block.mask_rect[3] = static_cast<float>(1.0 / mask_.size_m.y());
   std::copy_n(land_rect_.data(), 4, block.land_rect);
+  store(block.soil_look, look_.soil_tint.cast<double>(), look_.bare);
+  store(block.grass_look, {look_.grass_brightness, look_.grass_dryness, 0.0});
   gl_.BindBuffer(GL_UNIFORM_BUFFER, frame_buffer_);
   gl_.BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer_);
@@ -230,8 +232,8 @@ void GlRenderer::draw_tufts(const Frame& frame, const Frustum& frustum) {
   if (!terrain_ || !settings_.grass_tufts) return;
   const double seen_scale =
       2.0 * std::tan(0.5 * frame.camera.fov_rad) / frame.height / (2.0 * std::tan(0.48) / 720.0);
-  make_grass_tufts(*terrain_, mask_, frame.camera, frustum, seen_scale, tuft_vertices_,
-                   tuft_indices_);
+  make_grass_tufts({*terrain_, mask_, tracks_, look_.bare}, frame.camera, frustum, seen_scale,
+                   tuft_vertices_, tuft_indices_);
   if (tuft_indices_.empty()) return;
   fill_vertices(gl_, tufts_, tuft_vertices_, GL_STREAM_DRAW);
   fill_indices(gl_, tufts_, tuft_indices_, GL_STREAM_DRAW);

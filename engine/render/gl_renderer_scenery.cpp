@@ -59,7 +59,7 @@ void GlRenderer::add_trees(const Scenery& scenery) {
   leaves.texture = "builtin:tree_leaf";
   leaves.colour = {1, 1, 1};
   Material bark;
-  bark.colour = {0.085f, 0.065f, 0.05f};
+  bark.colour = {0.10f, 0.078f, 0.06f};
   for (std::size_t i = 0; i < scenery.trees.size(); ++i) {
     const SceneryTree& tree = scenery.trees[i];
     if (tree.kind < 0 || tree.kind >= kSceneryTreeKinds) continue;
@@ -75,7 +75,8 @@ void GlRenderer::add_trees(const Scenery& scenery) {
       groups_.push_back(std::move(group));
     };
     add(kinds[tree.kind].crown, SurfaceClass::kCanopy, leaves);
-    add(kinds[tree.kind].trunk, SurfaceClass::kTrunk, bark);
+    // Thicker than a vine's, which is left out where it is farther away (is_drawn_at).
+    add(kinds[tree.kind].trunk, SurfaceClass::kObstacle, bark);
   }
 }
 

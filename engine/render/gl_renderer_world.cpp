@@ -17,6 +17,8 @@ GlRenderer::GlRenderer(std::unique_ptr<OffscreenContext> context, const WorldMod
       gl_(load_gl([this](const char* name) { return context_->find_function(name); })),
       light_(make_light(world.daylight)),
       mask_(make_ground_mask(world.rows)),
+      look_(look_of(world.soil)),
+      tracks_(world.scenery.tracks),
       terrain_(world.terrain),
       store_(gl_),
       target_(gl_),

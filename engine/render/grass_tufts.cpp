@@ -51,11 +51,30 @@ void add_tuft(const Tuft& tuft, std::vector<GpuVertex>& vertices,
   }
 }
 
+double distance_m(const SceneryTrack& track, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d along = track.to_W - track.from_W;
+  const double t =
+      std::clamp((p - track.from_W).dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
+  return (p - track.from_W - t * along).norm();
+}
+
+/// Those of which a place within a range is part.
+std::vector<SceneryTrack> tracks_near(std::span<const SceneryTrack> tracks,
+                                      const Eigen::Vector2d& p, double range_m) {
+  std::vector<SceneryTrack> near;
+  for (const SceneryTrack& track : tracks) {
+    if (distance_m(track, p) < range_m) near.push_back(track);
+  }
+  return near;
+}
+
 }  // namespace
 
-void make_grass_tufts(const HeightField& field, const GroundMask& mask, const Camera& camera,
-                      const Frustum& frustum, double seen_scale, std::vector<GpuVertex>& vertices,
+void make_grass_tufts(const GrassGround& ground, const Camera& camera, const Frustum& frustum,
+                      double seen_scale, std::vector<GpuVertex>& vertices,
                       std::vector<std::uint32_t>& indices) {
+  const HeightField& field = ground.field;
+  const GroundMask& mask = ground.mask;
   vertices.clear();
   indices.clear();
   constexpr double kCell_m = 0.21;
@@ -64,6 +83,9 @@ void make_grass_tufts(const HeightField& field, const GroundMask& mask, const Ca
   const double above = eye.z() - field.height_m(eye.x(), eye.y());
   if (camera.orthographic || above > range) return;
 
+  constexpr double kHalfTrack_m = 1.6;
+  const std::vector<SceneryTrack> tracks =
+      tracks_near(ground.tracks, eye.head<2>(), range + kHalfTrack_m);
   const int i0 = static_cast<int>(std::floor((eye.x() - range) / kCell_m));
   const int i1 = static_cast<int>(std::floor((eye.x() + range) / kCell_m));
   const int j0 = static_cast<int>(std::floor((eye.y() - range) / kCell_m));
@@ -84,6 +106,12 @@ void make_grass_tufts(const HeightField& field, const GroundMask& mask, const Ca
       const Eigen::Vector3d root(x, y, z);
       if (!frustum.may_see(
               {root - Eigen::Vector3d(0.2, 0.2, 0.0), root + Eigen::Vector3d(0.2, 0.2, 0.3)})) {
+        continue;
+      }
+      if (hash01(cx, cy, 11) < ground.bare) continue;
+      if (std::any_of(tracks.begin(), tracks.end(), [&](const SceneryTrack& track) {
+            return distance_m(track, {x, y}) < kHalfTrack_m;
+          })) {
         continue;
       }
       const double row = mask.row_distance_m(x, y);

@@ -5,6 +5,7 @@
 
 #include "engine/api/height_field.h"
 #include "engine/math/polygon.h"
+#include "engine/render/scenery_meshes.h"
 
 namespace vinerow::render {
 
@@ -67,32 +68,55 @@ void stamp(LandUse& land, const SceneryTrack& track) {
   }
 }
 
-/// The shadow of a crown, an ellipsoid, on level ground.
-void shade(LandUse& land, const SceneryTree& tree, const Eigen::Vector3d& sun_W) {
-  if (tree.kind < 0 || tree.kind >= kSceneryTreeKinds) return;
-  const SceneryTreeSize& size = kSceneryTrees[tree.kind];
-  const Eigen::Vector2d away = -sun_W.head<2>() / std::max(sun_W.z(), 0.1);
-  const double r = 0.5 * size.crown_width_m, h = 0.45 * size.height_m;
-  const Eigen::Vector2d middle = tree.p_W + 0.55 * size.height_m * away;
-  const double reach = std::hypot(r, h * away.norm());
-  const Eigen::Vector2d along =
-      away.norm() > 1e-6 ? Eigen::Vector2d(away.normalized()) : Eigen::Vector2d::UnitX();
+/// Shade within a box: what `depth(p)` gives, 0 to 1, where it is more than there is.
+template <class Depth>
+void raise_shade(LandUse& land, const Eigen::AlignedBox2d& box, Depth&& depth) {
   const Eigen::Vector2d cell(land.size_m.x() / land.pixels.width,
                              land.size_m.y() / land.pixels.height);
-  const Eigen::Array2d low = (middle.array() - reach - land.corner_W.array()) / cell.array();
-  const Eigen::Array2d high = (middle.array() + reach - land.corner_W.array()) / cell.array();
+  const Eigen::Array2d low = (box.min() - land.corner_W).array() / cell.array();
+  const Eigen::Array2d high = (box.max() - land.corner_W).array() / cell.array();
   for (int y = std::max(0, static_cast<int>(low.y()));
        y <= std::min(land.pixels.height - 1.0, high.y()); ++y) {
     for (int x = std::max(0, static_cast<int>(low.x()));
          x <= std::min(land.pixels.width - 1.0, high.x()); ++x) {
       const Eigen::Vector2d p =
-          land.corner_W + Eigen::Vector2d((x + 0.5) * cell.x(), (y + 0.5) * cell.y()) - middle;
-      const double u = along.dot(p) / reach, v = (along.x() * p.y() - along.y() * p.x()) / r;
-      const double inside = std::clamp(2.5 * (1.0 - std::hypot(u, v)), 0.0, 1.0);
+          land.corner_W + Eigen::Vector2d((x + 0.5) * cell.x(), (y + 0.5) * cell.y());
       std::uint8_t& stored = land.pixels.at(x, y)[3];
-      stored = std::max(stored, static_cast<std::uint8_t>(std::lround(255.0 * inside)));
+      const double shade = std::clamp(static_cast<double>(depth(p)), 0.0, 1.0);
+      stored = std::max(stored, static_cast<std::uint8_t>(std::lround(255.0 * shade)));
     }
   }
+}
+
+/// The shadow of a tree on level ground: its crown, an ellipsoid, and its trunk.
+void shade(LandUse& land, const SceneryTree& tree, const Eigen::Vector3d& sun_W) {
+  if (tree.kind < 0 || tree.kind >= kSceneryTreeKinds) return;
+  const SceneryTreeSize& size = kSceneryTrees[tree.kind];
+  const Eigen::Vector2d away = -sun_W.head<2>() / std::max(sun_W.z(), 0.1);
+  const double base = scenery_crown_base_m(size);
+  const double r = 0.5 * size.crown_width_m, h = 0.5 * (size.height_m - base);
+  const Eigen::Vector2d way = (base + h) * away, middle = tree.p_W + way;
+  const double reach = std::hypot(r, h * away.norm());
+  const Eigen::Vector2d along =
+      away.norm() > 1e-6 ? Eigen::Vector2d(away.normalized()) : Eigen::Vector2d::UnitX();
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(reach);
+  raise_shade(land, {Eigen::Vector2d(middle - around), Eigen::Vector2d(middle + around)},
+              [&](const Eigen::Vector2d& p) {
+                const Eigen::Vector2d d = p - middle;
+                const double u = along.dot(d) / reach;
+                const double v = (along.x() * d.y() - along.y() * d.x()) / r;
+                return 2.5 * (1.0 - std::hypot(u, v));
+              });
+  constexpr double kHalfTrunk_m = 0.8;  // with its soft edge: cells are no finer
+  const Eigen::Vector2d border = Eigen::Vector2d::Constant(kHalfTrunk_m);
+  raise_shade(land,
+              {Eigen::Vector2d(tree.p_W.cwiseMin(middle) - border),
+               Eigen::Vector2d(tree.p_W.cwiseMax(middle) + border)},
+              [&](const Eigen::Vector2d& p) {
+                const double t = std::clamp(
+                    (p - tree.p_W).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
+                return 2.0 * (kHalfTrunk_m - (p - tree.p_W - t * way).norm());
+              });
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ constexpr SectionPoint kSection[] = {{0.75, 0.0, 0.95, -0.3, -1.0f},
                                      {-1.1, 0.6, -0.85, 0.5, 0.5f},
                                      {-0.75, 0.0, -0.95, -0.3, 1.0f}};
 constexpr int kSectionPoints = 5;
+constexpr int kStepPoints = kSectionPoints + 2;  // with the curtain's
 constexpr double kSectionStep_m = 12.0;  // the ground bends by centimetres in between
 
 struct HedgeRow {
@@ -74,10 +75,25 @@ void add_row(const SceneryField& field, const HedgeRow& row, const HeightField& 
       mesh.vertices.push_back(vertex);
       mesh.bounds_M.extend(at);
     }
+    for (const bool top : {false, true}) {
+      GpuVertex vertex{};
+      const Eigen::Vector3d at(p.x(), p.y(),
+                               ground_m + (top ? field.row_base_m + 0.2 * high_m : -0.1));
+      for (int c = 0; c < 3; ++c) {
+        vertex.position[c] = static_cast<float>(at[c]);
+        vertex.normal[c] = static_cast<std::int8_t>(std::lround(127.0 * left[c]));
+      }
+      vertex.uv[0] = static_cast<float>(s);
+      vertex.uv[1] = top ? 3.0f : 2.0f;
+      vertex.colour[3] = static_cast<std::uint8_t>(hash_cell(row.number, 5u, 43u) & 0xffu);
+      mesh.vertices.push_back(vertex);
+      mesh.bounds_M.extend(at);
+    }
     if (k == 0) continue;
     const auto end = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (std::uint32_t i = 0; i + 1 < kSectionPoints; ++i) {
-      const std::uint32_t b = end - kSectionPoints + i, a = b - kSectionPoints;
+    for (std::uint32_t i = 0; i + 1 < kStepPoints; ++i) {
+      if (i + 1 == kSectionPoints) continue;  // leaves and curtain hang apart
+      const std::uint32_t b = end - kStepPoints + i, a = b - kStepPoints;
       mesh.indices.insert(mesh.indices.end(), {a, b, a + 1, a + 1, b, b + 1});
     }
   }
@@ -123,10 +139,14 @@ PreparedMesh make_hedges(const SceneryField& field, const HeightField& terrain) 
   return mesh;
 }
 
+double scenery_crown_base_m(const SceneryTreeSize& size) {
+  return std::min(0.28 * size.height_m, 2.2);
+}
+
 std::shared_ptr<TriangleMesh> make_scenery_crown(const SceneryTreeSize& size, int kind) {
   auto mesh = std::make_shared<TriangleMesh>();
   Scatter scatter(500u + static_cast<std::uint32_t>(kind));
-  const double base_m = std::min(0.2 * size.height_m, 1.2);
+  const double base_m = scenery_crown_base_m(size);
   const Eigen::Vector3d centre(0, 0, 0.5 * (size.height_m + base_m));
   const Eigen::Vector3d half(0.5 * size.crown_width_m, 0.5 * size.crown_width_m,
                              0.5 * (size.height_m - base_m));
@@ -158,7 +178,7 @@ std::shared_ptr<TriangleMesh> make_scenery_crown(const SceneryTreeSize& size, in
 std::shared_ptr<TriangleMesh> make_scenery_trunk(const SceneryTreeSize& size) {
   auto mesh = std::make_shared<TriangleMesh>();
   constexpr std::uint32_t kSides = 6;
-  const double radius_m = 0.022 * size.height_m;
+  const double radius_m = 0.03 * size.height_m;
   for (std::uint32_t i = 0; i < 2 * kSides; ++i) {
     const double azimuth = 6.28318531 * (i % kSides) / kSides;
     const bool is_top = i >= kSides;

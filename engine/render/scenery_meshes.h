@@ -10,8 +10,13 @@ namespace vinerow::render {
 
 /// All rows of a field as strips: a ridge with two sides over a row's length, in W. uv: metres
 /// along the row; -1 and 1 at the feet, 0 at the top. Colour: the leaves' own, a: a number of the
-/// row. Rows lie at whole multiples of the pitch from the field's first corner, as in LandUse.
+/// row. Below each row a curtain from the ground to the lowest leaves, on which stems are drawn:
+/// v is 2 at its foot, 3 at its top. Rows lie at whole multiples of the pitch from the field's
+/// first corner, as in LandUse.
 PreparedMesh make_hedges(const SceneryField& field, const HeightField& terrain);
+
+/// Height of a tree's lowest leaves.
+double scenery_crown_base_m(const SceneryTreeSize& size);
 
 /// A crown of leaf cards, and its trunk; the origin is at the foot.
 std::shared_ptr<TriangleMesh> make_scenery_crown(const SceneryTreeSize& size, int kind);

@@ -25,6 +25,8 @@ layout(std140) uniform FrameBlock {
   vec4 mask_rect;          // xy: corner in m; zw: 1 / size
   vec4 shadow_info;        // texel of the near and far map in m; z: 1 when there are shadows; w: taps
   vec4 land_rect;          // of the scenery's fields, as mask_rect
+  vec4 soil_look;          // tint of bare soil; share of the ground that is bare
+  vec4 grass_look;         // brightness, what is added to dryness
 };
 )";
   return text;

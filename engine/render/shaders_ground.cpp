@@ -90,9 +90,11 @@ Turf turf_at(vec2 q) {
   vec4 wide = untiled(ground_tile, mat2(0.54, 0.84, -0.84, 0.54) * q * 0.171 + 0.7,
                       octave + kTileOctaves - 2.55, true, kGroundMean);
   t.detail = mix(fine, wide, 0.38);
-  t.grass = grass_albedo(t.detail.r * 1.15, t.detail.g, grass_tone(q, octave, t.macro, t.meso));
-  t.soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), t.detail.b * 0.9 + 0.25 * (t.meso.r - 0.5));
+  t.grass = grass_albedo(t.detail.r * 1.15, t.detail.g + grass_look.y, grass_tone(q, octave, t.macro, t.meso)) * grass_look.x;
+  t.soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), t.detail.b * 0.9 + 0.25 * (t.meso.r - 0.5)) * soil_look.rgb;
   t.scar = 0.6 * smoothstep(0.70, 0.98, t.meso.r * 0.5 + t.macro.g * 0.40 + (0.5 - t.detail.a) * 0.7);
+  // Of soil that grass covers in part it is left where the noise is low.
+  t.scar = max(t.scar, smoothstep(1.05 - soil_look.a, 1.45 - soil_look.a, 0.5 * t.meso.r + 0.3 * t.detail.b + 0.2 * t.macro.g));
   return t;
 }
 
@@ -251,7 +253,7 @@ void main() {
   if (blade.a < 0.5) discard;
   vec3 n = normalize(n_W);
   float brightness = clamp(blade.r * shade.r * 1.25, 0.0, 1.0);
-  vec3 albedo = grass_albedo(brightness, (blade.g - 0.2) / 0.6 * 0.7 + shade.g * 0.3, tone);
+  vec3 albedo = grass_albedo(brightness, (blade.g - 0.2) / 0.6 * 0.7 + shade.g * 0.3 + grass_look.y, tone) * grass_look.x;
   float sun = sun_visibility(p_W, n, 0.03);
   vec3 view = view_direction(p_W);
   float through = pow(clamp(dot(view, sun_direction.xyz), 0.0, 1.0), 3.0) * card.y;

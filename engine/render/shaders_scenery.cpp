@@ -29,7 +29,7 @@ Land land_at(vec2 q, Turf t, float octave, float ragged) {
   float planted = field > 0 && rows.w > 0.0 ? smoothstep(0.65, 0.85, here.b + 0.4 * ragged) : 0.0;
 
   vec2 tone = grass_tone(q, octave, t.macro, t.meso) * 0.75 + 0.125 + (look.x - 0.5) * vec2(-0.55, 0.45);
-  vec3 grass = grass_albedo(t.detail.r * 1.15, t.detail.g, tone) * look.w;
+  vec3 grass = grass_albedo(t.detail.r * 1.15, t.detail.g + grass_look.y, tone) * (look.w * grass_look.x);
   float furrow = 0.5 + 0.5 * sin((dot(q, rows.xy) - rows.z) * 2.1);
   float seen = exp2(octave);
   furrow = mix(furrow, 0.5, smoothstep(0.4, 1.5, seen));
@@ -99,7 +99,28 @@ flat in float row;
 out vec4 colour;
 uniform sampler2D noise_tile;
 
+// Between ground and leaves: round stems in the row's plane, as wide as they are seen from the eye.
+vec4 stem() {
+  const float pitch = 1.1, radius = 0.035;
+  if (length(p_W - eye.xyz) > 120.0) discard;
+  float number = floor(uv.x / pitch);
+  float jitter = 0.4 * (fract(number * 0.618034 + row * 0.37) - 0.5);
+  float x = uv.x - (number + 0.5) * pitch - jitter;
+  vec2 toward = normalize(view_direction(p_W).xy + vec2(1e-5));
+  float across = x * dot(toward, normalize(n_W.xy)) / radius;
+  if (abs(across) > 1.0) discard;
+  vec2 side = vec2(-toward.y, toward.x) * across - toward * sqrt(1.0 - across * across);
+  vec3 bark = vec3(0.105, 0.080, 0.060) * (0.7 + 0.6 * texture(noise_tile, vec2(uv.x, p_W.z) * 0.9).a);
+  vec3 n = vec3(side, 0.0);
+  float sun = 0.55 * max(dot(n, sun_direction.xyz), 0.0) * sun_visibility(p_W, n, 0.0);  // through the leaves above
+  return vec4(finish(kOneOverPi * bark * (sun_irradiance.rgb * sun + ambient(n)), p_W), 1.0);
+}
+
 void main() {
+  if (uv.y > 1.5) {
+    colour = stem();
+    return;
+  }
   // Bunches of leaves along and around the row, no two rows alike.
   vec2 q = vec2(uv.x, uv.y * 1.7) + row * vec2(7.31, 3.17);
   vec4 bunch = texture(noise_tile, q * 0.07);

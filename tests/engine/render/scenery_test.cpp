@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "engine/api/map.h"
 #include "engine/api/world_model.h"
+#include "engine/render/grass_tufts.h"
 #include "engine/render/land_use.h"
 #include "engine/render/scenery_meshes.h"
 #include "tests/engine/render/test_scenes.h"
@@ -51,6 +55,9 @@ TEST(LandUse, KnowsFieldsRowsTracksAndShadeByPlace) {
   EXPECT_EQ(land_at(land, {10.2, -39})[1], 255);
   // The sun stands in the north, 45 deg high: the shadow's middle lies south by the crown's.
   EXPECT_EQ(land_at(land, {60, 60 - 0.55 * kSceneryTrees[1].height_m})[3], 255);
+  // Between crown and foot lies the trunk's.
+  EXPECT_GT(land_at(land, {60, 60 - 0.5})[3], 128);
+  EXPECT_EQ(land_at(land, {61.5, 60 - 0.2})[3], 0);
   EXPECT_EQ(land_at(land, {60, 60 + kSceneryTrees[1].height_m})[3], 0);
 }
 
@@ -67,18 +74,133 @@ TEST(SceneryMeshes, RowsStandOnTheGroundWithinTheField) {
   // 60 m at 2.5 m from the corner's -35 m: rows at -30, -27.5, ... 30; few triangles a metre.
   double triangles_per_m = static_cast<double>(mesh.indices.size()) / 3.0 / (25 * 60.0);
   EXPECT_GT(triangles_per_m, 0.3);
-  EXPECT_LT(triangles_per_m, 1.0);
+  EXPECT_LT(triangles_per_m, 1.25);
   for (const GpuVertex& vertex : mesh.vertices) {
     const Eigen::Vector3d p(vertex.position[0], vertex.position[1], vertex.position[2]);
     EXPECT_LE(std::abs(p.x()), 30.0 + 1e-3);
     EXPECT_LE(std::abs(p.y()), 30.0 + field.row_width_m);
     const double above = p.z() - slope.height_m(p.x(), p.y());
-    EXPECT_GE(above, field.row_base_m - 1e-3);
     EXPECT_LE(above, 1.1 * field.row_top_m);
+    if (vertex.uv[1] <= 1.0f) {
+      EXPECT_GE(above, field.row_base_m - 1e-3);
+    }
   }
   SceneryField meadow = field;
   meadow.pitch_m = 0.0;
   EXPECT_TRUE(make_hedges(meadow, slope).indices.empty());
+}
+
+TEST(SceneryMeshes, StemsReachFromTheGroundIntoTheLeaves) {
+  const SceneryField field = make_scenery().fields[0];
+  const HeightField ground = test::make_level_ground(100.0);
+  const PreparedMesh mesh = make_hedges(field, ground);
+  int stems = 0;
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    double low = 1e9, high = -1e9;
+    int curtain = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const GpuVertex& vertex = mesh.vertices[mesh.indices[i + k]];
+      curtain += vertex.uv[1] > 1.5f;
+      low = std::min(low, static_cast<double>(vertex.position[2]));
+      high = std::max(high, static_cast<double>(vertex.position[2]));
+    }
+    // No triangle leads from leaves to a curtain.
+    ASSERT_TRUE(curtain == 0 || curtain == 3);
+    if (curtain == 0) continue;
+    ++stems;
+    EXPECT_LT(low, 0.0);
+    EXPECT_GT(high, field.row_base_m);
+    EXPECT_LT(high, field.row_top_m);
+  }
+  EXPECT_GE(stems, 25 * 2 * 5);  // a quad for each 12 m of 25 rows of 60 m
+  for (const SceneryTreeSize& size : kSceneryTrees) {
+    const auto trunk = make_scenery_trunk(size);
+    float low = 1e9f, high = -1e9f;
+    for (const Eigen::Vector3f& p : trunk->vertices) {
+      low = std::min(low, p.z());
+      high = std::max(high, p.z());
+    }
+    EXPECT_LT(low, 0.0f);
+    EXPECT_GT(high, scenery_crown_base_m(size) + 0.2);
+  }
+}
+
+TEST(Scenery, TrunksOfTreesAreSeenFromAfar) {
+  WorldModel world;
+  world.terrain = test::make_level_ground(200.0);
+  world.scenery.trees.push_back({{0, 0}, 1});
+  const auto renderer = test::renderer_of(world, {});
+  ASSERT_TRUE(renderer);
+  Frame frame;
+  // 12 cm a pixel, halfway between the ground and the lowest leaves.
+  frame.camera = look_at({0, -150, 20}, {0, 0, 1.1}, 2.0 * std::atan(0.12 * 160 / 150.0));
+  frame.width = 320;
+  frame.height = 320;
+  const Image image = renderer->draw(frame);
+  // Bark is brown, grass green.
+  const auto redness = [&](int x) {
+    double sum = 0.0;
+    for (int y = 157; y < 163; ++y) {
+      const Eigen::Vector3i p = test::pixel(image, x, y);
+      sum += (p[0] - p[1]) / 6.0;
+    }
+    return sum;
+  };
+  EXPECT_GT(redness(160), redness(145) + 5.0);
+  EXPECT_GT(redness(160), redness(175) + 5.0);
+}
+
+TEST(GrassTufts, GrowNeitherOnTracksNorOnBareGround) {
+  const HeightField field = test::make_level_ground(100.0);
+  const GroundMask mask = make_ground_mask({});
+  const SceneryTrack track{{-50, 3}, {50, 3}};
+  const Camera camera = look_at({0, 0, 2}, {10, 3, 0}, 1.0);
+  const Frustum frustum(calc_clip_from_world(camera, 1.6, 0.1, 100.0));
+  std::vector<GpuVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  make_grass_tufts({field, mask, {}, 0.0}, camera, frustum, 1.0, vertices, indices);
+  const std::size_t without_track = vertices.size();
+  make_grass_tufts({field, mask, {&track, 1}, 0.0}, camera, frustum, 1.0, vertices, indices);
+  ASSERT_GT(vertices.size(), 1000u);
+  EXPECT_LT(vertices.size(), without_track);
+  for (const GpuVertex& vertex : vertices) {
+    EXPECT_GT(std::abs(vertex.position[1] - 3.0f), 1.3f);  // roots at 1.6 m, blades lean over
+  }
+  make_grass_tufts({field, mask, {}, 1.0}, camera, frustum, 1.0, vertices, indices);
+  EXPECT_TRUE(vertices.empty());
+}
+
+/// Mean colour of level ground from above.
+Eigen::Vector3d ground_colour(const std::string& soil) {
+  WorldModel world;
+  world.terrain = test::make_level_ground(100.0);
+  world.soil.name = soil;
+  Frame frame;
+  frame.camera = look_at({0, 0, 30}, {0, 0, 0}, 1.0);
+  frame.width = frame.height = 96;
+  const auto renderer = test::renderer_of(world, {});
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  if (!renderer) return mean;
+  const Image image = renderer->draw(frame);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      for (int c = 0; c < 3; ++c) mean[c] += test::pixel(image, x, y)[c];
+    }
+  }
+  return mean / (image.width * image.height);
+}
+
+TEST(GroundLook, FollowsTheSoil) {
+  const Eigen::Vector3d dry = ground_colour("dry_grass"), wet = ground_colour("wet_soil");
+  ASSERT_GT(dry.sum(), 0.0);
+  EXPECT_GT(dry[1], dry[0]);        // green
+  EXPECT_GT(wet[0], wet[1] + 5.0);  // brown
+  EXPECT_LT(wet.sum(), 0.85 * dry.sum());
+  const Eigen::Vector3d lush = ground_colour("wet_grass");
+  EXPECT_GT(lush[1] / lush[0], dry[1] / dry[0]);
+  const Eigen::Vector3d asphalt = ground_colour("asphalt");
+  EXPECT_LT(asphalt.maxCoeff() - asphalt.minCoeff(), 20.0);  // grey
+  EXPECT_EQ(ground_colour("a_soil_of_a_plug_in"), dry);
 }
 
 /// How much brightness varies with the rows' pitch over a line of the picture along y:

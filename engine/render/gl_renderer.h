@@ -62,7 +62,7 @@ class GlRenderer final : public Renderer {
   void mark_as(int number) { gl_.StencilFunc(GL_ALWAYS, number, 0xff); }
   void draw_ground(const Frame& frame, const Frustum& frustum);
   void draw_tufts(const Frame& frame, const Frustum& frustum);
-  void draw_hedges(const Frustum& frustum);
+  void draw_hedges(const Camera& camera, const Frustum& frustum);
   void draw_sky();
   /// Readies texture and programs of the frame's grid; they are made when the first frame has one.
   void prepare_grid(const Frame& frame);
@@ -89,15 +89,14 @@ class GlRenderer final : public Renderer {
   std::vector<GpuMesh> chunks_;
   std::array<GpuMesh, kTerrainLevels> chunk_indices_;
   std::vector<GpuMesh> surroundings_;
-  std::vector<Drawable> hedges_;  ///< a field each, of the scenery
-  std::vector<GpuMesh> hedge_meshes_;
+  std::vector<GpuMesh> hedges_, stems_;  ///< a field each, of the scenery
   Eigen::Vector4f land_rect_ = {0, 0, 0, 0};
   bool has_land_ = false;
   std::unique_ptr<ShadowMaps> shadows_;
   Program sky_, ground_, country_, surface_, foliage_, foliage_depth_, grass_, ribbon_,
       shadow_solid_, shadow_cards_;
   GridOverlay grid_;
-  Program hedge_;
+  Program hedge_, stem_;
   Program grid_map_, grid_ground_, grid_grass_;  ///< made by prepare_grid
   bool grid_on_ground_ = false;                  ///< in this frame
   GLuint frame_buffer_ = 0;

@@ -388,7 +388,7 @@ Image GlRenderer::draw(const Frame& frame) {
   gl_.Enable(GL_STENCIL_TEST);
   gl_.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   draw_objects(frame, frustum, vehicles, vehicle_of_link);
-  draw_hedges(frustum);
+  draw_hedges(frame.camera, frustum);
   draw_tufts(frame, frustum);
   draw_ground(frame, frustum);
   draw_sky();

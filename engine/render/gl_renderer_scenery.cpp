@@ -1,5 +1,6 @@
 // The scenery around a world: fields and tracks on the ground, rows, trees.
 #include <array>
+#include <limits>
 
 #include "engine/render/gl_renderer.h"
 #include "engine/render/land_use.h"
@@ -32,16 +33,10 @@ void GlRenderer::make_scenery(const Scenery& scenery) {
   if (scenery.empty() || !terrain_) return;
   upload_land_use(make_land_use(scenery, *terrain_, light_.sun_direction_W));
   hedge_ = make_program("hedge", shaders::hedge());
-  hedge_meshes_.reserve(scenery.fields.size());
+  stem_ = make_program("stems", shaders::stems());
   for (const SceneryField& field : scenery.fields) {
-    const PreparedMesh mesh = make_hedges(field, *terrain_);
-    if (mesh.indices.empty()) continue;
-    hedge_meshes_.push_back(upload_mesh(gl_, mesh));
-    Drawable drawable;
-    drawable.mesh = &hedge_meshes_.back();
-    drawable.box_W = mesh.bounds_M;
-    drawable.surface = SurfaceClass::kCanopy;
-    hedges_.push_back(drawable);
+    hedges_.push_back(upload_mesh(gl_, make_hedges(field, *terrain_)));
+    stems_.push_back(upload_mesh(gl_, make_stems(field, *terrain_)));
   }
   add_trees(scenery);
 }
@@ -80,13 +75,21 @@ void GlRenderer::add_trees(const Scenery& scenery) {
   }
 }
 
-void GlRenderer::draw_hedges(const Frustum& frustum) {
-  if (hedges_.empty()) return;
-  gl_.UseProgram(hedge_.id);
+void GlRenderer::draw_hedges(const Camera& camera, const Frustum& frustum) {
+  // Farther away a stem is thinner than a pixel.
+  constexpr double kStems_m = 120.0;
   gl_.Disable(GL_CULL_FACE);
-  for (const Drawable& hedge : hedges_) {
-    if (!settings_.cull || frustum.may_see(hedge.box_W)) draw_mesh(*hedge.mesh);
-  }
+  const auto draw = [&](const Program& program, const std::vector<GpuMesh>& meshes,
+                        double reach_m) {
+    gl_.UseProgram(program.id);
+    for (const GpuMesh& mesh : meshes) {
+      if (mesh.index_count == 0 || mesh.bounds_M.exteriorDistance(camera.X_WC.p) > reach_m)
+        continue;
+      if (!settings_.cull || frustum.may_see(mesh.bounds_M)) draw_mesh(mesh);
+    }
+  };
+  draw(hedge_, hedges_, std::numeric_limits<double>::infinity());
+  draw(stem_, stems_, kStems_m);
 }
 
 }  // namespace vinerow::render

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "engine/api/height_field.h"
 #include "engine/api/mesh.h"
@@ -25,7 +27,6 @@ constexpr SectionPoint kSection[] = {{0.75, 0.0, 0.95, -0.3, -1.0f},
                                      {-1.1, 0.6, -0.85, 0.5, 0.5f},
                                      {-0.75, 0.0, -0.95, -0.3, 1.0f}};
 constexpr int kSectionPoints = 5;
-constexpr int kStepPoints = kSectionPoints + 2;  // with the curtain's
 constexpr double kSectionStep_m = 12.0;  // the ground bends by centimetres in between
 
 struct HedgeRow {
@@ -75,27 +76,40 @@ void add_row(const SceneryField& field, const HedgeRow& row, const HeightField& 
       mesh.vertices.push_back(vertex);
       mesh.bounds_M.extend(at);
     }
-    for (const bool top : {false, true}) {
+    if (k == 0) continue;
+    const auto end = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (std::uint32_t i = 0; i + 1 < kSectionPoints; ++i) {
+      const std::uint32_t b = end - kSectionPoints + i, a = b - kSectionPoints;
+      mesh.indices.insert(mesh.indices.end(), {a, b, a + 1, a + 1, b, b + 1});
+    }
+  }
+}
+
+void add_curtain(const SceneryField& field, const HedgeRow& row, const HeightField& terrain,
+                 PreparedMesh& mesh) {
+  constexpr double kIntoLeaves = 0.2;  // of their height
+  const double top_m = field.row_base_m + kIntoLeaves * (field.row_top_m - field.row_base_m);
+  const double length_m = (row.to - row.from).norm();
+  const Eigen::Vector2d d = (row.to - row.from) / length_m;
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kSectionStep_m)));
+  for (int k = 0; k <= steps; ++k) {
+    const double s = length_m * k / steps;
+    const Eigen::Vector2d p = row.from + s * d;
+    const double ground_m = terrain.height_m(p.x(), p.y());
+    for (const double above_m : {-0.1, top_m}) {
       GpuVertex vertex{};
-      const Eigen::Vector3d at(p.x(), p.y(),
-                               ground_m + (top ? field.row_base_m + 0.2 * high_m : -0.1));
-      for (int c = 0; c < 3; ++c) {
-        vertex.position[c] = static_cast<float>(at[c]);
-        vertex.normal[c] = static_cast<std::int8_t>(std::lround(127.0 * left[c]));
-      }
+      const Eigen::Vector3d at(p.x(), p.y(), ground_m + above_m);
+      for (int c = 0; c < 3; ++c) vertex.position[c] = static_cast<float>(at[c]);
+      vertex.normal[0] = static_cast<std::int8_t>(std::lround(-127.0 * d.y()));
+      vertex.normal[1] = static_cast<std::int8_t>(std::lround(127.0 * d.x()));
       vertex.uv[0] = static_cast<float>(s);
-      vertex.uv[1] = top ? 3.0f : 2.0f;
       vertex.colour[3] = static_cast<std::uint8_t>(hash_cell(row.number, 5u, 43u) & 0xffu);
       mesh.vertices.push_back(vertex);
       mesh.bounds_M.extend(at);
     }
     if (k == 0) continue;
     const auto end = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (std::uint32_t i = 0; i + 1 < kStepPoints; ++i) {
-      if (i + 1 == kSectionPoints) continue;  // leaves and curtain hang apart
-      const std::uint32_t b = end - kStepPoints + i, a = b - kStepPoints;
-      mesh.indices.insert(mesh.indices.end(), {a, b, a + 1, a + 1, b, b + 1});
-    }
+    mesh.indices.insert(mesh.indices.end(), {end - 4, end - 2, end - 3, end - 3, end - 2, end - 1});
   }
 }
 
@@ -114,11 +128,9 @@ void add_leaf_card(TriangleMesh& mesh, const Eigen::Vector3d& middle, const Eige
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-}  // namespace
-
-PreparedMesh make_hedges(const SceneryField& field, const HeightField& terrain) {
-  PreparedMesh mesh;
-  if (field.pitch_m <= 0.0 || field.planted_W.size() < 3) return mesh;
+std::vector<HedgeRow> rows_of(const SceneryField& field) {
+  std::vector<HedgeRow> rows;
+  if (field.pitch_m <= 0.0 || field.planted_W.size() < 3) return rows;
   const Eigen::Vector2d normal(-field.along_W.y(), field.along_W.x());
   const double offset_m = normal.dot(field.corners_W.front());
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -133,9 +145,23 @@ PreparedMesh make_hedges(const SceneryField& field, const HeightField& terrain) 
     const Eigen::Vector2d t = clip_line(field.planted_W, p, field.along_W);
     constexpr double kLeast_m = 6.0;
     if (t[1] - t[0] < kLeast_m) continue;
-    const auto number = static_cast<std::uint32_t>(k + 100000);
-    add_row(field, {p + t[0] * field.along_W, p + t[1] * field.along_W, number}, terrain, mesh);
+    rows.push_back({p + t[0] * field.along_W, p + t[1] * field.along_W,
+                    static_cast<std::uint32_t>(k + 100000)});
   }
+  return rows;
+}
+
+}  // namespace
+
+PreparedMesh make_hedges(const SceneryField& field, const HeightField& terrain) {
+  PreparedMesh mesh;
+  for (const HedgeRow& row : rows_of(field)) add_row(field, row, terrain, mesh);
+  return mesh;
+}
+
+PreparedMesh make_stems(const SceneryField& field, const HeightField& terrain) {
+  PreparedMesh mesh;
+  for (const HedgeRow& row : rows_of(field)) add_curtain(field, row, terrain, mesh);
   return mesh;
 }
 

@@ -10,10 +10,12 @@ namespace vinerow::render {
 
 /// All rows of a field as strips: a ridge with two sides over a row's length, in W. uv: metres
 /// along the row; -1 and 1 at the feet, 0 at the top. Colour: the leaves' own, a: a number of the
-/// row. Below each row a curtain from the ground to the lowest leaves, on which stems are drawn:
-/// v is 2 at its foot, 3 at its top. Rows lie at whole multiples of the pitch from the field's
-/// first corner, as in LandUse.
+/// row. Rows lie at whole multiples of the pitch from the field's first corner, as in LandUse.
 PreparedMesh make_hedges(const SceneryField& field, const HeightField& terrain);
+
+/// Below each of these rows a curtain from the ground into the leaves, on which the shader draws
+/// stems. uv: metres along the row, 0. Normal: across the row. Colour a: as of the row.
+PreparedMesh make_stems(const SceneryField& field, const HeightField& terrain);
 
 /// Height of a tree's lowest leaves.
 double scenery_crown_base_m(const SceneryTreeSize& size);

@@ -19,6 +19,7 @@ Pair foliage();                      ///< leaf cards, where their depth is drawn
 Pair foliage_depth();                ///< alpha-tested leaf cards, depth only
 Pair grass(bool with_grid = false);  ///< alpha-tested tufts near the camera
 Pair hedge();                        ///< rows of the scenery
+Pair stems();                        ///< below them
 Pair grid_map();                     ///< the occupancy grid over a view from above
 Pair ribbon();                       ///< lines in clip space
 Pair shadow_solid();

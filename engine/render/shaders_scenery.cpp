@@ -70,8 +70,9 @@ Land land_at(vec2 q, Turf t, float octave, float ragged) {
   return text;
 }
 
-Pair hedge() {
-  const std::string vertex = frame_block() + R"(
+namespace {
+
+const char* const kHedgeVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv_in;
@@ -90,6 +91,10 @@ void main() {
   gl_Position = clip_from_world * vec4(p_W, 1.0);
 }
 )";
+
+}  // namespace
+
+Pair hedge() {
   const std::string fragment = frame_block() + light_functions() + leaf_light() + R"(
 in vec3 p_W;
 in vec3 n_W;
@@ -99,28 +104,7 @@ flat in float row;
 out vec4 colour;
 uniform sampler2D noise_tile;
 
-// Between ground and leaves: round stems in the row's plane, as wide as they are seen from the eye.
-vec4 stem() {
-  const float pitch = 1.1, radius = 0.035;
-  if (length(p_W - eye.xyz) > 120.0) discard;
-  float number = floor(uv.x / pitch);
-  float jitter = 0.4 * (fract(number * 0.618034 + row * 0.37) - 0.5);
-  float x = uv.x - (number + 0.5) * pitch - jitter;
-  vec2 toward = normalize(view_direction(p_W).xy + vec2(1e-5));
-  float across = x * dot(toward, normalize(n_W.xy)) / radius;
-  if (abs(across) > 1.0) discard;
-  vec2 side = vec2(-toward.y, toward.x) * across - toward * sqrt(1.0 - across * across);
-  vec3 bark = vec3(0.105, 0.080, 0.060) * (0.7 + 0.6 * texture(noise_tile, vec2(uv.x, p_W.z) * 0.9).a);
-  vec3 n = vec3(side, 0.0);
-  float sun = 0.55 * max(dot(n, sun_direction.xyz), 0.0) * sun_visibility(p_W, n, 0.0);  // through the leaves above
-  return vec4(finish(kOneOverPi * bark * (sun_irradiance.rgb * sun + ambient(n)), p_W), 1.0);
-}
-
 void main() {
-  if (uv.y > 1.5) {
-    colour = stem();
-    return;
-  }
   // Bunches of leaves along and around the row, no two rows alike.
   vec2 q = vec2(uv.x, uv.y * 1.7) + row * vec2(7.31, 3.17);
   vec4 bunch = texture(noise_tile, q * 0.07);
@@ -136,7 +120,33 @@ void main() {
   colour = vec4(finish(leaf_light(albedo, n, p_W, 0.25), p_W), 1.0);
 }
 )";
-  return {vertex, fragment};
+  return {frame_block() + kHedgeVertex, fragment};
+}
+
+Pair stems() {
+  const std::string fragment = frame_block() + light_functions() + R"(
+in vec3 p_W;
+in vec3 n_W;
+in vec2 uv;
+flat in float row;
+out vec4 colour;
+
+// Round stems in the row's plane, as wide as they are seen from the eye.
+void main() {
+  const float pitch = 1.1, radius = 0.035;
+  float number = floor(uv.x / pitch);
+  float jitter = 0.4 * (fract(number * 0.618034 + row * 0.37) - 0.5);
+  float x = uv.x - (number + 0.5) * pitch - jitter;
+  vec2 toward = normalize(view_direction(p_W).xy + vec2(1e-5));
+  float across = x * dot(toward, normalize(n_W.xy)) / radius;
+  if (abs(across) > 1.0) discard;
+  vec3 n = vec3(vec2(-toward.y, toward.x) * across - toward * sqrt(1.0 - across * across), 0.0);
+  vec3 bark = vec3(0.105, 0.080, 0.060) * (0.7 + 0.6 * fract(number * 0.7548777 + row * 0.13));
+  float sun = 0.55 * max(dot(n, sun_direction.xyz), 0.0);  // through the leaves above
+  colour = vec4(finish(kOneOverPi * bark * (sun_irradiance.rgb * sun + ambient(n)), p_W), 1.0);
+}
+)";
+  return {frame_block() + kHedgeVertex, fragment};
 }
 
 }  // namespace vinerow::render::shaders

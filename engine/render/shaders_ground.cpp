@@ -94,7 +94,7 @@ Turf turf_at(vec2 q) {
   t.soil = mix(vec3(0.098, 0.066, 0.043), vec3(0.335, 0.255, 0.176), t.detail.b * 0.9 + 0.25 * (t.meso.r - 0.5)) * soil_look.rgb;
   t.scar = 0.6 * smoothstep(0.70, 0.98, t.meso.r * 0.5 + t.macro.g * 0.40 + (0.5 - t.detail.a) * 0.7);
   // Of soil that grass covers in part it is left where the noise is low.
-  t.scar = max(t.scar, smoothstep(1.05 - soil_look.a, 1.45 - soil_look.a, 0.5 * t.meso.r + 0.3 * t.detail.b + 0.2 * t.macro.g));
+  t.scar = max(t.scar, smoothstep(1.05 - 1.2 * soil_look.a, 1.45 - 1.35 * soil_look.a, 0.5 * t.meso.r + 0.3 * t.detail.b + 0.2 * t.macro.g));
   return t;
 }
 

@@ -71,11 +71,11 @@ struct VehicleDescription {
   /// A number a part cannot do without. @param name  of its field, "min_turning_radius_m"
   /// @returns the value
   /// @throws ConfigError "rover.planner (coverage) needs 'min_turning_radius_m', which vehicle type
-  /// 'x' does not tell"
+  /// 'x' does not have"
   double need(const std::optional<double>& value, const char* name, const std::string& who) const;
   /// A number that must be above 0 and finite. @returns the value
   /// @throws ConfigError "rover.controller (dwa) needs 'front_axle_m' > 0, but vehicle type 'x'
-  /// tells -0.75"
+  /// has -0.75"
   double need_positive(double value, const char* name, const std::string& who) const;
 
   /// The footprint; the collision box's where none is given.

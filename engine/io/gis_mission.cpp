@@ -23,7 +23,7 @@ std::string place_of_feature(const std::filesystem::path& file, const GeoFeature
 }
 
 /// Nothing where the feature does not have the property.
-std::optional<double> read_number(const std::filesystem::path& file, const GeoFeature& feature,
+std::optional<double> property_number(const std::filesystem::path& file, const GeoFeature& feature,
                                   const std::string& name) {
   const std::string text = feature.property(name);
   if (text.empty() || text == "null") return std::nullopt;
@@ -37,7 +37,7 @@ std::optional<double> read_number(const std::filesystem::path& file, const GeoFe
 }
 
 /// Nothing where the feature does not have the property.
-std::optional<bool> read_switch(const std::filesystem::path& file, const GeoFeature& feature,
+std::optional<bool> property_switch(const std::filesystem::path& file, const GeoFeature& feature,
                                 const std::string& name) {
   const std::string text = feature.property(name);
   if (text.empty() || text == "null") return std::nullopt;
@@ -67,13 +67,13 @@ class Route {
 
   /// A line from end to end, or a point.
   void add_way(const GeoFeature& feature) {
-    const std::optional<double> speed_mps = read_number(mission_.file, feature, "speed_mps");
+    const std::optional<double> speed_mps = property_number(mission_.file, feature, "speed_mps");
     if (speed_mps && !(*speed_mps > 0.0)) {
       throw ConfigError(fmt::format("{}: speed_mps = {}, must be > 0",
                                     place_of_feature(mission_.file, feature), *speed_mps));
     }
-    const bool sprays = read_switch(mission_.file, feature, "sprayer").value_or(false);
-    const std::optional<double> height_m = read_number(mission_.file, feature, "height_m");
+    const bool sprays = property_switch(mission_.file, feature, "sprayer").value_or(false);
+    const std::optional<double> height_m = property_number(mission_.file, feature, "height_m");
     const int number = feature.index + 1;
     bool is_first = true;
     for (const Geodetic& point : feature.points) {
@@ -119,11 +119,11 @@ class Route {
 void sort_points(const std::filesystem::path& file, std::vector<GeoFeature>& points) {
   for (const char* name : {"order", "number"}) {
     const bool all_have = std::all_of(points.begin(), points.end(), [&](const GeoFeature& point) {
-      return read_number(file, point, name).has_value();
+      return property_number(file, point, name).has_value();
     });
     if (!all_have) continue;
     std::stable_sort(points.begin(), points.end(), [&](const GeoFeature& a, const GeoFeature& b) {
-      return *read_number(file, a, name) < *read_number(file, b, name);
+      return *property_number(file, a, name) < *property_number(file, b, name);
     });
     return;
   }

@@ -106,7 +106,7 @@ TEST(ObstacleWays, RefusesPlacesInRowsAndMapsWithoutGrid) {
   };
   const auto into_a_row = yard.plan(at(2.5, 10.0), 1.25, -2.0, 0.5 * kPi);
   ASSERT_FALSE(into_a_row.ok());
-  EXPECT_THAT(into_a_row.reason(), HasSubstr("the goal at (2.50, 10.00)"));
+  EXPECT_THAT(into_a_row.reason(), HasSubstr("goal in collision: at (2.50, 10.00)"));
   yard.map.occupancy = {};
   try {
     static_cast<void>(yard.plan(at(1.25, 10.0), 1.25, -2.0, 0.5 * kPi));

@@ -109,7 +109,7 @@ double find_corner_radius_m(const std::optional<double>& wanted_m,
   if (!wanted_m) return kReserve * least_m;
   if (*wanted_m >= least_m) return *wanted_m;
   throw ConfigError(
-      fmt::format("{}: turning_radius_m = {:g} m is less than the {:.3f} m that vehicle type '{}' "
+      fmt::format("{}: a turning radius of {:g} m is less than the {:.3f} m that vehicle type '{}' "
                   "can turn",
                   who, *wanted_m, least_m, vehicle.type));
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "controllers/planning/corner_rounding.h"
 #include "controllers/planning/headland_turn.h"
 #include "controllers/planning/lift.h"
 #include "controllers/planning/row_check.h"
@@ -20,6 +22,7 @@ namespace {
 struct CoverageParams {
   double pitch_m = 0.33;
   TurnParams turn;
+  std::optional<double> turn_radius_m;  ///< absent: what the vehicle needs, at least 1 m
   RowRouteParams route;
   double speed_mps = 0.0;
   double lead_in_m = 0.0;
@@ -39,8 +42,9 @@ const ParameterTable<CoverageParams>& coverage_table() {
           .choice("turn", turn(&TurnParams::kind),
                   {{"three_point_arc", TurnKind::kThreePointArc}, {"dubins", TurnKind::kDubins}},
                   "how to get from one alley to the next")
-          .number("turn_radius_m", "m", turn(&TurnParams::radius_m), kPositive,
-                  "radius of Dubins arcs; least radius allowed for three-point arcs (table 1)")
+          .number("turn_radius_m", "m", &P::turn_radius_m, kPositive,
+                  "radius of Dubins arcs; least radius allowed for three-point arcs; default 1.1 "
+                  "times the least of a vehicle that steers by its axles, else 1 (table 1)")
           .number("headland_m", "m", turn(&TurnParams::headland_m), between(0.0, 1e3),
                   "straight on beyond the alley's end before turning, and before entering")
           .number("apex_m", "m", turn(&TurnParams::apex_m), kPositive,
@@ -152,7 +156,10 @@ std::unique_ptr<Planner> make_coverage(const ParameterSet& parameters,
   }
   const int alley_count = static_cast<int>(context.map->alleys.size());
   const std::string who = context.part + " (coverage)";
-  const CoverageParams params = coverage_table().read(parameters, who);
+  CoverageParams params = coverage_table().read(parameters, who);
+  const double radius_m =
+      find_corner_radius_m(params.turn_radius_m, *context.vehicle_description, who);
+  params.turn.radius_m = params.turn_radius_m ? radius_m : std::max(radius_m, 1.0);
   params.route.demand_alleys(alley_count, who);
   return std::make_unique<Coverage>(params, context);
 }

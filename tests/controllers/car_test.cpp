@@ -51,7 +51,7 @@ TEST_P(CarFollower, DrivesRoundedCorners) {
 
 TEST_P(CarFollower, WorksTheAlleys) {
   auto run = make_world(GetParam(), "alley: 0, offset_m: 1.0")
-                 .planner("tractor", "coverage", "approach: false")
+                 .planner("tractor", "coverage", "approach: false, turn: dubins")
                  .build();
   run.run_to_end();
   EXPECT_TRUE(run.finished());
@@ -61,6 +61,21 @@ TEST_P(CarFollower, WorksTheAlleys) {
   EXPECT_EQ(metrics.at("alleys_driven"), 3.0);
   EXPECT_EQ(metrics.at("contact_count"), 0.0);
   EXPECT_GT(metrics.at("min_clearance_m"), 0.4);
+}
+
+TEST_P(CarFollower, IsNotAskedForTighterTurnsThanItCan) {
+  // A semicircle between alleys 4 m apart has 2 m.
+  auto run = make_world(GetParam(), "alley: 0, offset_m: 1.0")
+                 .planner("tractor", "coverage", "approach: false")
+                 .build();
+  try {
+    run.run_to_end();
+    FAIL() << "must be refused";
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("has a radius of 2 m, below turn_radius_m = 2.49"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 /// There and to the left, with a corner of 90 deg.

@@ -212,7 +212,7 @@ TEST_F(ReplayRunPage, ShowsTheWorldAndTheVehiclesLinks) {
 
 TEST_F(ReplaySection, TellsWhatItLeavesOut) {
   const ScratchFolder folder("replay_left_out");
-  run_into(folder, 2.0);
+  run_into(folder, 2.0, "--set 'world.neighbours={count: 8}' --set world.surroundings_m=70");
   ReplayRun run = read_run(folder);
 
   ReplayLimits tight;

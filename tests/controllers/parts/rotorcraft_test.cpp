@@ -54,7 +54,7 @@ TEST(Rotorcraft, RefusesWhatCannotFlyBySentences) {
   numbers = test::make_q4t();
   numbers.inertia_kgm2.y() = 0.0;
   expect_refused(test::describe(numbers),
-                 "drone.controller needs 'inertia_kgm2.y' > 0, but vehicle type 'quadrotor' tells "
+                 "drone.controller needs 'inertia_kgm2.y' > 0, but vehicle type 'quadrotor' has "
                  "0");
   numbers = test::make_q4t();
   numbers.lag_s = 0.0;

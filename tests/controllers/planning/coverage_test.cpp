@@ -197,6 +197,8 @@ Result<PlannedPath> plan_on(const Slope& slope) {
   PlannerContext context;
   context.map = &map;
   context.scene = &slope;
+  const VehicleDescription rover = make_rover_description();
+  context.vehicle_description = &rover;
   return vinerow::make_coverage(make_parameters(coverage_spec(), {}), context)
       ->plan({quaternion_from_rpy({0, 0, 0.5 * kPi}), {1.25, 0, 0}});
 }

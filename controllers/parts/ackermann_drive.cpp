@@ -59,7 +59,7 @@ NamedValues AckermannDrive::make_actuators() const {
 double AckermannDrive::rim_per_speed(const Actuator& wheel, double curvature_per_m) {
   const double along = 1.0 - curvature_per_m * wheel.p_R.y();
   const double across = curvature_per_m * wheel.p_R.x();
-  // The rear wheels of a turn about a point between them roll against each other.
+  // In a turn about a point between the rear wheels the inner one rolls backwards.
   return across == 0.0 ? along : std::copysign(std::hypot(along, across), along);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What every path follower reads and writes whose vehicle is driven by a speed and a yaw rate.
+/// What a path follower reads and writes that drives its vehicle by speed and yaw rate.
 
 #include <memory>
 

@@ -75,7 +75,7 @@ bool has_xacro_element(const tinyxml2::XMLElement& element) {
   return false;
 }
 
-/// Whether the text is well-formed and one that only xacro makes a URDF of.
+/// Whether the text is well-formed XML that only xacro turns into a URDF.
 bool is_xacro(const std::string& text) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return false;

@@ -17,8 +17,10 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # Sloppiness: what ccache wants to be told before it caches what uses a precompiled header. Paths are kept relative to
-  # the source tree, so that one clone finds what another one has compiled.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+  # the source tree, so that one clone finds what another one has compiled. CCACHE_DEPEND: headers count with their comments. By
+  # the preprocessed text ccache took a precompiled header for the same whose header had another comment, and GCC, which
+  # compares the file, then read that header twice.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros
       CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
 endif()
 # mold links the shared library and the test programs in a fraction of the time of the usual linker.

@@ -16,12 +16,14 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Sloppiness: what ccache wants to be told before it caches what uses a precompiled header. Paths are kept relative to
-  # the source tree, so that one clone finds what another one has compiled. CCACHE_DEPEND: headers count with their comments. By
-  # the preprocessed text ccache took a precompiled header for the same whose header had another comment, and GCC, which
-  # compares the file, then read that header twice.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
+  # Sloppiness: what ccache must be told before it caches a source that uses a precompiled header. Paths are kept relative
+  # to the source tree, so that one clone finds what another one has compiled.
+  # CCACHE_DEPEND: a header's comments count. Without it ccache compares preprocessed text and takes two precompiled headers
+  # for one when only a comment differs; GCC compares the files, so it then read that header twice.
+  # CCACHE_NAMESPACE: entries that were written without CCACHE_DEPEND hold such precompiled headers, and ccache finds them
+  # with CCACHE_DEPEND too. Our own name leaves them behind.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_NAMESPACE=vinerow_headers_with_comments
+      CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
 endif()
 # mold links the shared library and the test programs in a fraction of the time of the usual linker.
 # GCC 12 looks for it in the folders of its target alone, so a cross build keeps its own linker.

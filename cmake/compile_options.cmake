@@ -18,12 +18,17 @@ find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # Sloppiness: what ccache must be told before it caches a source that uses a precompiled header. Paths are kept relative
   # to the source tree, so that one clone finds what another one has compiled.
-  # CCACHE_DEPEND: a header's comments count. Without it ccache compares preprocessed text and takes two precompiled headers
-  # for one when only a comment differs; GCC compares the files, so it then read that header twice.
-  # CCACHE_NAMESPACE: entries that were written without CCACHE_DEPEND hold such precompiled headers, and ccache finds them
-  # with CCACHE_DEPEND too. Our own name leaves them behind.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_NAMESPACE=vinerow_headers_with_comments
-      CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
+  # CCACHE_EXTRAFILES: ccache compares preprocessed text, and so takes two precompiled headers for one when only a comment
+  # differs. GCC compares the files themselves, finds a header that it has not read, and reads it twice. So the headers that
+  # precompiled ones can hold count whole. CCACHE_DEPEND would do as much, but then no clone finds what another one compiled:
+  # sources that are compiled together name their files by absolute paths.
+  # CCACHE_NAMESPACE: leaves behind entries that were made without this.
+  file(GLOB_RECURSE VINEROW_PCH_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/engine/api/*.h ${PROJECT_SOURCE_DIR}/engine/core/*.h
+       ${PROJECT_SOURCE_DIR}/engine/math/*.h)
+  list(JOIN VINEROW_PCH_SOURCES ":" VINEROW_PCH_SOURCES)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_EXTRAFILES=${VINEROW_PCH_SOURCES}
+      CCACHE_NAMESPACE=vinerow_whole_headers CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
+      CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
 endif()
 # mold links the shared library and the test programs in a fraction of the time of the usual linker.
 # GCC 12 looks for it in the folders of its target alone, so a cross build keeps its own linker.

@@ -62,15 +62,18 @@ double pixels_per_metre(const Frame& frame, const Eigen::Vector3d& p_W) {
   return 0.5 * frame.height / std::tan(0.5 * frame.camera.fov_rad) / std::max(0.1, depth_m);
 }
 
-/// Right of a place, left, above or below: where nothing is written yet. @returns the text's box
-AlignedBox2d place_of_text(const Vector2d& at, double away_px, const Vector2d& size_px,
+/// Right of what is there, left, above or below: where nothing is written yet. @returns the text's
+/// box
+AlignedBox2d place_of_text(const AlignedBox2d& there, double away_px, const Vector2d& size_px,
                            const Frame& frame, const std::vector<AlignedBox2d>& taken) {
   const AlignedBox2d picture(Vector2d(0, 0), Vector2d(frame.width, frame.height));
   const Vector2d half = 0.5 * size_px;
   AlignedBox2d first;
   for (const Vector2d& side : {Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, -1), Vector2d(0, 1),
                                Vector2d(0.7, -1), Vector2d(0.7, 1)}) {
-    const Vector2d centre = at + side.cwiseProduct(half + Vector2d::Constant(away_px));
+    const Vector2d centre =
+        there.center() +
+        side.cwiseProduct(half + 0.5 * there.sizes() + Vector2d::Constant(away_px));
     const AlignedBox2d box(centre - half, centre + half);
     if (picture.contains(box) && !overlaps_any(box, taken)) return box;
     if (first.isEmpty()) first = box;
@@ -78,8 +81,18 @@ AlignedBox2d place_of_text(const Vector2d& at, double away_px, const Vector2d& s
   return first;
 }
 
-/// @returns boxes of what was drawn
-std::vector<AlignedBox2d> draw_markers(const Frame& frame, Canvas& canvas) {
+/// What is seen there, else all that may be there: a name stands beside the former.
+AlignedBox2d box_at(const Vector2d& at, const AlignedBox2d& around,
+                    const std::vector<AlignedBox2d>& vehicles) {
+  for (const AlignedBox2d& seen : vehicles) {
+    if (seen.contains(at)) return seen;
+  }
+  return around;
+}
+
+/// @param vehicles  boxes of those seen  @returns boxes of what was drawn
+std::vector<AlignedBox2d> draw_markers(const Frame& frame,
+                                       const std::vector<AlignedBox2d>& vehicles, Canvas& canvas) {
   std::vector<AlignedBox2d> taken;
   const int text_px = caption_text_px(frame.height);
   const double radius = 0.75 * text_px, line_px = std::max(1.5, 0.14 * text_px);
@@ -89,7 +102,8 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame, Canvas& canvas) {
     std::string text;
     Rgb colour;
     bool inside;
-    double radius_px;  // of what is there, at least of the ring
+    bool ringed;
+    AlignedBox2d there;
   };
   std::vector<Placed> placed;
   for (const Marker& marker : frame.markers) {
@@ -112,11 +126,14 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame, Canvas& canvas) {
     }
     const double px_per_m = pixels_per_metre(frame, marker.p_W);
     const double away_px = inside ? std::max(radius, marker.radius_m * px_per_m) : radius;
-    taken.emplace_back(at - Vector2d::Constant(away_px), at + Vector2d::Constant(away_px));
-    placed.push_back({at, text, rgb_of(marker.colour), inside, away_px});
+    const bool ringed = away_px <= kRinged * radius;
+    const AlignedBox2d around(at - Vector2d::Constant(away_px), at + Vector2d::Constant(away_px));
+    const AlignedBox2d there = ringed ? around : box_at(at, around, vehicles);
+    taken.push_back(there);
+    placed.push_back({at, text, rgb_of(marker.colour), inside, ringed, there});
   }
   for (const Placed& one : placed) {
-    if (one.inside && one.radius_px > kRinged * radius) continue;
+    if (one.inside && !one.ringed) continue;
     if (one.inside) {
       canvas.outline(circle(one.at, radius), line_px + 2.0, kDarkInk, 0.55);
       canvas.outline(circle(one.at, radius), line_px, one.colour);
@@ -134,7 +151,7 @@ std::vector<AlignedBox2d> draw_markers(const Frame& frame, Canvas& canvas) {
   for (const Placed& one : placed) {
     const Vector2d text_size(text_width(one.text, text_px), 1.2 * text_px);
     const AlignedBox2d box =
-        place_of_text(one.at, one.radius_px + 0.4 * radius, text_size, frame, taken);
+        place_of_text(one.there, 0.4 * radius, text_size, frame, taken);
     write(canvas, one.text, text_px, {box.min().x(), box.max().y() - 0.28 * text_px});
     taken.push_back(box);
   }
@@ -167,11 +184,12 @@ void annotate(const Frame& frame, const std::vector<SeenMark>& seen, Image& imag
     if (mark.box_px.isEmpty()) continue;
     keep_clear.emplace_back(mark.box_px.min().cast<double>(), mark.box_px.max().cast<double>());
   }
+  const std::vector<AlignedBox2d> vehicles = keep_clear;
   Canvas canvas(std::move(image));
   if (frame.show_scale && frame.camera.orthographic) {
     keep_clear.push_back(draw_scale(frame, canvas));
   }
-  const std::vector<AlignedBox2d> marked = draw_markers(frame, canvas);
+  const std::vector<AlignedBox2d> marked = draw_markers(frame, vehicles, canvas);
   keep_clear.insert(keep_clear.end(), marked.begin(), marked.end());
   image = std::move(canvas).take();
   draw_caption(frame.caption, image, frame.legend, keep_clear);

@@ -341,6 +341,17 @@ TEST(ReportEvents, StandInOrderWithTheGraveOnesFirst) {
   EXPECT_EQ(event_table({}), "");
 }
 
+TEST(ReportEvents, ALongTextIsCutAfterAWord) {
+  std::string text;
+  while (text.size() < 200) text += "seventy ";
+  const std::string notice = event_notice({{9.0, "warning", "plane.guidance", text}});
+  EXPECT_THAT(notice, HasSubstr("seventy seventy …"));
+  // Without spaces anywhere, and never within a letter of two bytes.
+  std::string one_word = "x";
+  while (one_word.size() < 300) one_word += "°";
+  EXPECT_THAT(event_notice({{9.0, "warning", "plane", one_word}}), HasSubstr("°° …"));
+}
+
 TEST(ReportPapers, AreNamedInFullOnceWhereTheyAreCited) {
   const std::string page = with_citations("As paper A, figure 3. And paper A, section 2.");
   EXPECT_EQ(page,

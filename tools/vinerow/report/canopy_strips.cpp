@@ -177,7 +177,8 @@ std::string payload_section(const CanopyFile& canopy, const std::vector<RowFace>
   return out +
          "<figcaption>Each strip is one side of a row as it is seen from its alley, bottom of "
          "the canopy below; left and right are those of someone who looks along the row from its "
-         "first point. Heights are stretched. Clear: no canopy there.</figcaption>\n</figure>\n";
+         "first point. Rows have the world's numbers; a map that was made may number them "
+         "otherwise. Heights are stretched. Clear: no canopy there.</figcaption>\n</figure>\n";
 }
 
 }  // namespace

@@ -62,10 +62,11 @@ std::string badge(const std::string& level) {
   return fmt::format("<span class=\"badge{}\">{}</span>", style, level);
 }
 
-/// Not in the middle of a letter of several bytes.
+/// After a whole word, or where there is none, not in the middle of a letter of several bytes.
 std::string shortened(const std::string& text, std::size_t most) {
   if (text.size() <= most) return text;
-  std::size_t end = most;
+  std::size_t end = text.rfind(' ', most);
+  if (end == std::string::npos || end == 0) end = most;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return text.substr(0, end) + " …";
 }

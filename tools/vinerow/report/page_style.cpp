@@ -153,11 +153,11 @@ table.setup td { padding: 4px 10px; } table.facts.setup td:first-child { width: 
 th .num, th.num { display: block; text-align: right; } th.num { display: table-cell; }
 table.criteria td { padding: 3px 10px; } table.criteria details { margin: 0; } table.criteria summary { padding: 1px 0; }
 table.criteria p { margin: 0 0 4px; max-width: 60em; color: var(--soft); font-size: 13.5px; }
-table.events td.words { overflow-wrap: anywhere; } table.events code { white-space: nowrap; } .tall { max-height: 640px; overflow: auto; } table.events details { margin: 0; } table.events summary { padding: 0; } table.events tr.grave td { background: var(--warn-soft); }
+table.events td.words { overflow-wrap: anywhere; } table.events code { white-space: nowrap; } .tall { max-height: 640px; overflow: auto; } table.events details { margin: 0; } table.events summary { padding: 0; } table.events tr.grave { background: var(--warn-soft); } table.events th.num { white-space: nowrap; }
 table.events.grave-only tbody tr:not(.grave) { display: none; }
 .gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 265px), 1fr)); gap: 14px; margin: 0 0 14px; }
 .gallery figure.picture { padding: 0; overflow: hidden; } .gallery figcaption { padding: 4px 10px 7px; margin: 0; }
-.gallery img { width: 100%; height: auto; aspect-ratio: 16 / 10; object-fit: cover; object-position: 50% 40%; display: block; }
+.gallery img { width: 100%; height: auto; aspect-ratio: 16 / 9; object-fit: cover; object-position: 50% 40%; display: block; }
 .gallery img, figure.opens img { cursor: zoom-in; }
 details.more { margin: 0 0 20px; } details.more > summary { color: var(--soft); margin-bottom: 8px; }
 dialog.picture { border: 0; padding: 0; margin: 0; width: 100vw; height: 100vh; height: 100dvh; max-width: none; max-height: none; background: #0e1214; color: #eceae4; }

@@ -128,7 +128,7 @@ render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& 
 
   const double top = view.map_height + 14.0;
   canvas.text(title, 22, {static_cast<double>(view.margin), top + 14.0}, kInk);
-  canvas.text(fmt::format("{} rows, {} alleys, {} x {} cells of {:g} m, {:.1f} % free",
+  canvas.text(fmt::format("{} rows, {} alleys (numbered), {} x {} cells of {:g} m, {:.1f} % free",
                           world.rows->rows.size(), world.rows->alleys.size(), grid.columns,
                           grid.rows, grid.cell_m, 100.0 * worlds::free_share(grid)),
               16, {static_cast<double>(view.margin), top + 40.0}, kFaint);

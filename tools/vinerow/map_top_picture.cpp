@@ -154,7 +154,10 @@ void draw_rows(Canvas& canvas, const PlanView& view, const worlds::CloudMap& map
       std::optional<Vector2d>& before = drawn[last ? 1 : 0];
       if (before && (at - *before).norm() < kApart_px) continue;
       before = at;
-      canvas.text(std::to_string(row.id), 14, at + 16.0 * out + Vector2d(0.0, 5.0), kInk, 0.5);
+      // End posts lean out under the number.
+      const Vector2d middle = at + 19.0 * out;
+      draw_disc(canvas, middle, 9.5, kPaper);
+      canvas.text(std::to_string(row.id), 15, middle + Vector2d(0.0, 5.4), kInk, 0.5);
     }
   }
 }

@@ -97,8 +97,9 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
   const bool own_schedule = options.times_s || options.every_s;
   for (const double t_s : options.times_s.value_or(std::vector<double>{})) {
     if (t_s >= trace.first.s() && t_s <= trace.last.s()) continue;
-    throw ConfigError(fmt::format("there is no frame at {} s: the log holds {} s to {} s", t_s,
-                                  trace.first.s(), trace.last.s()));
+    throw ConfigError(
+        fmt::format("there is no frame at {:.9g} s: the log holds {:.9g} s to {:.9g} s", t_s,
+                    trace.first.s(), trace.last.s()));
   }
   for (const double t_s :
        own_schedule ? options.times_s.value_or(std::vector<double>{}) : pictures.times_s)
@@ -109,7 +110,8 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
     const double span_s = std::min(trace.last.s(), options.to_s.value_or(trace.last.s())) - first_s;
     if (span_s / every_s > io::kMostPictureInstants) {
       throw ConfigError(
-          fmt::format("a frame every {} s is {:.0f} instants of {} s, must be at most {:.0f}",
+          fmt::format("a frame every {:.9g} s is {:.0f} instants of {:.9g} s, must be at most "
+                      "{:.0f}",
                       every_s, span_s / every_s, span_s, io::kMostPictureInstants));
     }
     const auto count = static_cast<std::int64_t>(std::floor(span_s / every_s + 1e-9));

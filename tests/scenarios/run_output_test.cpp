@@ -223,19 +223,19 @@ TEST(StarterScenario, GivesAPictureAndCanBeDrawnAgain) {
   const std::string out = (folder.path() / "out").string();
   const CommandResult run = run_vinerow("run " + scenario +
                                         " --quiet --no-report --set "
-                                        "duration_s=2 --set pictures.width=160 --set "
+                                        "duration_s=2.3 --set pictures.width=160 --set "
                                         "pictures.height=90 --out " +
                                         out);
   ASSERT_EQ(run.status, 0) << run.output;
   if (run.output.find("pictures none") != std::string::npos) GTEST_SKIP() << run.output;
-  EXPECT_TRUE(std::filesystem::exists(out + "/frames/chase_000002000.png"));
+  EXPECT_TRUE(std::filesystem::exists(out + "/frames/chase_000002300.png"));
   const CommandResult again =
       run_vinerow("render " + out + "/log.mcap --camera chase --every 1 --width 160 --height 90");
   EXPECT_EQ(again.status, 0) << again.output;
   EXPECT_TRUE(std::filesystem::exists(out + "/frames/chase_000001000.png"));
   const CommandResult late = run_vinerow("render " + out + "/log.mcap --time 99999");
   EXPECT_EQ(late.status, 2);
-  EXPECT_THAT(late.output, HasSubstr("there is no frame at 99999 s: the log holds 0 s to 2 s"));
+  EXPECT_THAT(late.output, HasSubstr("there is no frame at 99999 s: the log holds 0 s to 2.3 s"));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ const ParameterTable<DwaPartParams>& dwa_table() {
           .choice("cost", cost(&DwaCost::as_printed), {{"corrected", false}, {"printed", true}},
                   "printed: J = alpha d_O + beta d_goal of eq. (23), which drives away")
           .number("speed_mps", "m/s", guide(&Guide::speed_mps), kPositive,
-                  "highest speed where the plan tells none")
+                  "highest speed where the plan has none")
           .number("acceleration_mps2", "m/s2", law(&DwaParams::acceleration_mps2), kPositive,
                   "speeding up and braking")
           .number("window_s", "s", law(&DwaParams::window_s), kPositive,

@@ -99,7 +99,7 @@ const ParameterTable<SurveyFlightParams>& survey_flight_table() {
           .degrees("bank_deg", &P::bank_rad, between(1.0, 75.0),
                    "in turns; absent: 35 deg, or what the vehicle can")
           .number("stall_speed_mps", "m/s", &P::stall_speed_mps, between(0.0, 100.0),
-                  "slowest speed; absent: the vehicle's, where it tells one")
+                  "slowest speed; absent: the vehicle's, where it has one")
           .number("ramp_error_m", "m", request(&R::ramp_error_m), kPositive,
                   "by which straight ramps between waypoints may miss the wanted height above "
                   "the terrain")

@@ -35,7 +35,7 @@ const ParameterTable<QuadrotorMpcParams>& quadrotor_mpc_table() {
           .number("tilt_limit_weight", "1/rad2", &P::tilt_weight, kPositive,
                   "cost of leaving the limit of tilt, 1/2 w s^2")
           .number("torque_share", "", &P::torque_share, between(0.05, 1.0),
-                  "limit of each torque as a share of what the rotors have in hover")
+                  "limit of each torque, as a fraction of what the rotors have in hover")
           .number("min_thrust", "weights", &P::min_thrust, between(0.0, 0.95),
                   "least thrust; keeps room for torques")
           .number("max_thrust", "weights", &P::max_thrust, between(1.05, 20.0),

@@ -75,7 +75,7 @@ const ParameterTable<GivenParams>& given_table() {
           .number("tolerance_least_m", "m", pilot(&LegPilotOptions::tolerance_least_m), kPositive,
                   "law paper: least tolerance")
           .number("airspeed_mps", "m/s", &G::airspeed_mps, kPositive,
-                  "where the plan tells none; default the vehicle's cruise speed")
+                  "where the plan has none; default the vehicle's cruise speed")
           .number("airspeed_rate_mps2", "m/s2", of(&P::airspeed_rate_mps2), kPositive,
                   "with which the airspeed changes where the plan or the landing wants another")
           .degrees("bank_deg", &G::bank_rad, above(0.0, 80.0),

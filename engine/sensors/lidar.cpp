@@ -65,8 +65,10 @@ const ParameterTable<LidarParams>& lidar_table() {
           .number("field_of_view_deg", "deg", &P::field_of_view_deg, between(0.0, 360.0),
                   "between the first and the last beam")
           .number("angle_step_deg", "deg", &P::angle_step_deg, kPositive, "between beams")
-          .number("min_range_m", "m", &P::min_range_m, above(0.0, 1e4), "shortest distance it tells")
-          .number("max_range_m", "m", &P::max_range_m, above(0.0, 1e4), "longest distance it tells")
+          .number("min_range_m", "m", &P::min_range_m, above(0.0, 1e4),
+                  "shortest distance it reports")
+          .number("max_range_m", "m", &P::max_range_m, above(0.0, 1e4),
+                  "longest distance it reports")
           .number("accuracy_m", "m", &P::accuracy_m, between(0.0, 10.0),
                   "largest constant error; the device's own is drawn once, uniformly")
           .number("noise_std_m", "m", &P::noise_std_m, between(0.0, 10.0),

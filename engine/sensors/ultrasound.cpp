@@ -51,8 +51,10 @@ const ParameterTable<UltrasoundParams>& ultrasound_table() {
           .degrees("half_angle_deg", &P::half_angle_rad, between(0.0, 80.0),
                    "half angle of the cone; 0 = a single ray")
           .integer("rings", &P::rings, between(0, 64), "rings of rays around the axis")
-          .number("min_range_m", "m", &P::min_range_m, above(0.0, 1e4), "shortest distance it tells")
-          .number("max_range_m", "m", &P::max_range_m, above(0.0, 1e4), "longest distance it tells")
+          .number("min_range_m", "m", &P::min_range_m, above(0.0, 1e4),
+                  "shortest distance it reports")
+          .number("max_range_m", "m", &P::max_range_m, above(0.0, 1e4),
+                  "longest distance it reports")
           .choice("error", &P::is_uniform, {{"uniform", true}, {"gaussian", false}},
                   "distribution of the noise; paper C's accuracy is uniform")
           .number("accuracy_m", "m", &P::accuracy_m, between(0.0, 10.0), "uniform: largest error")

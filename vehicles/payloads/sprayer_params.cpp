@@ -63,7 +63,7 @@ const ParameterTable<SprayerSettings>& sprayer_table() {
           .degrees("spray_half_angle_deg", of(&P::spray_half_angle_rad), between(0.0, 80.0),
                    "half angle of a nozzle's cone in the air stream")
           .number("hollow_share", "", &S::hollow_share, between(0.0, 1.0),
-                  "half angle of the empty inner cone, as a share of the outer one")
+                  "half angle of the empty inner cone, as a fraction of the outer one")
           .number("nozzle_flow_lpm", "l/min", &S::rated_flow_lps, kPositive,
                   "flow of a nozzle at its rated pressure; 0.2 l/min at 3 bar is size 005",
                   kPerMinute)

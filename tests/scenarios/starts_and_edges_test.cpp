@@ -50,13 +50,16 @@ std::string events(const ScratchFolder& folder) {
   return test::read_text(folder.path() / "out" / "events.jsonl");
 }
 
+NamedValues wheels(double radps) {
+  return {{"wheel_fl_speed_radps", "wheel_fr_speed_radps", "wheel_rl_speed_radps",
+           "wheel_rr_speed_radps"},
+          {radps, radps, radps, radps}};
+}
+
 /// Drives straight until the run breaks off, fast: slowly it would come to lie on the edge.
 /// @returns why
 std::string drive_off(Session session, double radps) {
-  const NamedValues wheels{{"wheel_fl_speed_radps", "wheel_fr_speed_radps", "wheel_rl_speed_radps",
-                            "wheel_rr_speed_radps"},
-                           {radps, radps, radps, radps}};
-  session.command("rover/actuators", session.now(), wheels);
+  session.command("rover/actuators", session.now(), wheels(radps));
   try {
     while (!session.over()) session.advance_for(Duration{500'000'000});
   } catch (const SimulationError& error) {
@@ -111,6 +114,24 @@ TEST(MeshWorldRun, AnObstacleIsTouchedByItsName) {
                            "{x_m: 0, y_m: 0}", 15));
   EXPECT_EQ(result.status, 1) << result.output;
   EXPECT_THAT(events(folder), HasSubstr("touches obstacle 'crate' at x = 6.0"));
+}
+
+TEST(Contacts, ATouchAfterAPauseIsAnotherOne) {
+  std::string text = test::kFreeRover;
+  text.replace(text.find("duration_s: 3"), 13, "duration_s: 60");
+  const std::string crate = ", obstacles: [{name: crate, alley: 0, distance_m: 4}]";
+  text.insert(text.find(", relief_m"), crate);
+  Session session = open_session_text(text, ".", {}, driven());
+  const auto contacts = session.signal<NamedValues>("rover/contacts");
+  const auto drive = [&](double radps, std::int64_t time_s) {
+    session.command("rover/actuators", session.now(), wheels(radps));
+    session.advance_for(Duration{time_s * 1'000'000'000});
+    return contacts.value().values;
+  };
+  using Counted = std::vector<double>;  // how many touches so far; whether it touches now
+  EXPECT_EQ(drive(4.0, 15), (Counted{1.0, 1.0})) << "pushes for seconds: one touch";
+  EXPECT_EQ(drive(-4.0, 2), (Counted{1.0, 0.0}));
+  EXPECT_EQ(drive(4.0, 6), (Counted{2.0, 1.0}));
 }
 
 TEST(Edges, LeavingAParcelNamesTheKeyThatMakesItLarger) {

@@ -361,6 +361,44 @@ TEST(AlleyTraffic, WhoAskedFirstGoesFirst) {
   EXPECT_EQ(other.authority(1).holder, "rover");
 }
 
+TEST(AlleyTraffic, TheEarlierOfTwoRequestsForATakenAlleyIsServedFirst) {
+  // The cart works in alley 2, into which rover and drone want to turn from either side.
+  AlleyTraffic traffic(make_alleys(4),
+                       {make_vehicle("rover"), make_vehicle("drone"), make_vehicle("cart")});
+  traffic.begin(0, Time{}, make_tour({1, 2}, 0.0).plan);
+  traffic.begin(1, Time{}, make_tour({3, 2}, 0.0).plan);
+  traffic.begin(2, Time{}, make_tour({2}, 0.0).plan);
+  traffic.advance(1, tick(1), 28.0);
+  traffic.advance(0, tick(2), 28.0);
+  traffic.serve();
+  EXPECT_EQ(traffic.authority(0).holder, "cart");
+  EXPECT_EQ(traffic.authority(1).holder, "cart");
+  traffic.leave(2, AlleyTraffic::Leaving::kGone);
+  traffic.serve();
+  EXPECT_EQ(traffic.authority(1).stop_at_m, kInfinity);
+  EXPECT_EQ(traffic.authority(0).holder, "drone");
+}
+
+TEST(AlleyTraffic, WhatAnEarlierRequestNeedsIsKeptForIt) {
+  // The rover wants to turn from alley 1 into alley 3, past alley 2; the cart still works in 3.
+  AlleyTraffic traffic(make_alleys(4),
+                       {make_vehicle("rover"), make_vehicle("drone"), make_vehicle("cart")});
+  traffic.begin(0, Time{}, make_tour({1, 3}, 0.0).plan);
+  traffic.begin(2, Time{}, make_tour({3}, 0.0).plan);
+  traffic.advance(0, tick(1), 28.0);
+  // The drone comes later and wants alley 2 alone: free, but the rover asked for it before.
+  traffic.begin(1, tick(2), make_tour({2}).plan);
+  traffic.serve();
+  EXPECT_EQ(traffic.authority(1).stop_at_m, 6.0 - 2.0);
+  EXPECT_EQ(traffic.authority(1).alley, 102);
+  EXPECT_EQ(traffic.authority(1).holder, "");
+  EXPECT_FALSE(traffic.deadlock().has_value());
+  traffic.leave(2, AlleyTraffic::Leaving::kGone);
+  traffic.serve();
+  EXPECT_EQ(traffic.authority(0).stop_at_m, kInfinity);
+  EXPECT_EQ(traffic.authority(1).holder, "rover");
+}
+
 TEST(AlleyTraffic, AnEarlierRequestThatCannotBeServedFirstIsOvertaken) {
   // The rover asked for {1, 2, 3} first, the drone holds 3 and wants 2: waiting for the rover's
   // turn would be for ever.
@@ -441,7 +479,8 @@ TEST(AlleyTraffic, ASingleAlleyIsSharedInTurn) {
 TEST(AlleyTraffic, AVehicleThatStaysClosesItsAlleyForGood) {
   for (const bool stays : {false, true}) {
     Yard yard(make_alleys(2), {make_mover({0, 1}), make_mover({0, 1})});
-    for (int i = 0; i < 200; ++i) yard.step();  // 20 m: inside alley 0
+    for (int i = 0; i < 330; ++i) yard.step();  // 32 m: inside alley 0, and may go on into 1
+    EXPECT_EQ(yard.traffic.holder(1), 0);
     yard.traffic.leave(0,
                        stays ? AlleyTraffic::Leaving::kStaysThere : AlleyTraffic::Leaving::kGone);
     yard.movers[0].is_done = true;

@@ -130,6 +130,8 @@ TEST(Echo, StrengthsHaveTheirClosedForms) {
   EchoParams params;
   EXPECT_DOUBLE_EQ(beam_pattern(params, 0.0), 1.0);
   EXPECT_NEAR(beam_pattern(params, params.beam_half_power_rad), 0.5, 1e-12);
+  // A Gaussian: its logarithm falls with the square of the angle.
+  EXPECT_NEAR(beam_pattern(params, 2.0 * params.beam_half_power_rad), std::pow(0.5, 4), 1e-12);
   EXPECT_DOUBLE_EQ(echo_spreading(params, 1.0), 1.0);
   // Twice as far: a quarter, and 2 x 1 m x 1.3 dB/m less.
   EXPECT_NEAR(echo_spreading(params, 2.0), 0.25 * std::pow(10.0, -0.26), 1e-12);

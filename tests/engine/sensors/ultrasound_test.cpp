@@ -136,6 +136,14 @@ TEST(Ultrasound, NearAndFarAreCutOff) {
   Bench near("ultrasound", {{"noise_std_m", 0.0}}, touching);
   EXPECT_EQ(near.step().range_m, 0.02);
   EXPECT_NEAR(near.truth().value().range_m, 0.005, 1e-12);
+  // In range, but in cold air the echo comes late, as from 3.9 m x 349.0 / 331.3 = 4.1 m.
+  const ShapeScene in_range = wall(3.9);
+  Bench cold(
+      "ultrasound",
+      {{"noise_std_m", 0.0}, {"air_temperature_degC", 0.0}, {"assumed_temperature_degC", 30.0}},
+      in_range);
+  EXPECT_EQ(cold.step().range_m, kNothing_m);
+  EXPECT_NEAR(cold.truth().value().range_m, 3.9, 1e-12);
 }
 
 TEST(Ultrasound, MissedAndFalseEchoesHaveTheirShares) {

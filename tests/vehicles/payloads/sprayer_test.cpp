@@ -123,6 +123,41 @@ TEST(Sprayer, TellsLitresPerHectareOfTheAlley) {
   EXPECT_EQ(rig.result("litres_off_row"), 0.0);
 }
 
+TEST(Sprayer, TellsWhatItSpraysBeyondTheEndsOfTheRows) {
+  PayloadRig rig("sprayer",
+                 make_box_rows({{.y_m = 1.25, .to_x_m = 40.0}, {.y_m = -1.25, .to_x_m = 40.0}}),
+                 ideal({{"beyond_end_m", 1.5}}));
+  rig.pass(-3.0, 43.0, 0.0, 0.8);
+  // 1.5 m at either end at 0.8 m/s; valves act and rows begin within a tick of 0.05 s.
+  const double flow_lps = 2.0 * side_flow_lps();
+  EXPECT_NEAR(rig.result("litres_off_row"), flow_lps * 3.0 / 0.8, flow_lps * 4.0 * 0.05);
+}
+
+// A full cone that fills its solid angle evenly: the cosine c of the angle to the axis is uniform
+// between cos a and 1, so tan^2 has the mean 1 / cos a - 1, half of it upwards.
+TEST(Sprayer, AConeIsFilledEvenly) {
+  const double a_deg = 40.0, wall_m = 0.7, band_m = 0.25;
+  PayloadRig rig("sprayer", make_box_rows(high_walls()),
+                 ideal({{"row_reach_m", 3.0},
+                        {"rays_per_nozzle", std::int64_t{100}},
+                        {"hollow_share", 0.0},
+                        {"spray_half_angle_deg", a_deg},
+                        {"nozzle_elevation_deg", std::vector<double>{0.0}},
+                        {"nozzle_heights_m", std::vector<double>{2.0}}}));
+  rig.pass(10.0, 20.0, 0.0, 1.0);
+  double ml = 0.0, z_ml = 0.0, z2_ml = 0.0;
+  for (const CanopyPatch& patch : rig.patches()) {
+    const double here_ml = patch.amount * patch.area_m2, z_m = patch.p_W.z();
+    ml += here_ml, z_ml += here_ml * z_m, z2_ml += here_ml * z_m * z_m;
+  }
+  const double mean_m = z_ml / ml, variance_m2 = z2_ml / ml - mean_m * mean_m;
+  EXPECT_NEAR(mean_m, 2.0, 0.01);
+  // A drop is shared by the two bands next to it, which adds a sixth of a band's height squared.
+  const double expected_m2 =
+      0.5 * wall_m * wall_m * (1.0 / std::cos(rad_from_deg(a_deg)) - 1.0) + band_m * band_m / 6.0;
+  EXPECT_NEAR(variance_m2, expected_m2, 0.04 * expected_m2);
+}
+
 TEST(Sprayer, AThinnerCanopyCatchesByBeersLaw) {
   // One straight jet into a wall of 0.5 m and k = 0.5 * 4 / m; what comes through is lost.
   PayloadRig rig("sprayer", make_box_rows({{.y_m = 1.25, .base_m = -0.5, .top_m = 6.0}}),

@@ -24,7 +24,7 @@ class Outcome:
     fault: str  # "": as it should be
 
 
-def fault_of(status: int, out_of_time: bool, peak_kb: int, error: str, sanitized: bool) -> str:
+def fault_of(status: int, out_of_time: bool, peak_kb: int, error: str) -> str:
     if out_of_time:
         return "hang"
     if status < 0:
@@ -32,7 +32,7 @@ def fault_of(status: int, out_of_time: bool, peak_kb: int, error: str, sanitized
     for words in BUGS:
         if words in error:
             return f"failure ({words})"
-    if peak_kb > MOST_KB and not sanitized:
+    if peak_kb > MOST_KB:
         return "memory"
     if status not in (0, 1, 2, 3):
         return f"exit status {status}"
@@ -44,31 +44,76 @@ def fault_of(status: int, out_of_time: bool, peak_kb: int, error: str, sanitized
     return ""
 
 
+def limit_bytes(sanitized: bool) -> int:
+    """Of addresses; 0: none, because a sanitizer's shadow memory takes terabytes of them."""
+    return 0 if sanitized else 3 * MOST_KB * 512
+
+
+class Alarm:
+    """Kills a process group when its time is over."""
+
+    def __init__(self, process: int, sanitized: bool) -> None:
+        # Time of the processor would be fairer, but a program that waits hangs as well.
+        self.late, self.process = threading.Event(), process
+        self.timer = threading.Timer(LONGEST_S * (8 if sanitized else 1), self._stop)
+
+    def _stop(self) -> None:
+        self.late.set()
+        os.killpg(self.process, signal.SIGKILL)
+
+    def __enter__(self) -> "Alarm":
+        self.timer.start()
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.timer.cancel()
+
+
 def watch(command: list[str], folder: Path, sanitized: bool) -> Outcome:
-    """`folder` is where the program runs."""
+    """A process of its own; `folder` is where it runs."""
 
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        if not sanitized:  # shadow memory takes terabytes of addresses
-            resource.setrlimit(resource.RLIMIT_AS, (3 * MOST_KB * 512, 3 * MOST_KB * 512))
+        if most := limit_bytes(sanitized):
+            resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
     with tempfile.TemporaryFile() as errors:
         process = subprocess.Popen(
             command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors,
             start_new_session=True, preexec_fn=limit)
-        late = threading.Event()
-
-        def stop() -> None:
-            late.set()
-            os.killpg(process.pid, signal.SIGKILL)
-
-        # Time of the processor would be fairer, but a program that waits hangs as well.
-        timer = threading.Timer(LONGEST_S * (8 if sanitized else 1), stop)
-        timer.start()
-        _, waited, usage = os.wait4(process.pid, 0)
-        timer.cancel()
+        with Alarm(process.pid, sanitized) as alarm:
+            _, waited, usage = os.wait4(process.pid, 0)
         process.returncode = status = os.waitstatus_to_exitcode(waited)
         errors.seek(0)
         error = errors.read(1 << 20).decode("utf-8", "replace")
-    fault = fault_of(status, late.is_set(), usage.ru_maxrss, error, sanitized)
+    fault = fault_of(status, alarm.late.is_set(), usage.ru_maxrss, error)
     return Outcome(status, usage.ru_utime + usage.ru_stime, usage.ru_maxrss, error, fault)
+
+
+class ForkServer:
+    """The same by tests/hostile/fork_server.cpp, which is started once."""
+
+    def __init__(self, server: Path, sanitized: bool) -> None:
+        self.sanitized = sanitized
+        self.errors = tempfile.NamedTemporaryFile()
+        environment = {**os.environ, "VINEROW_FORK_ERRORS": self.errors.name, "LD_BIND_NOW": "1"}
+        if most := limit_bytes(sanitized):
+            environment["VINEROW_FORK_BYTES"] = str(most)
+        self.process = subprocess.Popen([server], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment)
+
+    def watch(self, words: list[str], folder: Path) -> Outcome:
+        self.process.stdin.write("\t".join([str(folder), *words]) + "\n")
+        self.process.stdin.flush()
+        with Alarm(int(self.process.stdout.readline()), self.sanitized) as alarm:
+            waited, seconds, peak_kb = self.process.stdout.readline().split()
+        status = os.waitstatus_to_exitcode(int(waited))
+        with open(self.errors.name, "rb") as file:
+            error = file.read(1 << 20).decode("utf-8", "replace")
+        fault = fault_of(status, alarm.late.is_set(), int(peak_kb), error)
+        return Outcome(status, float(seconds), int(peak_kb), error, fault)
+
+    def close(self) -> None:
+        self.process.stdin.close()
+        self.process.stdout.close()
+        self.process.wait()
+        self.errors.close()

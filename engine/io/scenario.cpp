@@ -286,7 +286,8 @@ Scenario load_scenario(const fs::path& file, const Registry& registry, const Ove
 
 Scenario parse_scenario(const std::string& yaml, const fs::path& folder, const Registry& registry,
                         const Overrides& overrides) {
-  const fs::path absolute_folder = fs::absolute(folder).lexically_normal();
+  // The folder of a file that is named without one is empty: the current folder.
+  const fs::path absolute_folder = fs::absolute(fs::path(".") / folder).lexically_normal();
   YamlNode root = parse_yaml(yaml, "scenario", absolute_folder);
   const SourceMark whole{"scenario", 0};
   if (root.is_null()) fail_at(whole, "the file is empty; a scenario starts with 'vinerow: 1'");

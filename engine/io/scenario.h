@@ -219,7 +219,7 @@ std::vector<std::filesystem::path> load_plugin_list(const std::filesystem::path&
 /// one sentence
 Scenario load_scenario(const std::filesystem::path& file, const Registry& registry,
                        const Overrides& overrides = {});
-/// The same from text, for tests; relative paths start at `folder`.
+/// The same from text; relative paths start at `folder`, and an empty one is the current folder.
 Scenario parse_scenario(const std::string& yaml, const std::filesystem::path& folder,
                         const Registry& registry, const Overrides& overrides = {});
 

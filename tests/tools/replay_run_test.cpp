@@ -264,6 +264,15 @@ TEST_F(ReplaySection, KeepsTextFromEndingItsElement) {
   EXPECT_EQ(read.index["phases"][0]["name"], "<!--<script>");
 }
 
+TEST_F(ReplayCommand, TakesALogOfTheCurrentFolder) {
+  const ScratchFolder folder("replay_here");
+  run_into(folder, 0.5);
+  const auto result = run_vinerow("replay log.mcap --out here.html",
+                                  "cd " + (folder.path() / "run").string() + " &&");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run" / "here.html"));
+}
+
 TEST_F(ReplayCommand, RefusesWhatIsNoRun) {
   const ScratchFolder folder("replay_refused");
   const auto refused = [&](const std::string& run, const std::string& sentence) {

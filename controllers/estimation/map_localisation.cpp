@@ -169,8 +169,8 @@ class MapLocalisation final : public Estimator {
     if (is_finite(ins_.value())) known_ins_ = ins_.value();
     if (!law_.has_started()) {
       // The inertial unit's attitude is known from the first reading; the place is drawn.
-      const Eigen::Vector3d draw(random_.normal(), random_.normal(), random_.normal());
-      law_.start(now, truth_.value().X_WB.p + start_std_m_ * draw,
+      const double z = random_.normal(), y = random_.normal(), x = random_.normal();
+      law_.start(now, truth_.value().X_WB.p + start_std_m_ * Eigen::Vector3d(x, y, z),
                  start_std_m_ * start_std_m_ * Eigen::Matrix3d::Identity());
     }
     const Odometry& told = ins_.value();

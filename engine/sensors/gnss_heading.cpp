@@ -77,7 +77,8 @@ class GnssHeadingSensor final : public MountedSensor<GnssHeading> {
 
   void step(Time now) override {
     for (GaussMarkov& walk : walks_) walk.step(random_);
-    const Eigen::Vector3d white(random_.normal(), random_.normal(), random_.normal());
+    const double z = random_.normal(), y = random_.normal(), x = random_.normal();
+    const Eigen::Vector3d white(x, y, z);
     const Pose X_WA = X_WS();
     const Eigen::Vector3d baseline_W = X_WA.q * Eigen::Vector3d(params_.baseline_m, 0.0, 0.0);
     GnssHeading exact = reading_of(baseline_W, Eigen::Vector3d::Zero());

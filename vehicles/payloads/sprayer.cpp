@@ -30,8 +30,9 @@ constexpr double kBesideAngle_rad = rad_from_deg(60.0);
 /// Points of low discrepancy in the unit cube.
 class QuasiRandom {
  public:
-  explicit QuasiRandom(RandomStream& random)
-      : at_(random.uniform(), random.uniform(), random.uniform()) {}
+  explicit QuasiRandom(RandomStream& random) {
+    for (int i : {2, 1, 0}) at_[i] = random.uniform();
+  }
   const Vector3d& next() {
     constexpr std::array<double, 3> kSteps = {0.8191725133961645, 0.6710436067037893,
                                               0.5497004779019703};

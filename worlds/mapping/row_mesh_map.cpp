@@ -247,8 +247,9 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
   MapPlacement placement;
   placement.middle_W = middle_of(context.world->rows->rows);
   RandomStream random = surveyor.stream("offset");
-  const Eigen::Vector3d drawn(random.normal(), random.normal(), random.normal());
-  placement.shift_m = params.offset_m + accuracy.offset_std_m.cwiseProduct(drawn);
+  const double z = random.normal(), y = random.normal(), x = random.normal();
+  placement.shift_m =
+      params.offset_m + accuracy.offset_std_m.cwiseProduct(Eigen::Vector3d(x, y, z));
   placement.turn_rad = params.rotation_rad;
   placement.scale = params.scale;
   made.shift_m = placement.shift_m;

@@ -170,7 +170,8 @@ class Layout {
       const double size = random_.uniform();
       tree.kind = is_slender ? 2 : size < 0.35 ? 3 : size < 0.75 ? 0 : 1;
       const bool is_gap = random_.uniform() < 0.15;
-      s += random_.uniform(4.5, 9.0) + (is_gap ? random_.uniform(15.0, 50.0) : 0.0);
+      const double step_m = random_.uniform(4.5, 9.0);
+      s += step_m + (is_gap ? random_.uniform(15.0, 50.0) : 0.0);
       if (is_clear(tree.p_W)) scenery_.trees.push_back(tree);
     }
   }

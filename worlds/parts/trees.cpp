@@ -75,7 +75,8 @@ TriangleMesh make_tree_trunk(const TreeParams& params, const Crown& crown, Rando
   const Eigen::Vector3f kBark(0.085f, 0.065f, 0.05f);
   const double r = params.trunk_radius_m;
   const double fork_m = 0.5 * (params.crown_base_m + crown.centre.z());
-  const Eigen::Vector3d bend(random.uniform(-0.06, 0.06), random.uniform(-0.06, 0.06), 0.0);
+  const double bend_y = random.uniform(-0.06, 0.06), bend_x = random.uniform(-0.06, 0.06);
+  const Eigen::Vector3d bend(bend_x, bend_y, 0.0);
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const std::array<TubePoint, 4> stem = {
       TubePoint{-0.15 * up, 1.5 * r}, TubePoint{0.1 * up, 1.15 * r},

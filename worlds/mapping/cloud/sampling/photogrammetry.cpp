@@ -151,8 +151,8 @@ void sample_tile(const Survey& survey, std::int64_t tile, std::vector<SampledPoi
   const Vector2d corner = survey.tiles.corner_W(tile);
   std::vector<std::uint16_t> showing;
   for (int cell = 0; cell < side * side; ++cell) {
-    const Vector2d aim =
-        corner + cell_m * Vector2d(cell % side + random.uniform(), cell / side + random.uniform());
+    const double v = random.uniform(), u = random.uniform();
+    const Vector2d aim = corner + cell_m * Vector2d(cell % side + u, cell / side + v);
     const double chance = random.uniform();
     if (!survey.area.contains(aim, kRim_m)) continue;
     const auto ground_m = survey.ground_m(aim);

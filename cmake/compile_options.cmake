@@ -60,10 +60,6 @@ add_compile_options(-Wall -Wextra -Werror -Wshadow -Wnon-virtual-dtor -Woverload
                     -ffp-contract=off -fno-semantic-interposition
                     -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 
-if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
-  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/eigen_without_fma.h>")
-endif()
-
 if(VINEROW_SANITIZE)
   add_compile_options(-fsanitize=${VINEROW_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VINEROW_SANITIZE})

@@ -1,6 +1,9 @@
 # Outside libraries. Each is linked by one folder only (tests/support/layers_test.py checks the includes).
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  include(${CMAKE_CURRENT_LIST_DIR}/eigen_on_aarch64.cmake)
+endif()
 find_package(fmt REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(yaml-cpp REQUIRED)

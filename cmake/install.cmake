@@ -15,8 +15,13 @@ install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vinerow PATTERN Doxyfile EXCLUDE)
 install(EXPORT vinerowTargets NAMESPACE vinerow:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vinerow)
 
+# The Eigen that the library is compiled with, where that is a copy (eigen_on_aarch64.cmake): for plug-ins.
+set(VINEROW_INSTALLED_EIGEN ${CMAKE_INSTALL_INCLUDEDIR}/vinerow/eigen)
+if(VINEROW_EIGEN)
+  install(DIRECTORY ${VINEROW_EIGEN}/ DESTINATION ${VINEROW_INSTALLED_EIGEN})
+endif()
 configure_package_config_file(cmake/vinerowConfig.cmake.in ${CMAKE_BINARY_DIR}/vinerowConfig.cmake
-                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vinerow)
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vinerow PATH_VARS VINEROW_INSTALLED_EIGEN)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/vinerowConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/vinerowConfig.cmake ${CMAKE_BINARY_DIR}/vinerowConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vinerow)

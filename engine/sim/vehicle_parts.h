@@ -1,0 +1,39 @@
+#pragma once
+/// What the sources of VehicleRuntime share when they build the parts of a vehicle.
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "engine/core/error.h"
+#include "engine/sim/vehicle_runtime.h"
+
+namespace vinerow {
+
+/// What the part of a vehicle refuses is told with the place where the scenario names the part.
+template <class Make>
+auto with_place(const io::SourceMark& where, const std::string& vehicle, Make&& make) {
+  try {
+    return make();
+  } catch (const ConfigError& error) {
+    const std::string text = error.what();
+    // Others say a place of their own: a file's, or that of the key.
+    if (!text.starts_with(vehicle + ".") && !text.starts_with(vehicle + ":")) throw;
+    throw ConfigError(fmt::format("{}: {}", where.text(), text));
+  }
+}
+
+template <class Context>
+Context VehicleRuntime::context(const std::string& part, double rate_Hz) const {
+  Context result;
+  result.vehicle = config_.name;
+  result.part = part;
+  result.seed = run_.scenario.seed;
+  result.period = rate_Hz > 0.0 ? period_of_rate(rate_Hz) : Duration{};
+  result.physics_step = run_.scenario.physics_step;
+  result.gravity_mps2 = run_.scenario.gravity_mps2;
+  result.shelf = run_.shelf;
+  return result;
+}
+
+}  // namespace vinerow

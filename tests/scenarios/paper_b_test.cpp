@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <ostream>
+
 #include "tests/scenarios/command.h"
 #include "vinerow/testing.h"
 
@@ -14,6 +16,10 @@ namespace {
 struct Cell {
   double lookahead_m, pitch_m, atd_mm, of, ra_per_m;
 };
+
+void PrintTo(const Cell& cell, std::ostream* out) {
+  *out << "lookahead " << cell.lookahead_m << " m, pitch " << cell.pitch_m << " m";
+}
 
 class PaperBTable : public ::testing::TestWithParam<Cell> {};
 

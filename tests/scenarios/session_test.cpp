@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 #include <thread>
 
 #include "engine/api/messages/sensors.h"
@@ -30,6 +31,10 @@ struct Shipped {
   double end_s;
   std::vector<std::string> sets = {};
 };
+
+void PrintTo(const Shipped& shipped, std::ostream* out) {
+  *out << shipped.name;
+}
 
 class ResetSession : public ::testing::TestWithParam<Shipped> {};
 

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <array>
 #include <cstdio>
+#include <ostream>
 #include <string>
 
 #include "controllers/estimation/error_state_kalman.h"
@@ -124,6 +125,10 @@ double nees(const Look& look, int from, int size) {
   const Eigen::MatrixXd P = look.covariance.block(from, from, size, size);
   const Eigen::VectorXd e = look.error.segment(from, size);
   return e.dot(P.llt().solve(e));
+}
+
+void PrintTo(const Unit& unit, std::ostream* out) {
+  *out << unit.name;
 }
 
 class Consistency : public ::testing::TestWithParam<Unit> {};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <ostream>
 
 #include "tests/controllers/support/mission.h"
 
@@ -33,6 +34,10 @@ struct Cell {
   int oscillations;
   double accuracy;
 };
+
+void PrintTo(const Cell& cell, std::ostream* out) {
+  *out << "lookahead " << cell.lookahead_m << " m, pitch " << cell.pitch_m << " m";
+}
 
 class LookaheadTimesPitch : public ::testing::TestWithParam<Cell> {};
 

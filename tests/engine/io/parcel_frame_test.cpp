@@ -1,5 +1,7 @@
 #include "engine/io/parcel_frame.h"
 
+#include <ostream>
+
 #include "engine/core/random.h"
 #include "engine/io/geo.h"
 #include "tests/engine/io/point_cloud_files.h"
@@ -15,6 +17,10 @@ struct Parcel {
   double half;  // of the box, in the CRS's unit
   bool is_fitted;
 };
+
+void PrintTo(const Parcel& parcel, std::ostream* out) {
+  *out << parcel.crs << " about " << parcel.middle.transpose() << ", half " << parcel.half;
+}
 
 class ParcelFrameOf : public ::testing::TestWithParam<Parcel> {};
 

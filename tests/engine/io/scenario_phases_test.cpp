@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "tests/engine/io/scenario_fakes.h"
 
 namespace vinerow::io::scenario_phases_test {
@@ -99,6 +101,10 @@ struct Fault {
   const char* rest;
   const char* sentence;
 };
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.sentence;
+}
 
 class ScenarioPhaseFaults : public ::testing::TestWithParam<Fault> {};
 

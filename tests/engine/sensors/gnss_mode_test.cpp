@@ -4,11 +4,21 @@
 
 #include <cmath>
 #include <limits>
+#include <ostream>
 
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 #include "engine/sensors/gnss_error.h"
 #include "engine/sensors/gnss_mode.h"
+
+namespace vinerow {
+
+void PrintTo(GnssFix::Mode mode, std::ostream* out) {
+  constexpr const char* kNames[] = {"none", "standalone", "sbas", "float", "fixed"};
+  *out << kNames[static_cast<int>(mode)];
+}
+
+}  // namespace vinerow
 
 namespace vinerow::gnss_mode_test {
 namespace {

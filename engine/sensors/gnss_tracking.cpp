@@ -83,11 +83,11 @@ GnssTracking::GnssTracking(const GnssSignals& signals, GnssSky sky, const SceneQ
       period_s_(period_s),
       random_(random),
       satellites_(sky_.size()) {
-  constexpr double kLong_s = 1e9;
+  constexpr double kHeardLong_s = 1e9;
   for (Satellite& satellite : satellites_) {
     satellite.fading = GaussMarkov(1.0, signals_.fading_time_s, period_s_);
     satellite.fading.start(random_);
-    if (locked) satellite.heard_s = satellite.carrier_s = kLong_s;
+    if (locked) satellite.heard_s = satellite.carrier_s = kHeardLong_s;
   }
 }
 

@@ -26,8 +26,8 @@ const ParameterTable<MissingStretch>& missing_stretch_table() {
   return table;
 }
 
-const ParameterTable<RowMeshParams::RandomMissing>& random_missing_table() {
-  using P = RowMeshParams::RandomMissing;
+const ParameterTable<RandomMissing>& random_missing_table() {
+  using P = RandomMissing;
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .integer("count", &P::count, between(0, 10'000), "number of gaps")

@@ -18,12 +18,13 @@ struct MissingStretch {
   double from_m = 0.0, to_m = 0.0;
 };
 
-struct RowMeshParams {
-  struct RandomMissing {
-    int count = 0;
-    double length_m = 1.0;  ///< of each gap
-  };
+/// Such gaps at drawn places.
+struct RandomMissing {
+  int count = 0;
+  double length_m = 1.0;  ///< of each gap
+};
 
+struct RowMeshParams {
   CanopySurveyOptions sections;
   std::string survey;                                      ///< vehicles that name one share its map
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();      ///< east, north, up; the map is silent

@@ -59,7 +59,9 @@ endif()
 string(APPEND replay_assembly ".section .note.GNU-stack,\"\",@progbits\n")
 # In lower case: a file that ends on .S would go through the C preprocessor first.
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/replay_assets.s CONTENT "${replay_assembly}" @ONLY)
-set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/replay_assets.s PROPERTIES OBJECT_DEPENDS "${replay_assets}")
+# Clang warns of options of C++ that an assembler has no use for.
+set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/replay_assets.s PROPERTIES OBJECT_DEPENDS "${replay_assets}"
+    COMPILE_OPTIONS -Wno-unused-command-line-argument)
 
 set(replay_sources)
 foreach(name base64 replay replay_assets replay_decimate replay_glb replay_ground replay_plans replay_run replay_scene

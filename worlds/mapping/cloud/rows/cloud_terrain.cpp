@@ -138,7 +138,8 @@ HeightField coarse_surface(const ParcelCloud& cloud, const Eigen::AlignedBox3f& 
   constexpr double kCell_m = 5.0;
   constexpr double kLowShare = 0.03;
   const Lattice lattice(box, kCell_m);
-  const auto [low, high] = height_range(cloud);
+  const std::pair<float, float> range = height_range(cloud);
+  const float low = range.first, high = range.second;
   const int bins = std::clamp(static_cast<int>((high - low) / 0.2f), 1, 2000);
   const float per_bin = static_cast<float>(bins) / (high - low);
   Histograms histograms(lattice.size(), bins);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares what a shipped scenario gives with golden.json: digest, metrics, phases and exit status.
 
-usage: golden.py check  VINEROW SCENARIO [--plain]        one scenario against the file; exit status 1 tells what differs
+usage: golden.py check  VINEROW SCENARIO... [--plain]     against the file; exit status 1 tells what differs
        golden.py start  VINEROW SCENARIO... [--under EMULATOR]  the digest of the first seconds alone
        golden.py record VINEROW [SCENARIO...]             writes the file again (all of them, or those named)
 
@@ -76,13 +76,15 @@ def golden_of(name):
     return golden[name]
 
 
-def check(vinerow, name, plain):
-    expected = golden_of(name)
-    expected.pop("start_digest")
-    faults = list(differences(expected, run(vinerow, name, expected["set"], plain=plain)))
-    for fault in faults:
-        print(f"{name}: {fault}")
-    sys.exit(1 if faults else 0)
+def check(vinerow, names, plain):
+    failed = False
+    for name in names:
+        expected = golden_of(name)
+        expected.pop("start_digest")
+        for fault in differences(expected, run(vinerow, name, expected["set"], plain=plain)):
+            print(f"{name}: {fault}", flush=True)
+            failed = True
+    sys.exit(1 if failed else 0)
 
 
 def check_start(vinerow, names, under):
@@ -121,8 +123,8 @@ def main():
         record(given.vinerow, given.scenarios)
     elif given.work == "start" and given.scenarios:
         check_start(given.vinerow, given.scenarios, given.under)
-    elif given.work == "check" and len(given.scenarios) == 1:
-        check(given.vinerow, given.scenarios[0], given.plain)
+    elif given.work == "check" and given.scenarios:
+        check(given.vinerow, given.scenarios, given.plain)
     else:
         sys.exit(__doc__)
 

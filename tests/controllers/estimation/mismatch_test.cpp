@@ -239,11 +239,11 @@ TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
         EXPECT_GE(score.nees, 0.2 * told.nees);
       } else {
         // A linear filter scales with its noise: twice the error, four times the NEES where all
-        // noise is twice as large. A gate of 3.5 sigma then refuses 8 % of what is good, whose loss
-        // costs at most 1 / sqrt(0.92) (Fisher information adds up): the bound across the rows.
-        // Along them only the walls' roughness tells the place, which is not linear in an error as
-        // long as its bumps, and a gate of 5 sigma for three coordinates refuses 10 % of the fixes:
-        // 2.34 and 4.7 are the most that is reached there.
+        // noise is twice as large. A gate of 3.5 sigma then refuses 8 % of what is good. If every
+        // reading counts alike, that costs 1 / sqrt(0.92): the bound across the rows. Along them
+        // only the walls' roughness tells the place, which is not linear in an error as long as its
+        // bumps, and a gate of 5 sigma for three coordinates refuses 10 % of the fixes. No theory
+        // bounds that: 2.4 and 5.2 are just above the 2.34 and 4.7 that are reached.
         if (GetParam().has_map) {
           EXPECT_LE(score.lateral_m, 2.0 / std::sqrt(0.92) * told.lateral_m);
         } else {
@@ -256,8 +256,8 @@ TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
     }
   }
   if (GetParam().has_map) {
-    // Errors across the rows forget within half a second: some 1100 independent ones in ten
-    // flights, over which products of two shares average to 3 %; four times that.
+    // If errors across the rows forget within half a second (assumed, not measured), ten flights
+    // hold some 1100 independent ones, and products of two shares average to 3 %: four times that.
     EXPECT_NEAR(from_half_m2, told_m2, 0.12 * told_m2);
     EXPECT_NEAR(from_twice_m2, told_m2, 0.12 * told_m2);
   }

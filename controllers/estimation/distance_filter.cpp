@@ -151,13 +151,14 @@ class DistanceFilter final : public Estimator {
   void start(Time now) {
     Vector3d p_W = truth_.value().X_WB.p;
     for (int i = 0; i < 3; ++i) p_W[i] += start_std_m_ * random_.normal();
+    q_start_WB_ = truth_.value().X_WB.q;
     law_.start(now, p_W, start_std_m_ * start_std_m_ * Eigen::Matrix3d::Identity());
   }
 
   void take_inertial(Time now) {
     const bool is_new = ins_.is_newer_than(seen_ins_);
-    if (!ins_.has_value()) {
-      law_.predict(now, Vector3d::Zero(), truth_.value().X_WB.q, kStatedYawStd_rad);
+    if (!ins_.has_value()) {  // as it was set down, until the unit says more
+      law_.predict(now, Vector3d::Zero(), q_start_WB_, kStatedYawStd_rad);
       return;
     }
     const Odometry& ins = ins_.value();
@@ -262,6 +263,7 @@ class DistanceFilter final : public Estimator {
   std::vector<RangeReading> readings_;
   double reach_m_ = kReach_m;
   Vector3d w_WB_B_ = Vector3d::Zero();
+  Eigen::Quaterniond q_start_WB_ = Eigen::Quaterniond::Identity();
   MapWatch watch_;
   CountedNews lost_news_, set_news_;
   EstimatorNews news_;

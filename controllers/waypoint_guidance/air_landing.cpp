@@ -14,6 +14,19 @@ namespace {
 /// Of the circle before the glide, above the ground.
 constexpr double kClear_m = 5.0;
 
+/// Of the known ground below a circle; far down where there is none.
+double find_highest_below(const GroundBelow& ground, const LoiterCircle& circle) {
+  constexpr int kParts = 24;
+  double highest_m = -1e9;
+  for (int i = 0; i < kParts; ++i) {
+    const double angle_rad = 2.0 * kPi * i / kParts;
+    const Eigen::Vector2d to(std::cos(angle_rad), std::sin(angle_rad));
+    const auto height_m = ground(circle.centre + circle.radius_m * to);
+    if (height_m) highest_m = std::max(highest_m, *height_m);
+  }
+  return highest_m;
+}
+
 }  // namespace
 
 AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
@@ -25,13 +38,13 @@ AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
       below.value_or(start_.height_m - params_.standing_m));
   const LandingSlope slope(ground_m + params_.belly_m, params_.glide_rad, params_.flare_m);
   // Never up again for the landing, unless it is lower than the flare.
-  approach.above_m = std::clamp(height_.height_m() - slope.touchdown_m(),
-                                std::min(params_.approach_height_m, 4.0 * params_.flare_m),
-                                params_.approach_height_m);
+  const double above_m = std::clamp(height_.height_m() - slope.touchdown_m(),
+                                    std::min(params_.approach_height_m, 4.0 * params_.flare_m),
+                                    params_.approach_height_m);
   const Eigen::Vector2d along(std::cos(course_rad), std::sin(course_rad));
-  const double length_m = slope.length_m(approach.above_m);
+  const double length_m = slope.length_m(above_m);
   const Eigen::Vector2d entry = place - length_m * along;
-  double from_m = slope.touchdown_m() + approach.above_m;
+  double from_m = slope.touchdown_m() + above_m;
   approach.path = LandingPath(slope);
   if (below) {
     // The height told counts, and the map's shape about it.
@@ -39,25 +52,26 @@ AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
     approach.path = LandingPath(slope, {place, along, length_m}, ground_, lift_m);
     from_m = std::max(from_m, approach.path.highest_m());
   }
+  approach.circle =
+      LoiterCircle::tangent(entry, course_rad, params_.loiter_radius_m, params_.loiter_side);
+  if (below) {
+    // As high above the ground as it can lose again on the glide.
+    const double ground_below_m =
+        find_highest_below(ground_, approach.circle) + ground_m - *below;
+    const double most_m = from_m + 0.5 * length_m * std::tan(params_.glide_rad);
+    from_m = std::clamp(ground_below_m + kClear_m, from_m, most_m);
+    approach.clearance_m = from_m - ground_below_m;
+  }
   approach.leg = final_.front();
   approach.leg.frame =
       LegFrame({entry.x(), entry.y(), from_m}, {place.x(), place.y(), slope.touchdown_m()});
   approach.leg.airspeed_mps = params_.approach_mps;
-  approach.circle =
-      LoiterCircle::tangent(entry, course_rad, params_.loiter_radius_m, params_.loiter_side);
   if (!below) return approach;
-  constexpr int kParts = 24;
-  for (int i = 0; i < kParts; ++i) {
-    const double angle_rad = 2.0 * kPi * i / kParts;
-    const Eigen::Vector2d to(std::cos(angle_rad), std::sin(angle_rad));
-    const auto height_m = ground_(approach.circle.centre + approach.circle.radius_m * to);
-    if (height_m) approach.clearance_m = std::min(approach.clearance_m, from_m - *height_m);
-  }
   // Down a slope it floats on and slides for long; up a steep one it cannot flare.
-  constexpr double kFall = 0.03, kRise = 0.10;
+  constexpr double kFall = 0.03, kRise = 0.10, kRounding_m = 1e-6;
   const double rise = approach.path.rise();
   approach.fault = std::max({0.0, -kFall - rise, rise - kRise}) +
-                   std::max(0.0, kClear_m - approach.clearance_m);
+                   std::max(0.0, kClear_m - approach.clearance_m - kRounding_m);
   return approach;
 }
 
@@ -106,7 +120,7 @@ void AirMission::lay_landing(const GuidanceState& state) {
         "land_height_m tells it",
         frame.to_W().z() - params_.belly_m, away_m);
   }
-  const bool is_low = approach.clearance_m < kClear_m;
+  const bool is_low = approach.clearance_m < kClear_m - 1e-6;
   if (is_low) {
     news += fmt::format("; comes as near to the ground as {:.1f} m on its circles: "
                         "approach_height_m, land_bearing_deg and loiter_side choose others",

@@ -95,7 +95,6 @@ class AirMission {
   /// The landing on a course: how it lies over the ground.
   struct Approach {
     double course_rad = 0.0;
-    double above_m = 0.0;      ///< the glide's begin above the touchdown
     double clearance_m = 1e9;  ///< least, of the circle above the ground
     LandingPath path;
     FlightLeg leg;

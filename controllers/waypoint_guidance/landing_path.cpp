@@ -78,7 +78,8 @@ HeightPoint LandingPath::pick(const std::vector<double>& heights_m, double to_go
 }
 
 double LandingPath::highest_m() const {
-  return *std::max_element(path_.begin(), path_.end());
+  const auto count = static_cast<std::ptrdiff_t>(length_m_ / kStep_m) + 1;
+  return *std::max_element(path_.begin(), path_.begin() + count);
 }
 
 double LandingPath::rise() const {

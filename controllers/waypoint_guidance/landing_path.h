@@ -40,7 +40,7 @@ class LandingPath {
     return pick(ground_, to_go_m, {slope_.touchdown_m(), 0.0});
   }
   bool knows_ground() const { return !path_.empty(); }
-  /// The highest of the way. @pre knows_ground()
+  /// The highest of the way to the touchdown. @pre knows_ground()
   double highest_m() const;
   /// Mean slope of the ground where the vehicle flares and slides, along the landing.
   double rise() const;

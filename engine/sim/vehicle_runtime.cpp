@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "engine/api/may_fail.h"
-#include "engine/api/sees_ground.h"
 #include "engine/api/observer.h"
 #include "engine/api/outside.h"
+#include "engine/api/sees_ground.h"
 #include "engine/core/error.h"
 #include "engine/sim/map_edges.h"
 #include "engine/sim/truth_estimator.h"

@@ -181,7 +181,6 @@ ul.sources { padding-left: 0; list-style: none; } ul.sources li { margin: 0 0 8p
   svg.plot, svg.map, svg.canopy { overflow: visible; } figure.plot { overflow-x: clip; }
   svg.plot .tick, svg.map .tick, svg.plot .label, svg.map .label { font-size: 18px; }
   svg.plot .tick:nth-of-type(even):not(.end) { visibility: hidden; }
-  svg.map .tick.corner { visibility: hidden; }
   figure.wide-chart { overflow-x: auto; }
   .wide-chart svg { width: 720px; }
   .legend { overflow-wrap: anywhere; } .legend span { white-space: normal; }

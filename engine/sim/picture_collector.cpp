@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/api/parameter_table.h"
 #include "engine/sensors/mounting.h"
 
 namespace vinerow {

@@ -18,11 +18,19 @@ RotorcraftModel read_craft(const ControllerContext& context, const std::string& 
   return read_rotorcraft(*context.vehicle_description, context.gravity_mps2, who);
 }
 
+/// Feet are about as far beside the centre of mass as below it.
+double inertia_about_a_foot(const RotorcraftModel& craft, const VehicleDescription& vehicle) {
+  const double height_m = vehicle.height_above_ground_m;
+  return craft.inertia_kgm2.head<2>().mean() + 2.0 * craft.mass_kg * height_m * height_m;
+}
+
 }  // namespace
 
 FlightPorts::FlightPorts(const ControllerContext& context, const std::string& type)
     : craft_(read_craft(context, part_name(context, type))),
-      mixer_(craft_, part_name(context, type)) {
+      mixer_(craft_, part_name(context, type)),
+      lay_down_(inertia_about_a_foot(craft_, *context.vehicle_description),
+                craft_.mass_kg * craft_.gravity_mps2) {
   for (std::size_t i = 1; i <= craft_.rotors.size(); ++i) {
     actuator_values_.names.push_back(fmt::format("rotor_{}_speed_radps", i));
     context.vehicle_description->actuator_index(actuator_values_.names.back(),
@@ -88,39 +96,37 @@ Wrench FlightPorts::write(Time now, const Wrench& wanted) {
       (odometry.X_WB.q * odometry.v_WB_B).z() > kClimb_mps) {
     has_lifted_off_ = true;
   }
-  Wrench faded = fade(now, wanted);
+  if (!is_done()) {
+    landed_.reset();
+  } else if (!landed_) {
+    landed_ = laid_ = now;
+    lay_down_.start(mixer_.wrench_of(actuator_values_.values));
+  }
   if (landed_ && (now - *landed_).s() >= kWindDown_s) {
     write_off(now);
     return {};
   }
   has_flown_ = true;
-  Wrench reached = mixer_.mix(faded, actuator_values_.values);
-  if (landed_ && reached.thrust_N > faded.thrust_N) {
-    // In the air torques come first and may lift; on the ground that would take the feet's grip.
-    faded.torque_B *= faded.thrust_N / reached.thrust_N;
-    reached = mixer_.mix(faded, actuator_values_.values);
-  }
-  write_values(now, faded, reached);
+  if (landed_) return lay_down(now);
+  const Wrench reached = mixer_.mix(wanted, actuator_values_.values);
+  write_values(now, wanted, reached);
   return reached;
 }
 
-Wrench FlightPorts::fade(Time now, const Wrench& wanted) {
-  if (!is_done()) {
-    landed_.reset();
-    return wanted;
+Wrench FlightPorts::lay_down(Time now) {
+  Wrench wanted = lay_down_.advance(estimate().w_WB_B, (now - laid_).s());
+  laid_ = now;
+  Wrench reached = mixer_.mix(wanted, actuator_values_.values);
+  const double most_N = lay_down_.most_thrust_N();
+  if (reached.thrust_N > most_N) {
+    // In the air torques come first and may lift; on the ground that would take the feet's grip.
+    const double share = most_N / reached.thrust_N;
+    lay_down_.limit(share);
+    wanted.torque_B *= share;
+    reached = mixer_.mix(wanted, actuator_values_.values);
   }
-  if (!landed_) {
-    landed_ = now;
-    landed_thrust_N_ = mixer_.wrench_of(actuator_values_.values).thrust_N;
-  }
-  const double since_s = (now - *landed_).s();
-  const double left = std::max(0.0, 1.0 - since_s / kWindDown_s);
-  const double grip = std::max(0.0, 1.0 - since_s / kGrip_s);
-  Wrench faded = wanted;
-  faded.thrust_N =
-      std::min(wanted.thrust_N, landed_thrust_N_) * std::max(kLaidDownShare * left, grip);
-  for (int axis = 0; axis < 3; ++axis) faded.torque_B[axis] *= left;
-  return faded;
+  write_values(now, wanted, reached);
+  return reached;
 }
 
 void FlightPorts::write_off(Time now) {

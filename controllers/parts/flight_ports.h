@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "controllers/parts/lay_down.h"
 #include "controllers/parts/rotor_mixer.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/flight.h"
@@ -44,26 +45,19 @@ class FlightPorts {
   /// what the ground carries. As of the last write().
   bool has_lifted_off() const { return has_lifted_off_; }
 
-  /// Mixes and writes. Once the reference is done what is wanted fades within kWindDown_s, then the
-  /// rotors are off: a vehicle that has landed on a slope stands on one foot, held by its rotors,
-  /// and is laid down onto the others instead of falling over them. No heap.
+  /// Mixes and writes. Once the reference is done the vehicle is laid down (lay_down.h) whatever is
+  /// wanted, and kWindDown_s later the rotors are off. No heap.
   /// @returns what the rotors can make of it
   Wrench write(Time now, const Wrench& wanted);
   /// What was written last, rad/s.
   const std::vector<double>& speeds_radps() const { return actuator_values_.values; }
-  /// Rotors off. After a landing they slow down within kWindDown_s, all alike, so that a vehicle
-  /// that stands on a slope by one foot is laid down onto the others instead of falling over them.
+  /// Rotors off.
   void write_off(Time now);
 
  private:
   static constexpr double kWindDown_s = 3.0;
-  /// A vehicle that lies on a slope slides as long as its rotors carry it: within this time they
-  /// leave it to its feet but for the share by which it is laid down softly. With a friction of
-  /// 0.8 feet hold on 21 deg of slope below half the weight: cos(s) - sin(s) / 0.8.
-  static constexpr double kGrip_s = 0.5;
-  static constexpr double kLaidDownShare = 0.4;
 
-  Wrench fade(Time now, const Wrench& wanted);
+  Wrench lay_down(Time now);
   void write_values(Time now, const Wrench& wanted, const Wrench& reached);
   void write_follower(Time now);
 
@@ -73,7 +67,8 @@ class FlightPorts {
   bool has_lifted_off_ = false;
   bool has_flown_ = false;  // since the rotors were off
   std::optional<Time> landed_;
-  double landed_thrust_N_ = 0.0;
+  Time laid_;  // as of the last tick of lay_down_
+  LayDown lay_down_;
   NamedValues actuator_values_;
   NamedValues wrench_values_;
   SignalReader<Odometry> estimate_;

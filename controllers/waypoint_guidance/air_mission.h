@@ -8,12 +8,13 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "controllers/waypoint_guidance/air_state.h"
 #include "controllers/waypoint_guidance/flight_legs.h"
 #include "controllers/waypoint_guidance/height_reference.h"
-#include "controllers/waypoint_guidance/landing_slope.h"
+#include "controllers/waypoint_guidance/landing_path.h"
 #include "controllers/waypoint_guidance/leg_pilot.h"
 #include "controllers/waypoint_guidance/loiter_circle.h"
 #include "controllers/waypoint_guidance/waypoint_guidance_params.h"
@@ -24,6 +25,9 @@ namespace vinerow {
 class AirMission {
  public:
   explicit AirMission(const WaypointGuidanceParams& params);
+
+  /// Without it the ground is known at the start only. Before the first tick.
+  void see_ground(GroundBelow ground) { ground_ = std::move(ground); }
 
   /// Before the first tick. Allocates. @param start  the first state known
   void take_plan(FlightLegs plan, const GuidanceState& start);
@@ -88,6 +92,18 @@ class AirMission {
   void lay_transit(const GuidanceState& state);
   void end_plan(const GuidanceState& state);
   void lay_landing(const GuidanceState& state);
+  /// The landing on a course: how it lies over the ground.
+  struct Approach {
+    double course_rad = 0.0;
+    double clearance_m = 1e9;  ///< least, of the circle above the ground
+    LandingPath path;
+    FlightLeg leg;
+    LoiterCircle circle;
+    /// What keeps it from being a good one, 0 where nothing does.
+    double fault = 0.0;
+  };
+  Approach lay_approach(const Eigen::Vector2d& place, double course_rad) const;
+  Approach choose_approach(const GuidanceState& state, const Eigen::Vector2d& place) const;
   bool is_on_final(const GuidanceState& state) const;
   void watch_wind(double dt_s, const GuidanceState& state);
   void tell(bool is_bad, std::string text);
@@ -103,7 +119,9 @@ class AirMission {
   HeightReference height_;
   LegPilot pilot_;
   LoiterCircle circle_;
-  LandingSlope slope_;
+  GroundBelow ground_;  // of the vehicle's map; empty: none is known
+  LandingPath landing_;
+  double steepest_fall_ = 0.0;  // of the ground where it lands
   Stage stage_ = Stage::kWait;
   bool has_power_ = false;
   bool is_launched_ = false;          // the launch's height is reached

@@ -21,6 +21,7 @@ class LandingSlope {
         flare_length_m_(fade_m_ * std::log((1.0 + kBelow) / kBelow)) {}
 
   double touchdown_m() const { return touchdown_m_; }  ///< z of W of B's origin
+  double flare_m() const { return flare_m_; }
   /// Distance before the touchdown at which the slope is so far above it.
   double length_m(double above_m) const {
     return flare_length_m_ + std::max(0.0, above_m - flare_m_) / slope_;

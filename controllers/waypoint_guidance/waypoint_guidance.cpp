@@ -11,6 +11,8 @@
 #include "engine/api/may_fail.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/event.h"
+#include "engine/api/scene_query.h"
+#include "engine/api/sees_ground.h"
 
 namespace vinerow {
 namespace {
@@ -20,7 +22,7 @@ bool is_finite(const Odometry& odometry) {
          odometry.v_WB_B.allFinite() && odometry.w_WB_B.allFinite();
 }
 
-class WaypointGuidance final : public Guidance, public MayFail {
+class WaypointGuidance final : public Guidance, public MayFail, public SeesGround {
  public:
   WaypointGuidance(const ParameterSet& parameters, const ControllerContext& context)
       : source_(context.part),
@@ -58,6 +60,13 @@ class WaypointGuidance final : public Guidance, public MayFail {
   }
 
   std::string_view failure() const override { return mission_.failure(); }
+
+  void see_ground(const SceneQuery& ground) override {
+    constexpr double kAboveEverything_m = 1e6;
+    mission_.see_ground([&ground](const Eigen::Vector2d& p) {
+      return ground.ground_height_m(p.x(), p.y(), kAboveEverything_m);
+    });
+  }
 
  private:
   void take_state(double dt_s) {

@@ -9,6 +9,7 @@
 #include "engine/api/may_fail.h"
 #include "engine/api/observer.h"
 #include "engine/api/outside.h"
+#include "engine/api/sees_ground.h"
 #include "engine/core/error.h"
 #include "engine/sim/map_edges.h"
 #include "engine/sim/truth_estimator.h"
@@ -299,6 +300,9 @@ void VehicleRuntime::add_controller() {
     });
     add_stepped(Stage::kGuide, part, config_.guidance->type, rate_Hz, *guidance_);
     note_if_it_may_fail(guidance_.get());
+    if (auto* looks = dynamic_cast<SeesGround*>(guidance_.get())) {
+      looks->see_ground(*planner_context().scene);
+    }
     // Where it lands: follows from what it told already.
     add_diagnostic(config_.name + "/landing");
   }

@@ -24,8 +24,8 @@ void add_info_command(CLI::App& app, int& exit_status) {
       const double rate_Hz = channel.messages > 1 && span_s > 0.0
                                  ? static_cast<double>(channel.messages - 1) / span_s
                                  : 0.0;
-      fmt::print("  {:<34} {:<36} {:>8} messages {:>8.2f} Hz\n", channel.topic, channel.schema,
-                 channel.messages, rate_Hz);
+      fmt::print("  {:<34} {:<36} {:>8} {:<8} {:>8.2f} Hz\n", channel.topic, channel.schema,
+                 channel.messages, channel.messages == 1 ? "message" : "messages", rate_Hz);
     }
     for (const auto& [name, content] : info.attachments) {
       fmt::print("  attachment {} ({} bytes)\n", name, content.size());

@@ -3,10 +3,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/api/sees_ground.h"
 #include "engine/api/world_model.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test {
+
+namespace {
+
+/// Nothing but ground.
+struct Terrain final : SceneQuery {
+  explicit Terrain(std::function<double(const Eigen::Vector2d&)> the_heights)
+      : heights(std::move(the_heights)) {}
+  std::optional<RayHit> cast_ray(const Eigen::Vector3d&, const Eigen::Vector3d&, double,
+                                 SurfaceMask) const override {
+    return std::nullopt;
+  }
+  std::optional<double> ground_height_m(double x, double y, double) const override {
+    return heights({x, y});
+  }
+  double distance_to_box_m(const Pose&, const Eigen::Vector3d&, double max_distance_m,
+                           SurfaceMask) const override {
+    return max_distance_m;
+  }
+  std::function<double(const Eigen::Vector2d&)> heights;
+};
+
+}  // namespace
 
 VehicleDescription make_plane_description() {
   VehicleDescription description;
@@ -43,7 +66,9 @@ void Plane::advance(const AirReference& reference, double dt_s) {
   if (lies_) {
     speed_mps_ = std::max(0.0, speed_mps_ - kBraking_mps2 * dt_s);
     const Eigen::Vector2d along(std::cos(yaw_rad_), std::sin(yaw_rad_));
+    const double before_m = ground_m();
     p_W_.head<2>() += dt_s * speed_mps_ * along;
+    p_W_.z() += ground_m() - before_m;
     climb_mps_ = 0.0;
     return;
   }
@@ -65,12 +90,28 @@ void Plane::advance(const AirReference& reference, double dt_s) {
     p_W_.y() += h * (speed_mps_ * std::sin(yaw_rad_) + options_.wind.y());
     p_W_.z() += h * climb_mps_;
   }
-  if (p_W_.z() <= options_.ground_m + 0.05 && climb_mps_ < 0.0) {
+  const Eigen::Vector2d over_ground(speed_mps_ * std::cos(yaw_rad_) + options_.wind.x(),
+                                    speed_mps_ * std::sin(yaw_rad_) + options_.wind.y());
+  const double lying_m = ground_m() + 0.05;
+  const double rising_mps = calc_rise(over_ground) * over_ground.norm();
+  if (p_W_.z() <= lying_m && climb_mps_ < rising_mps) {
     lies_ = true;
-    p_W_.z() = options_.ground_m + 0.05;
-    speed_mps_ = std::hypot(speed_mps_ * std::cos(yaw_rad_) + options_.wind.x(),
-                            speed_mps_ * std::sin(yaw_rad_) + options_.wind.y());
+    touch_rise_ = calc_rise(over_ground);
+    touch_mps_ = rising_mps - climb_mps_;
+    p_W_.z() = lying_m;
+    speed_mps_ = over_ground.norm();
   }
+}
+
+double Plane::ground_m() const {
+  return options_.terrain ? options_.terrain(p_W_.head<2>()) : options_.ground_m;
+}
+
+double Plane::calc_rise(const Eigen::Vector2d& along) const {
+  constexpr double kStep_m = 0.5;
+  if (!options_.terrain || along.norm() == 0.0) return 0.0;
+  const Eigen::Vector2d here = p_W_.head<2>(), step = kStep_m * along.normalized();
+  return (options_.terrain(here + step) - options_.terrain(here - step)) / (2.0 * kStep_m);
 }
 
 Odometry Plane::odometry() const {
@@ -101,6 +142,10 @@ AirBench::AirBench(const Values& values, const PlaneOptions& options, const std:
   Values all = values;
   if (has_air_data_ && type == "waypoint_guidance") all.emplace_back("air_data", "air");
   guidance_ = parts().make_guidance(type, make_parameters(spec, all), context);
+  if (auto* looks = dynamic_cast<SeesGround*>(guidance_.get()); looks && options.terrain) {
+    ground_ = std::make_unique<Terrain>(options.terrain);
+    looks->see_ground(*ground_);
+  }
   Ports world(bus_, "plane", "test");
   estimate_ = world.write<Odometry>("estimate");
   plan_ = world.write<PlannedPath>("plan");

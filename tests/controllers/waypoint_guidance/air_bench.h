@@ -4,6 +4,7 @@
 /// another lag.
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "engine/api/messages/flight.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/api/registry.h"
+#include "engine/api/scene_query.h"
 #include "tests/controllers/support/mission.h"
 
 namespace vinerow::test {
@@ -31,6 +33,8 @@ struct PlaneOptions {
   double yaw_lag_s = 0.2;
   double speed_mps = 12.0;
   double ground_m = 0.0;  ///< z where the fuselage lies, on flat ground
+  /// Height of ground that is not flat, as the guidance is told it.
+  std::function<double(const Eigen::Vector2d&)> terrain;
 };
 
 class Plane {
@@ -40,12 +44,19 @@ class Plane {
   Odometry odometry() const;
   AirData air() const;
   double bank_left_rad() const { return bank_left_rad_; }
+  /// How fast the ground came nearer when it touched, m/s; NaN in the air.
+  double touch_mps() const { return touch_mps_; }
+  /// Of the ground along its way there.
+  double touch_rise() const { return touch_rise_; }
 
  private:
+  double ground_m() const;
+  double calc_rise(const Eigen::Vector2d& along) const;
   PlaneOptions options_;
   Eigen::Vector3d p_W_;
   double yaw_rad_, bank_left_rad_ = 0.0, yaw_rate_radps_ = 0.0, speed_mps_, climb_mps_ = 0.0;
   bool has_left_, lies_ = false;
+  double touch_mps_ = std::numeric_limits<double>::quiet_NaN(), touch_rise_ = 0.0;
 };
 
 class AirBench {
@@ -74,6 +85,7 @@ class AirBench {
 
  private:
   VehicleDescription vehicle_;
+  std::unique_ptr<SceneQuery> ground_;
   bool has_air_data_;
   SignalBus bus_;
   SignalWriter<Odometry> estimate_;

@@ -165,24 +165,24 @@ Polygon footprint_W(const CameraShot& shot) {
   return convex_hull(std::move(corners));
 }
 
-const std::vector<std::string>& coverage_number_names() {
-  static const std::vector<std::string> names = {"shots",
-                                                 "shots_off_ground",
-                                                 "covered_share",
-                                                 "covered_twice_share",
-                                                 "covered_three_times_share",
-                                                 "overlap_covered_share",
-                                                 "overlap_held_share",
-                                                 "forward_overlap_min",
-                                                 "forward_overlap_mean",
-                                                 "side_overlap_min",
-                                                 "side_overlap_mean",
-                                                 "gsd_min_m",
-                                                 "gsd_mean_m",
-                                                 "gsd_max_m",
-                                                 "gsd_formula_error_max",
-                                                 "gsd_formula_error_mean"};
-  return names;
+const std::vector<MetricNumber>& coverage_numbers() {
+  static const std::vector<MetricNumber> numbers = {count_number("shots"),
+                                                    count_number("shots_off_ground"),
+                                                    share_number("covered_share"),
+                                                    share_number("covered_twice_share"),
+                                                    share_number("covered_three_times_share"),
+                                                    share_number("overlap_covered_share"),
+                                                    share_number("overlap_held_share"),
+                                                    share_number("forward_overlap_min"),
+                                                    share_number("forward_overlap_mean"),
+                                                    share_number("side_overlap_min"),
+                                                    share_number("side_overlap_mean"),
+                                                    from_zero("gsd_min_m"),
+                                                    from_zero("gsd_mean_m"),
+                                                    from_zero("gsd_max_m"),
+                                                    from_zero("gsd_formula_error_max"),
+                                                    signed_number("gsd_formula_error_mean")};
+  return numbers;
 }
 
 void check_coverage_options(const CoverageOptions& options) {

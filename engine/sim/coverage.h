@@ -23,6 +23,7 @@
 
 #include "engine/api/messages/sensors.h"
 #include "engine/math/polygon.h"
+#include "engine/sim/metrics/numbers.h"
 
 namespace vinerow {
 
@@ -49,7 +50,7 @@ struct CoverageMap {
   /// smallest overlap, on the lane where that is largest; 0 without such pictures, -1 outside the
   /// parcel.
   std::vector<float> forward_overlap;
-  /// See coverage_number_names(); NaN where there is nothing to measure.
+  /// See coverage_numbers(); NaN where there is nothing to measure.
   std::map<std::string, double> numbers;
 
   std::size_t cell(int column, int row) const {
@@ -66,7 +67,7 @@ struct CoverageMap {
 ///   gsd_formula_error_max, gsd_formula_error_mean: by how much, as a share, their GSD exceeds that
 ///     of a picture straight down from the same height above the ground they look at; the size of
 ///     it, and its mean
-const std::vector<std::string>& coverage_number_names();
+const std::vector<MetricNumber>& coverage_numbers();
 
 /// @throws ConfigError if the parcel has fewer than three corners, crosses itself or has no area,
 /// or there would be more than 25 million cells

@@ -130,8 +130,8 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
 
 std::string coverage_json(const SurveyCoverage& coverage) {
   ordered_json numbers, parcel = ordered_json::array(), pictures = ordered_json::array();
-  for (const std::string& name : coverage_number_names()) {
-    numbers[name] = json_of(coverage.map.numbers.at(name));
+  for (const MetricNumber& number : coverage_numbers()) {
+    numbers[number.name] = json_of(coverage.map.numbers.at(number.name));
   }
   for (const Eigen::Vector2d& p : coverage.options.parcel_W) parcel.push_back({p.x(), p.y()});
   for (const LaneShot& taken : coverage.shots) {

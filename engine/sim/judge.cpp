@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/io/known_names.h"
+#include "engine/sim/metrics/register.h"
 
 namespace vinerow {
 namespace {
@@ -52,6 +54,30 @@ const char* why_not_measured(const std::string& metric) {
   return "nothing happened to measure it on";
 }
 
+/// "min = 0.2 and max = 0.8"
+std::string limits_text(const io::Criterion& criterion) {
+  std::string text = criterion.min ? fmt::format("min = {:g}", *criterion.min) : "";
+  if (criterion.min && criterion.max) text += " and ";
+  if (criterion.max) text += fmt::format("max = {:g}", *criterion.max);
+  return text;
+}
+
+void refuse_what_nothing_meets(const io::Criterion& criterion,
+                               const std::vector<io::NamedPart>& parts) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::string name = criterion.metric.substr(criterion.metric.find('.') + 1);
+  for (const io::NamedPart& part : parts) {
+    const MetricNumber* number = find_metric_number(part.part.type, name);
+    if (!number) continue;
+    if (number->can_be_in(criterion.min.value_or(-kInfinity), criterion.max.value_or(kInfinity))) {
+      return;
+    }
+    throw ConfigError(fmt::format("{}: criteria: no value of {} meets {} (possible: {})",
+                                  criterion.where.text(), criterion.metric, limits_text(criterion),
+                                  number->range_text()));
+  }
+}
+
 }  // namespace
 
 std::string sentence_of(const CriterionResult& criterion) {
@@ -82,6 +108,15 @@ std::vector<CriterionResult> judge(
     }
   }
   return results;
+}
+
+void check_criteria(const std::vector<io::Criterion>& criteria,
+                    const std::map<std::string, std::map<std::string, double>>& metrics,
+                    const std::vector<io::NamedPart>& parts) {
+  for (const io::Criterion& criterion : criteria) {
+    static_cast<void>(find_metric(criterion, metrics));
+    refuse_what_nothing_meets(criterion, parts);
+  }
 }
 
 }  // namespace vinerow

@@ -251,8 +251,8 @@ Session open_run(const io::Scenario& scenario, const Registry& registry,
   // The caller keeps the registry.
   Session session(scenario, std::shared_ptr<const Registry>(std::shared_ptr<void>(), &registry),
                   std::move(options));
-  // Unknown metric names are bad input and must not wait for the end of a long run.
-  static_cast<void>(judge(of_vehicles(scenario), session.metrics()));
+  // Bad input must not wait for the end of a long run.
+  check_criteria(of_vehicles(scenario), session.metrics(), scenario.metrics);
   return session;
 }
 

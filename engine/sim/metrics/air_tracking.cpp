@@ -137,6 +137,26 @@ class AirTracking final : public Metric {
 
 }  // namespace
 
+const std::vector<MetricNumber>& air_tracking_numbers() {
+  static const std::vector<MetricNumber> numbers = {
+      from_zero("height_error_rms_m"),
+      from_zero("height_error_max_m"),
+      zero_to(180.0, "heading_error_rms_deg"),
+      zero_to(180.0, "straight_heading_error_rms_deg"),
+      from_zero("straight_cross_track_rms_m"),
+      from_zero("straight_cross_track_max_m"),
+      from_zero("airspeed_error_rms_mps"),
+      zero_to(180.0, "bank_max_deg"),
+      signed_number("load_factor_max"),
+      from_zero("limit_share_max"),
+      from_zero("landing_distance_m"),
+      count_number(kLimitSteps[0]),
+      count_number(kLimitSteps[1]),
+      count_number(kLimitSteps[2]),
+      count_number(kLimitSteps[3])};
+  return numbers;
+}
+
 PartSpec air_tracking_spec() {
   PartSpec spec;
   spec.name = "air_tracking";
@@ -145,18 +165,7 @@ PartSpec air_tracking_spec() {
       "bank, load factor, and ticks outside the controller's limits (paper A, figures 9 to 11)";
   spec.reads = {"truth", "reference (optional)", "deviation (optional)", "landing (optional)",
                 "plan (optional)"};
-  spec.writes = {"height_error_rms_m",
-                 "height_error_max_m",
-                 "heading_error_rms_deg",
-                 "straight_heading_error_rms_deg",
-                 "straight_cross_track_rms_m",
-                 "straight_cross_track_max_m",
-                 "airspeed_error_rms_mps",
-                 "bank_max_deg",
-                 "load_factor_max",
-                 "limit_share_max",
-                 "landing_distance_m"};
-  spec.writes.insert(spec.writes.end(), kLimitSteps.begin(), kLimitSteps.end());
+  spec.writes = written(air_tracking_numbers());
   return spec;
 }
 

@@ -19,11 +19,14 @@
 ///     limit that was used, both as the controller's "deviation" tells.
 
 #include <memory>
+#include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/sim/metrics/numbers.h"
 
 namespace vinerow {
 
+const std::vector<MetricNumber>& air_tracking_numbers();
 PartSpec air_tracking_spec();
 std::unique_ptr<Metric> make_air_tracking(const ParameterSet& parameters,
                                           const MetricContext& context);

@@ -195,6 +195,14 @@ class AlleyPlace final : public Metric {
 
 }  // namespace
 
+const std::vector<MetricNumber>& alley_place_numbers() {
+  static const std::vector<MetricNumber> numbers = {
+      signed_number("alley_offset_mean_m"), from_zero("alley_offset_rms_m"),
+      from_zero("alley_offset_max_m"),      signed_number("alley_height_min_m"),
+      signed_number("alley_height_max_m"),  count_number("alleys_passed")};
+  return numbers;
+}
+
 PartSpec alley_place_spec() {
   PartSpec spec;
   spec.name = "alley_place";
@@ -202,8 +210,7 @@ PartSpec alley_place_spec() {
       "Against the true rows: distance from the middle between the walls of the alley, height "
       "above the true ground, alleys passed from end to end";
   spec.reads = {"truth", "plan (optional)"};
-  spec.writes = {"alley_offset_mean_m", "alley_offset_rms_m", "alley_offset_max_m",
-                 "alley_height_min_m",  "alley_height_max_m", "alleys_passed"};
+  spec.writes = written(alley_place_numbers());
   return spec;
 }
 

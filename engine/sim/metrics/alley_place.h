@@ -17,11 +17,14 @@
 /// for each alley.
 
 #include <memory>
+#include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/sim/metrics/numbers.h"
 
 namespace vinerow {
 
+const std::vector<MetricNumber>& alley_place_numbers();
 PartSpec alley_place_spec();
 std::unique_ptr<Metric> make_alley_place(const ParameterSet& parameters,
                                          const MetricContext& context);

@@ -117,6 +117,13 @@ class Clearance final : public Metric {
 
 }  // namespace
 
+const std::vector<MetricNumber>& clearance_numbers() {
+  static const std::vector<MetricNumber> numbers = {from_zero("min_clearance_m"),
+                                                    count_number("contact_count"),
+                                                    count_number("canopy_contact_count")};
+  return numbers;
+}
+
 PartSpec clearance_spec() {
   PartSpec spec;
   spec.name = "clearance";
@@ -125,7 +132,7 @@ PartSpec clearance_spec() {
       "touches";
   spec.parameters = clearance_table().specs();
   spec.reads = {"truth", "contacts"};
-  spec.writes = {"min_clearance_m", "contact_count", "canopy_contact_count"};
+  spec.writes = written(clearance_numbers());
   return spec;
 }
 

@@ -12,11 +12,14 @@
 /// nearer than it moved.
 
 #include <memory>
+#include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/sim/metrics/numbers.h"
 
 namespace vinerow {
 
+const std::vector<MetricNumber>& clearance_numbers();
 PartSpec clearance_spec();
 std::unique_ptr<Metric> make_clearance(const ParameterSet& parameters,
                                        const MetricContext& context);

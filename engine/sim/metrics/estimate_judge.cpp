@@ -138,6 +138,18 @@ void EstimateJudge::write_results(std::map<std::string, double>& all) const {
   }
 }
 
+std::vector<MetricNumber> judge_numbers(const EstimateJudge::Prefixes& prefixes) {
+  const auto& [error, other] = prefixes;
+  return {
+      from_zero(error + "lateral_std_m"),      from_zero(error + "lateral_rms_m"),
+      from_zero(error + "lateral_max_m"),      from_zero(error + "longitudinal_std_m"),
+      from_zero(error + "longitudinal_rms_m"), from_zero(error + "longitudinal_max_m"),
+      from_zero(error + "vertical_rms_m"),     zero_to(180.0, error + "yaw_rms_deg"),
+      zero_to(kLost, other + "nees_mean"),     share_number(other + "nees_in_95_share"),
+      flag_number(error + "consistent"),       share_number(other + "ellipsoid_containment_share"),
+      from_zero(other + "nis_<source>_mean")};
+}
+
 double chi_square_quantile(double degrees_of_freedom, double z) {
   const double a = 2.0 / (9.0 * degrees_of_freedom);
   return degrees_of_freedom * std::pow(1.0 - a + z * std::sqrt(a), 3);

@@ -9,6 +9,7 @@
 #include "engine/api/messages/motion.h"
 #include "engine/api/signal.h"
 #include "engine/sim/metrics/batch_means.h"
+#include "engine/sim/metrics/numbers.h"
 #include "engine/sim/metrics/spread.h"
 
 namespace vinerow {
@@ -83,6 +84,9 @@ class EstimateJudge {
   SignalReader<PositionEllipsoid> ellipsoid_;
   SignalReader<NamedValues> state_;
 };
+
+/// What write_results() adds.
+std::vector<MetricNumber> judge_numbers(const EstimateJudge::Prefixes& prefixes);
 
 /// Quantile of the chi-square distribution, also for fractional degrees of freedom; the bounds of
 /// 95 % within 1.5 % from 10 degrees on, the lower one below that too low. E. B. Wilson, M. M.

@@ -113,6 +113,17 @@ class Estimation final : public Metric {
 
 }  // namespace
 
+const std::vector<MetricNumber>& estimation_numbers() {
+  static const std::vector<MetricNumber> numbers = [] {
+    std::vector<MetricNumber> all = judge_numbers({});
+    for (MetricNumber& number : judge_numbers({"<observer>_", "<observer>_"})) {
+      all.push_back(std::move(number));
+    }
+    return all;
+  }();
+  return numbers;
+}
+
 PartSpec estimation_spec() {
   PartSpec spec;
   spec.name = "estimation";
@@ -122,20 +133,8 @@ PartSpec estimation_spec() {
   spec.parameters = estimation_table().specs();
   spec.reads = {"truth", "estimate (optional)", "ellipsoid (optional)",
                 "estimator_state (optional)", "those of the observers"};
-  spec.writes = {"estimate_lateral_std_m",
-                 "estimate_lateral_rms_m",
-                 "estimate_lateral_max_m",
-                 "estimate_longitudinal_std_m",
-                 "estimate_longitudinal_rms_m",
-                 "estimate_longitudinal_max_m",
-                 "estimate_vertical_rms_m",
-                 "estimate_yaw_rms_deg",
-                 "nees_mean",
-                 "nees_in_95_share",
-                 "estimate_consistent",
-                 "ellipsoid_containment_share",
-                 "nis_<source>_mean",
-                 "<observer>_..., the same of each observer"};
+  spec.writes = written(judge_numbers({}));
+  spec.writes.push_back("<observer>_..., the same of each observer");
   return spec;
 }
 

@@ -27,11 +27,14 @@
 /// <observer>_consistent, <observer>_nees_mean, <observer>_nis_<source>_mean and so on.
 
 #include <memory>
+#include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/sim/metrics/numbers.h"
 
 namespace vinerow {
 
+const std::vector<MetricNumber>& estimation_numbers();
 PartSpec estimation_spec();
 std::unique_ptr<Metric> make_estimation(const ParameterSet& parameters,
                                         const MetricContext& context);

@@ -158,6 +158,22 @@ class Flight final : public Metric {
 
 }  // namespace
 
+const std::vector<MetricNumber>& flight_numbers() {
+  static const std::vector<MetricNumber> numbers = {from_zero("altitude_error_rms_m"),
+                                                    from_zero("altitude_error_max_m"),
+                                                    signed_number("height_above_ground_min_m"),
+                                                    signed_number("height_above_ground_max_m"),
+                                                    from_zero("row_speed_mean_mps"),
+                                                    from_zero("row_speed_error_max_mps"),
+                                                    from_zero("return_clearance_min_m"),
+                                                    from_zero("hover_error_rms_m"),
+                                                    from_zero("hover_error_max_m"),
+                                                    zero_to(180.0, "tilt_max_deg"),
+                                                    share_number("thrust_limit_share"),
+                                                    flag_number("crashed")};
+  return numbers;
+}
+
 PartSpec flight_spec() {
   PartSpec spec;
   spec.name = "flight";
@@ -165,12 +181,7 @@ PartSpec flight_spec() {
       "Of vehicles that fly: height and speed in the rows, clearance on the way home, how still "
       "it hovers, tilt in the air, rotors at their limits, whether it crashed";
   spec.reads = {"truth", "plan (optional)", "reference (optional)", "actuators (optional)"};
-  spec.writes = {"altitude_error_rms_m",      "altitude_error_max_m",
-                 "height_above_ground_min_m", "height_above_ground_max_m",
-                 "row_speed_mean_mps",        "row_speed_error_max_mps",
-                 "return_clearance_min_m",    "hover_error_rms_m",
-                 "hover_error_max_m",         "tilt_max_deg",
-                 "thrust_limit_share",        "crashed"};
+  spec.writes = written(flight_numbers());
   return spec;
 }
 

@@ -21,11 +21,14 @@
 ///   crashed: 1 or 0.
 
 #include <memory>
+#include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/sim/metrics/numbers.h"
 
 namespace vinerow {
 
+const std::vector<MetricNumber>& flight_numbers();
 PartSpec flight_spec();
 std::unique_ptr<Metric> make_flight(const ParameterSet& parameters, const MetricContext& context);
 

@@ -128,6 +128,17 @@ class PathDeviation final : public Metric {
 
 }  // namespace
 
+const std::vector<MetricNumber>& path_deviation_numbers() {
+  static const std::vector<MetricNumber> numbers = {
+      from_zero("average_deviation_m"),      from_zero("deviation_max_m"),
+      count_number("oscillation_count"),     from_zero("relative_accuracy_per_m"),
+      from_zero("cross_track_rms_m"),        from_zero("cross_track_max_m"),
+      zero_to(kPi, "heading_error_rms_rad"), count_number("leg_samples"),
+      from_zero("turn_deviation_rms_m"),     from_zero("turn_deviation_max_m"),
+      from_zero("planned_length_m"),         count_number("alleys_driven")};
+  return numbers;
+}
+
 PartSpec path_deviation_spec() {
   PartSpec spec;
   spec.name = "path_deviation";
@@ -135,10 +146,7 @@ PartSpec path_deviation_spec() {
       "Deviation from the plan: ATD, OF, RA of paper B (eq. 8), cross-track and heading error on "
       "the legs, deviation from the planned arcs in the turns";
   spec.reads = {"truth", "plan (optional)"};
-  spec.writes = {"average_deviation_m",     "deviation_max_m",   "oscillation_count",
-                 "relative_accuracy_per_m", "cross_track_rms_m", "cross_track_max_m",
-                 "heading_error_rms_rad",   "leg_samples",       "turn_deviation_rms_m",
-                 "turn_deviation_max_m",    "planned_length_m",  "alleys_driven"};
+  spec.writes = written(path_deviation_numbers());
   return spec;
 }
 

@@ -14,11 +14,14 @@
 /// passed from the leg's begin to its end (tenths.h).
 
 #include <memory>
+#include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/sim/metrics/numbers.h"
 
 namespace vinerow {
 
+const std::vector<MetricNumber>& path_deviation_numbers();
 PartSpec path_deviation_spec();
 std::unique_ptr<Metric> make_path_deviation(const ParameterSet& parameters,
                                             const MetricContext& context);

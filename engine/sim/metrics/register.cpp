@@ -1,5 +1,8 @@
 #include "engine/sim/metrics/register.h"
 
+#include <memory>
+#include <vector>
+
 #include "engine/sim/metrics/air_tracking.h"
 #include "engine/sim/metrics/alley_place.h"
 #include "engine/sim/metrics/clearance.h"
@@ -13,16 +16,29 @@
 
 namespace vinerow {
 
+namespace {
+
+struct BuiltInMetric {
+  PartSpec (*spec)();
+  std::unique_ptr<Metric> (*make)(const ParameterSet&, const MetricContext&);
+  const std::vector<MetricNumber>& (*numbers)();
+};
+
+constexpr BuiltInMetric kMetrics[] = {
+    {path_deviation_spec, make_path_deviation, path_deviation_numbers},
+    {clearance_spec, make_clearance, clearance_numbers},
+    {alley_place_spec, make_alley_place, alley_place_numbers},
+    {travel_spec, make_travel, travel_numbers},
+    {wheel_slip_spec, make_wheel_slip, wheel_slip_numbers},
+    {flight_spec, make_flight, flight_numbers},
+    {estimation_spec, make_estimation, estimation_numbers},
+    {air_tracking_spec, make_air_tracking, air_tracking_numbers},
+    {survey_coverage_spec, make_survey_coverage, coverage_numbers}};
+
+}  // namespace
+
 void register_metrics(Registry& registry) {
-  registry.add_metric(path_deviation_spec(), make_path_deviation);
-  registry.add_metric(clearance_spec(), make_clearance);
-  registry.add_metric(alley_place_spec(), make_alley_place);
-  registry.add_metric(travel_spec(), make_travel);
-  registry.add_metric(wheel_slip_spec(), make_wheel_slip);
-  registry.add_metric(flight_spec(), make_flight);
-  registry.add_metric(estimation_spec(), make_estimation);
-  registry.add_metric(air_tracking_spec(), make_air_tracking);
-  registry.add_metric(survey_coverage_spec(), make_survey_coverage);
+  for (const BuiltInMetric& metric : kMetrics) registry.add_metric(metric.spec(), metric.make);
 
   PartSpec truth;
   truth.name = "truth";
@@ -32,6 +48,13 @@ void register_metrics(Registry& registry) {
   registry.add_estimator(truth, [](const ParameterSet&, const EstimatorContext&) {
     return std::make_unique<TruthEstimator>();
   });
+}
+
+const MetricNumber* find_metric_number(const std::string& type, std::string_view name) {
+  for (const BuiltInMetric& metric : kMetrics) {
+    if (metric.spec().name == type) return find_number(metric.numbers(), name);
+  }
+  return nullptr;
 }
 
 }  // namespace vinerow

@@ -94,8 +94,8 @@ class SurveyMetric final : public Metric {
     if (!is_wanted_) return {};
     if (!options_.parcel_W.empty()) return map_coverage(shots_, options_).numbers;
     std::map<std::string, double> unknown;
-    for (const std::string& name : coverage_number_names()) {
-      unknown[name] = std::numeric_limits<double>::quiet_NaN();
+    for (const MetricNumber& number : coverage_numbers()) {
+      unknown[number.name] = std::numeric_limits<double>::quiet_NaN();
     }
     unknown["shots"] = static_cast<double>(shots_.size());
     return unknown;
@@ -123,7 +123,7 @@ PartSpec survey_coverage_spec() {
       "ground sampling distance (paper A, section 2)";
   spec.parameters = survey_metric_table().specs();
   spec.reads = {"truth", "<camera> (optional)", "plan (optional)"};
-  spec.writes = coverage_number_names();
+  spec.writes = written(coverage_numbers());
   return spec;
 }
 

@@ -97,14 +97,21 @@ class Travel final : public Metric {
 
 }  // namespace
 
+const std::vector<MetricNumber>& travel_numbers() {
+  static const std::vector<MetricNumber> numbers = {
+      from_zero("distance_m"),   from_zero("displacement_m"),   from_zero("standing_drift_m"),
+      from_zero("time_s"),       from_zero("mean_speed_mps"),   from_zero("max_speed_mps"),
+      signed_number("energy_J"), signed_number("mean_power_W"), from_zero("battery_hours"),
+      flag_number("finished")};
+  return numbers;
+}
+
 PartSpec travel_spec() {
   PartSpec spec;
   spec.name = "travel";
   spec.description = "Distance, time, speed, energy and how long the battery lasts at that";
   spec.reads = {"truth", "battery (optional)", "follower (optional)"};
-  spec.writes = {"distance_m",     "displacement_m", "standing_drift_m", "time_s",
-                 "mean_speed_mps", "max_speed_mps",  "energy_J",         "mean_power_W",
-                 "battery_hours",  "finished"};
+  spec.writes = written(travel_numbers());
   return spec;
 }
 

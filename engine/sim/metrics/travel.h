@@ -8,11 +8,14 @@
 /// never after a crash).
 
 #include <memory>
+#include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/sim/metrics/numbers.h"
 
 namespace vinerow {
 
+const std::vector<MetricNumber>& travel_numbers();
 PartSpec travel_spec();
 std::unique_ptr<Metric> make_travel(const ParameterSet& parameters, const MetricContext& context);
 

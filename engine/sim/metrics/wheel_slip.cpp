@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kStanding_mps = 0.05;
 constexpr int kAbsent = -1;
+/// Of a rim that runs backwards as fast as the wheel rolls forwards.
+constexpr double kMostSlip = 2.0;
 
 /// "fl" of "wheel_fl_slip" and the ending "_slip"; empty where the name is not of that form.
 std::string wheel_of(const std::string& name, const std::string& ending) {
@@ -125,13 +127,21 @@ class WheelSlip final : public Metric {
 
 }  // namespace
 
+const std::vector<MetricNumber>& wheel_slip_numbers() {
+  static const std::vector<MetricNumber> numbers = {
+      zero_to(kMostSlip, "slip_rms"),        zero_to(kMostSlip, "slip_max"),
+      zero_to(kMostSlip, "slip_rms_turn"),   zero_to(kMostSlip, "slip_max_turn"),
+      from_zero("slip_angle_rms_rad"),       zero_to(kMostSlip, "slip_rms_<wheel>"),
+      zero_to(kMostSlip, "slip_max_<wheel>")};
+  return numbers;
+}
+
 PartSpec wheel_slip_spec() {
   PartSpec spec;
   spec.name = "wheel_slip";
   spec.description = "Slip of the wheels along their rolling direction, of all and of each";
   spec.reads = {"truth", "wheels (optional)", "plan (optional)"};
-  spec.writes = {"slip_rms",           "slip_max",         "slip_rms_turn",   "slip_max_turn",
-                 "slip_angle_rms_rad", "slip_rms_<wheel>", "slip_max_<wheel>"};
+  spec.writes = written(wheel_slip_numbers());
   return spec;
 }
 

@@ -15,11 +15,14 @@
 /// of a vehicle that flies and has no wheels there are none.
 
 #include <memory>
+#include <vector>
 
 #include "engine/api/registry.h"
+#include "engine/sim/metrics/numbers.h"
 
 namespace vinerow {
 
+const std::vector<MetricNumber>& wheel_slip_numbers();
 PartSpec wheel_slip_spec();
 std::unique_ptr<Metric> make_wheel_slip(const ParameterSet& parameters,
                                         const MetricContext& context);

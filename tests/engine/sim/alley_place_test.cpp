@@ -169,8 +169,10 @@ TEST(AlleyPlace, OfAPlanTheLegsCount) {
 TEST(AlleyPlace, NamesItsResultsAndAllocatesNothing) {
   Bench bench(true);
   const Results results = bench.results();
-  EXPECT_EQ(results.size(), alley_place_spec().writes.size());
-  for (const std::string& name : alley_place_spec().writes) EXPECT_EQ(results.count(name), 1u);
+  EXPECT_EQ(results.size(), alley_place_numbers().size());
+  for (const MetricNumber& number : alley_place_numbers()) {
+    EXPECT_EQ(results.count(number.name), 1u);
+  }
   bench.at(-9.0, kMiddle0_m);
   const test::AllocationCounter counter;
   bench.along(-8.5, 8.5, kMiddle0_m);

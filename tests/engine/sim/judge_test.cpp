@@ -70,5 +70,76 @@ TEST(Judge, ALongListOfMetricsIsCutWhereOneIsNear) {
   EXPECT_NE(far.find("rover.slip_rms_wheel_9)"), std::string::npos) << far;
 }
 
+/// What is said of a criterion before the run, of a scenario with these metrics.
+std::string refusal_of(const std::string& metric, std::optional<double> min,
+                       std::optional<double> max, const std::vector<std::string>& types) {
+  std::vector<io::NamedPart> parts;
+  for (const std::string& type : types) {
+    parts.push_back({type, {}});
+    parts.back().part.type = type;
+  }
+  io::Criterion wanted = criterion(metric, min, max);
+  wanted.where = {"x.yaml", 7};
+  const std::string name = metric.substr(metric.find('.') + 1);
+  try {
+    check_criteria({wanted}, {{"rover", {{name, std::nan("")}}}}, parts);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CheckCriteria, RefusesWhatNoValueMeets) {
+  const auto refusal = [](const std::string& metric, std::optional<double> min,
+                          std::optional<double> max) {
+    return refusal_of("rover." + metric, min, max,
+                      {"travel", "path_deviation", "survey", "wheel_slip", "estimation"});
+  };
+  EXPECT_EQ(refusal("finished", 1e9, {}),
+            "x.yaml:7: criteria: no value of rover.finished meets min = 1e+09 (possible: 0 or 1)");
+  EXPECT_EQ(refusal("finished", 0.2, 0.8),
+            "x.yaml:7: criteria: no value of rover.finished meets min = 0.2 and max = 0.8 "
+            "(possible: 0 or 1)");
+  EXPECT_EQ(refusal("covered_share", 1.01, {}),
+            "x.yaml:7: criteria: no value of rover.covered_share meets min = 1.01 (possible: "
+            "0 to 1)");
+  EXPECT_EQ(refusal("cross_track_rms_m", {}, -0.05),
+            "x.yaml:7: criteria: no value of rover.cross_track_rms_m meets max = -0.05 "
+            "(possible: from 0)");
+  EXPECT_EQ(refusal("alleys_driven", 8.2, 8.8),
+            "x.yaml:7: criteria: no value of rover.alleys_driven meets min = 8.2 and max = 8.8 "
+            "(possible: whole numbers from 0)");
+  // Of a wheel, of an observer, of a source.
+  EXPECT_NE(refusal("slip_max_front_left", 2.5, {}), "");
+  EXPECT_NE(refusal("no_map_consistent", 2, {}), "");
+  EXPECT_NE(refusal("nis_range_mean", {}, -1), "");
+  EXPECT_NE(refusal("no_map_nis_range_mean", {}, -1), "");
+}
+
+TEST(CheckCriteria, TheEndsOfARangeCanBeMet) {
+  const std::vector<std::string> types{"travel", "alley_place", "survey"};
+  EXPECT_EQ(refusal_of("rover.finished", 1, {}, types), "");
+  EXPECT_EQ(refusal_of("rover.finished", {}, 0, types), "");
+  EXPECT_EQ(refusal_of("rover.covered_share", 1, 1, types), "");
+  EXPECT_EQ(refusal_of("rover.distance_m", 1e12, {}, types), "");
+  EXPECT_EQ(refusal_of("rover.distance_m", {}, 0, types), "");
+  EXPECT_EQ(refusal_of("rover.alleys_passed", 9, 9, types), "");
+  // Either sign, and taken in where there is more to gain than to draw.
+  EXPECT_EQ(refusal_of("rover.alley_offset_mean_m", -0.03, -0.01, types), "");
+  EXPECT_EQ(refusal_of("rover.energy_J", {}, -10, types), "");
+  // Says at least that it was measured.
+  EXPECT_EQ(refusal_of("rover.standing_drift_m", 0, {}, types), "");
+}
+
+TEST(CheckCriteria, KnowsNoRangeOfWhatOthersMeasure) {
+  EXPECT_EQ(refusal_of("rover.finished", 5, {}, {"a_plugin_s"}), "");
+  EXPECT_EQ(refusal_of("rover.sprayer_litres_lost", {}, -1, {"travel"}), "");
+}
+
+TEST(CheckCriteria, RefusesMetricsThatDoNotExist) {
+  EXPECT_THROW(check_criteria({criterion("rover.b", {}, 1.0)}, {{"rover", {{"a", 0.0}}}}, {}),
+               ConfigError);
+}
+
 }  // namespace
 }  // namespace vinerow::judge_test

@@ -249,6 +249,10 @@ TEST_F(MissionRun, FaultsOfPartsAreFoundBeforeAnythingRuns) {
               HasSubstr("did you mean 'rover.time_s'?"));
   EXPECT_THAT(fault_of("phases.spray.criteria=[{metric: rover.tme_s, max: 1}]"),
               HasSubstr("did you mean 'rover.time_s'?"));
+  EXPECT_THAT(fault_of("criteria=[{metric: rover.finished, min: 1e9}]"),
+              HasSubstr("no value of rover.finished meets min = 1e+09 (possible: 0 or 1)"));
+  EXPECT_THAT(fault_of("phases.spray.criteria=[{metric: rover.distance_m, max: -1}]"),
+              HasSubstr("no value of rover.distance_m meets max = -1 (possible: from 0)"));
   EXPECT_THAT(fault_of("traffic={reserve_alleys: [rover, drone]}"),
               HasSubstr("neither guidance nor controller of 'rover' reads the signal 'authority', "
                         "so it cannot wait for an alley"));

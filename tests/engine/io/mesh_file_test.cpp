@@ -342,6 +342,15 @@ TEST_F(MeshFileTest, ColladaThatPromisesMoreThanItHoldsIsRefused) {
             file + "is broken: '1e999' in <float_array> of line 1, must be a finite number");
   EXPECT_EQ(changed("0 0 0 1 0", "0 0 1 0"),
             file + "is broken: <float_array> of line 1 has 11 numbers, its count is 12");
+  // Four corners of three numbers are taken from arrays that are counted as shorter.
+  EXPECT_EQ(changed("count=\"12\"", "count=\"0\""),
+            file +
+                "is broken: the <accessor> of line 1 takes 12 values from the 0 of the "
+                "<float_array> of line 1");
+  EXPECT_NE(changed("count=\"12\"", "count=\"11\"").find("takes 12 values from the 11 of the"),
+            std::string::npos);
+  EXPECT_NE(changed("stride=\"3\"", "stride=\"4\"").find("takes 15 values from the 12 of the"),
+            std::string::npos);
   EXPECT_NE(changed("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#n\"/>")
                 .find("is broken: the node 'n' contains itself"),
             std::string::npos);

@@ -288,7 +288,9 @@ TEST(WheeledPlatform, ClimbsUpToTheFrictionLimitAndNotBeyond) {
 TEST(WheeledPlatform, WideTurnFollowsTheSmallSlipTrack) {
   // yaw rate = R (w_r - w_l) / (B (1 + (c_y / c_x)(L / B)^2)), vehicles/parts/README.md.
   WorldModel world = make_flat_world();
-  const double track = calc_small_slip_track_m(1.0, 1.5, world.soil);
+  const double stiffness_ratio =
+      world.soil.cornering_stiffness_per_rad / world.soil.slip_stiffness;
+  const double track = 1.0 * (1.0 + stiffness_ratio * (1.5 / 1.0) * (1.5 / 1.0));
   EXPECT_NEAR(track, 2.5, 1e-12);
   Rig rig(std::move(world), rover_params());
   rig.command(4.98, 5.02);

@@ -82,11 +82,8 @@ class MapLocalisationLaw {
   /// @param mode  of the receiver: with `fix_slow_share` each has a slow error of its own
   void correct_fix(Time measured, const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m,
                    const Eigen::Vector3d& p_BA, int mode = 0);
-  /// A height of the body's origin in W, as from a barometer or a rangefinder that looks down.
-  void correct_height(Time measured, double z_m, double std_m) {
-    correct_plane(measured, Eigen::Vector3d::UnitZ(), z_m, std_m);
-  }
-  /// n.p of the body's origin, n unit. What is farther off than fix_gate_sigma is refused.
+  /// n.p of the body's origin, n unit: a height where n is up. What is farther off than
+  /// fix_gate_sigma is refused.
   void correct_plane(Time measured, const Eigen::Vector3d& normal_W, double offset_m, double std_m);
   /// @param range_m  finite; no echo tells nothing  @param period_s  between this sensor's readings
   void correct_range(Time measured, int sensor, double range_m, double period_s);

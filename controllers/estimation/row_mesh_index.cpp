@@ -262,9 +262,4 @@ void RowMeshIndex::cut(const Eigen::Vector3d& p, const Eigen::Vector3d& n, doubl
   }
 }
 
-std::size_t RowMeshIndex::memory_bytes() const {
-  return sizeof(*this) + facets_.capacity() * sizeof(Facet) +
-         (first_.capacity() + listed_.capacity()) * sizeof(std::uint32_t);
-}
-
 }  // namespace vinerow

@@ -54,11 +54,6 @@ class RowMeshIndex {
   void cut(const Eigen::Vector3d& p_W, const Eigen::Vector3d& normal_W, double radius_m,
            std::vector<Segment>& segments) const;
 
-  /// Of everything that is kept.
-  std::size_t memory_bytes() const;
-  /// Triangles of the map's meshes.
-  int facet_count() const { return static_cast<int>(facets_.size()); }
-
  private:
   /// One line of the processor's cache. The corners are the map's own bits.
   struct alignas(64) Facet {

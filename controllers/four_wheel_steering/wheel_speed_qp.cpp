@@ -79,12 +79,4 @@ double WheelSpeedQp::cost(const Eigen::Vector4d& rim_mps) const {
   return miss * miss;
 }
 
-bool WheelSpeedQp::is_allowed(const Eigen::Vector4d& rim_mps, double tolerance_mps) const {
-  const Eigen::Array4d slip = A_ * rim_mps;
-  return (slip <= row_upper_.array() + tolerance_mps).all() &&
-         (slip >= row_lower_.array() - tolerance_mps).all() &&
-         (rim_mps.array() <= upper_.array() + tolerance_mps).all() &&
-         (rim_mps.array() >= lower_.array() - tolerance_mps).all();
-}
-
 }  // namespace vinerow

@@ -53,8 +53,6 @@ class WheelSpeedQp {
   double cost(const Eigen::Vector4d& rim_mps) const;
   /// A v, m/s.
   Eigen::Vector4d slip_mps(const Eigen::Vector4d& rim_mps) const { return A_ * rim_mps; }
-  /// True if rows and bounds hold. @param tolerance_mps  of each
-  bool is_allowed(const Eigen::Vector4d& rim_mps, double tolerance_mps) const;
 
   const Eigen::Vector4d& alpha() const { return alpha_; }
   double beta() const { return beta_; }

@@ -74,16 +74,4 @@ VelocityCommand DifferentialDrive::limit(const VelocityCommand& command) const {
   return {command.v_mps * scale, command.yaw_rate_radps * scale};
 }
 
-VelocityCommand DifferentialDrive::unmix(const std::vector<double>& values) const {
-  double left = 0.0, right = 0.0;
-  int lefts = 0, rights = 0;
-  for (std::size_t i = 0; i < wheels_.size(); ++i) {
-    (wheels_[i].side > 0.0 ? right : left) += values[i];
-    ++(wheels_[i].side > 0.0 ? rights : lefts);
-  }
-  left *= wheel_radius_m_ / lefts;
-  right *= wheel_radius_m_ / rights;
-  return {0.5 * (left + right), (right - left) / track_m_};
-}
-
 }  // namespace vinerow

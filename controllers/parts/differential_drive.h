@@ -26,10 +26,6 @@ class DifferentialDrive final : public TwistDrive {
   VelocityCommand limit(const VelocityCommand& command) const override;
   bool turns_on_the_spot() const override { return true; }
 
-  /// Speeds that the mean wheel speed of each side stands for; inverse of mix().
-  /// @param values  one entry per actuator, rad/s
-  VelocityCommand unmix(const std::vector<double>& values) const;
-
   double track_m() const { return track_m_; }
   double wheel_radius_m() const { return wheel_radius_m_; }
 

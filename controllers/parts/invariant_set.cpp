@@ -119,17 +119,4 @@ Result<InvariantSet> maximal_robust_invariant_set(const Eigen::MatrixXd& A, cons
   return gather(A, X, W, settings);
 }
 
-double invariance_excess(const Eigen::MatrixXd& A, const Polytope& P, const Support& W) {
-  demand_dimensions(A, P);
-  double worst = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < P.rows(); ++i) {
-    const Eigen::VectorXd row = P.F().row(i);
-    const double length = row.norm();
-    if (length == 0.0) continue;
-    const double reached = P.support(A.transpose() * row) + W(row);
-    worst = std::max(worst, (reached - P.g()[i]) / length);
-  }
-  return worst;
-}
-
 }  // namespace vinerow

@@ -44,8 +44,4 @@ Result<InvariantSet> maximal_robust_invariant_set(const Eigen::MatrixXd& A, cons
                                                   const Support& W,
                                                   const InvariantSettings& settings = {});
 
-/// How far x+ = A x + w leads out of P from its worst point, over rows of length one; <= 0 where P
-/// is invariant. -infinity if P is empty. @param W  support of the disturbance
-double invariance_excess(const Eigen::MatrixXd& A, const Polytope& P, const Support& W);
-
 }  // namespace vinerow

@@ -47,7 +47,7 @@ const ParameterTable<GoToParams>& go_to_table() {
                   "straights and arcs are split into round(length / pitch) parts")
           .number("speed_mps", "m/s", &P::speed_mps, between(0.0, 100.0),
                   "wanted speed; 0 = the follower's own")
-          .integer("max_iterations", &P::max_iterations, between(1, 1e7),
+          .integer("max_iterations", &P::max_iterations, between(1, kMostQuartileIterations),
                    "nodes expanded per way before the search gives up")
           .rule([](const P& p) -> std::string {
             if (p.x_m.size() != p.y_m.size()) {

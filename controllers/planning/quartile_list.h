@@ -28,7 +28,6 @@ class QuartileList {
   int add(double distance_m);
   /// @pre node was added. Closing twice is allowed.
   void close(int node);
-  bool is_open(int node) const { return place_[node] >= 0; }
   int open_count() const { return open_.total; }
   /// Upper ends of the quartiles, as bucket numbers. @pre a node was added
   std::array<int, 4> quartile_buckets() const;

@@ -75,7 +75,8 @@ const ParameterTable<QuartilePlannerParams>& rrt_quartile_table() {
           .degrees("cell_deg", tree(&Tree::cell_rad), between(0.5, 90.0), "the same for headings")
           .number("join_m", "m", tree(&Tree::join_m), between(0.01, 1e4),
                   "longest Dubins path that joins the tree to the goal exactly")
-          .integer("max_iterations", search(&Search::max_iterations), between(1, 1e7),
+          .integer("max_iterations", search(&Search::max_iterations),
+                   between(1, kMostQuartileIterations),
                    "nodes expanded per turn before the search gives up")
           .integer("refinements", search(&Search::refinements), between(0, 4),
                    "when the tree is exhausted, so often again with half the step and "

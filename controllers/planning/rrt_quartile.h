@@ -7,6 +7,9 @@
 
 namespace vinerow {
 
+/// Of one search: a node takes about 250 bytes, so all of them half a gigabyte.
+inline constexpr double kMostQuartileIterations = 2e6;
+
 struct RrtQuartileParams {
   QuartileTreeParams tree;
   DistanceKind heuristic = DistanceKind::kGeodesic;

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
@@ -29,6 +31,7 @@ class ColladaCheck {
 
   void check(const tinyxml2::XMLElement& root) {
     look_at(root);
+    for (const auto* accessor : accessors_) check_accessor(*accessor);
     for (const auto& [name, node] : nodes_) count_nodes(*node, name, 0);
   }
 
@@ -45,6 +48,10 @@ class ColladaCheck {
     check_number(element, "offset", name == "input" ? kMostInputs : bytes_, "");
     if (name == "p" || name == "v" || name == "vcount" || name == "h") check_indices(element);
     if (name == "float_array") check_floats(element);
+    if (name == "float_array" || name == "Name_array" || name == "IDREF_array") {
+      if (const char* id = element.Attribute("id")) arrays_[id] = &element;  // the last, as assimp
+    }
+    if (name == "accessor") accessors_.push_back(&element);
     if (name == "node") {
       for (const char* key : {"id", "name"}) {
         if (const char* value = element.Attribute(key)) nodes_.try_emplace(value, &element);
@@ -94,11 +101,49 @@ class ColladaCheck {
       fail(fmt::format("'{}' in <float_array> of line {}, must be a finite number",
                        word.substr(0, 40), element.GetLineNum()));
     });
-    const char* told = element.Attribute("count");
-    const std::uint64_t promised = told ? parse_count(told).value_or(0) : 0;
+    const std::uint64_t promised = count_of(element, "count", 0);
     if (count >= promised) return;
     fail(fmt::format("<float_array> of line {} has {} numbers, its count is {}",
                      element.GetLineNum(), count, promised));
+  }
+
+  /// assimp looks up entries of an accessor in its array without asking how long that is.
+  void check_accessor(const tinyxml2::XMLElement& accessor) const {
+    const char* source = accessor.Attribute("source");
+    const std::uint64_t count = count_of(accessor, "count", 0);
+    if (source == nullptr || count == 0) return;
+    const auto found = arrays_.find(source[0] == '#' ? source + 1 : source);
+    if (found == arrays_.end()) return;  // assimp says so where it is needed
+    const tinyxml2::XMLElement& array = *found->second;
+    if (is_in_mesh(accessor) && std::strcmp(array.Name(), "float_array") != 0) {
+      fail(fmt::format("the <accessor> of line {} takes a mesh's numbers from the <{}> of line {}",
+                       accessor.GetLineNum(), array.Name(), array.GetLineNum()));
+    }
+    std::uint64_t of_one = 0;
+    for (const auto* param = accessor.FirstChildElement("param"); param != nullptr;
+         param = param->NextSiblingElement("param")) {
+      ++of_one;
+    }
+    const std::uint64_t has = count_of(array, "count", 0);
+    const std::uint64_t asks = count_of(accessor, "offset", 0) +
+                               (count - 1) * count_of(accessor, "stride", 1) +
+                               std::max<std::uint64_t>(of_one, 1);
+    if (asks <= has) return;
+    fail(fmt::format("the <accessor> of line {} takes {} values from the {} of the <{}> of line {}",
+                     accessor.GetLineNum(), asks, has, array.Name(), array.GetLineNum()));
+  }
+
+  static bool is_in_mesh(const tinyxml2::XMLElement& element) {
+    for (const auto* above = element.Parent(); above != nullptr; above = above->Parent()) {
+      if (above->ToElement() && std::strcmp(above->ToElement()->Name(), "mesh") == 0) return true;
+    }
+    return false;
+  }
+
+  static std::uint64_t count_of(const tinyxml2::XMLElement& element, const char* key,
+                                std::uint64_t otherwise) {
+    const char* text = element.Attribute(key);
+    return text ? parse_count(text).value_or(otherwise) : otherwise;
   }
 
   void check_number(const tinyxml2::XMLElement& element, const char* key, std::uint64_t most,
@@ -144,6 +189,8 @@ class ColladaCheck {
   std::uint64_t bytes_;
   std::map<std::string, const tinyxml2::XMLElement*> nodes_;
   std::map<const tinyxml2::XMLElement*, std::uint64_t> counts_;
+  std::map<std::string, const tinyxml2::XMLElement*> arrays_;
+  std::vector<const tinyxml2::XMLElement*> accessors_;
 };
 
 }  // namespace

@@ -258,12 +258,6 @@ MeshFile load_ply(const std::filesystem::path& file, const Eigen::Matrix4d& to_m
 
 }  // namespace
 
-std::size_t MeshFile::triangle_count() const {
-  std::size_t count = 0;
-  for (const MeshPart& part : parts) count += part.mesh->triangles.size();
-  return count;
-}
-
 Eigen::AlignedBox3d MeshFile::bounds() const {
   Eigen::AlignedBox3d box;
   for (const MeshPart& part : parts) box.extend(part.mesh->bounds());

@@ -41,7 +41,6 @@ struct MeshFile {
   std::vector<std::string>
       notes;  ///< textures and libraries that the file names and that are not there, each by name
 
-  std::size_t triangle_count() const;
   Eigen::AlignedBox3d bounds() const;  ///< of all parts, m
 };
 

@@ -69,24 +69,4 @@ std::unique_ptr<PointCloudReader> open_point_cloud(BlockFile bytes) {
       extension));
 }
 
-PointCloudSummary summarise_point_cloud(const std::filesystem::path& file) {
-  const std::unique_ptr<PointCloudReader> reader = open_point_cloud(file);
-  PointCloudSummary summary;
-  std::vector<CloudPoint> block(4096);
-  while (const std::size_t count = reader->read(block)) {
-    for (std::size_t k = 0; k < count; ++k) summary.bounds.extend(block[k].position);
-  }
-  summary.info = reader->info();
-  summary.tally = reader->tally();
-  if (summary.tally.given == 0) {
-    throw ConfigError(
-        fmt::format("point cloud '{}' has no points{}", file.string(),
-                    summary.tally.not_finite + summary.tally.withheld == 0
-                        ? ""
-                        : fmt::format(" left: {} are not finite, {} are marked as withheld",
-                                      summary.tally.not_finite, summary.tally.withheld)));
-  }
-  return summary;
-}
-
 }  // namespace vinerow::io

@@ -82,15 +82,4 @@ std::unique_ptr<PointCloudReader> open_point_cloud(const std::filesystem::path& 
 /// The same of bytes that are open, at their first.
 std::unique_ptr<PointCloudReader> open_point_cloud(BlockFile bytes);
 
-/// What all points of a file have in common.
-struct PointCloudSummary {
-  PointCloudInfo info;
-  PointCloudTally tally;
-  Eigen::AlignedBox3d bounds;  ///< of the points given, in the file's frame and unit
-};
-
-/// Reads the whole file once. @throws ConfigError as open_point_cloud() and read(), and where no
-/// point is left
-PointCloudSummary summarise_point_cloud(const std::filesystem::path& file);
-
 }  // namespace vinerow::io

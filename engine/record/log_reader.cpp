@@ -173,21 +173,4 @@ void LogReader::read_messages(
   impl_->note_damage();
 }
 
-void LogReader::read_raw(
-    const std::function<void(Time, const ChannelInfo&, const std::vector<std::uint8_t>&)>& callback)
-    const {
-  std::set<std::uint16_t> ids;
-  std::map<std::uint16_t, const ChannelInfo*> by_id;
-  for (const ChannelInfo& channel : impl_->info.channels) {
-    ids.insert(static_cast<std::uint16_t>(channel.id));
-    by_id[static_cast<std::uint16_t>(channel.id)] = &channel;
-  }
-  std::vector<std::uint8_t> data;
-  impl_->mcap.for_each_message(ids, [&](const McapMessage& message) {
-    data.assign(message.data.begin(), message.data.end());
-    callback(time_of(message.log_time), *by_id.at(message.channel), data);
-  });
-  impl_->note_damage();
-}
-
 }  // namespace vinerow::record

@@ -68,10 +68,6 @@ class LogReader {
                   });
   }
 
-  /// Raw messages of every topic in log order, with their log time.
-  void read_raw(const std::function<void(Time, const ChannelInfo&,
-                                         const std::vector<std::uint8_t>&)>& callback) const;
-
  private:
   /// What a message is called: by us, and in the log.
   struct MessageNames {

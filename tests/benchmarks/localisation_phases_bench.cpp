@@ -209,7 +209,9 @@ void phases_of_map_localisation(benchmark::State& state) {
       // Once more: those of the law find all in the caches.
       const double rays_us = counts && in_pieces ? time_predictions_us(flight, X_MB) : 0.0;
       const double update_us = time_us([&] {
-        if (tick.height_m) law.correct_height(tick.now, *tick.height_m, flight.setup.height_std_m);
+        if (tick.height_m) {
+          law.correct_plane(tick.now, Vector3d::UnitZ(), *tick.height_m, flight.setup.height_std_m);
+        }
         for (const RangeReading& reading : tick.ranges) {
           if (!std::isfinite(reading.range_m)) continue;
           law.correct_range(tick.now, reading.sensor, reading.range_m, 0.05);

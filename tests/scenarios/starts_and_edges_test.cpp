@@ -223,5 +223,41 @@ TEST(Steps, TooLongForTheWheelsAreRefused) {
                         "which are valid to 0.0025 s"));
 }
 
+TEST(Steps, TooLongForRotorsAndWingsAreRefused) {
+  const auto said = [](const std::string& name) {
+    const auto result = test::run_vinerow("validate " + test::scenario_file(name) +
+                                          " --set physics.step_s=0.0125");
+    EXPECT_EQ(result.status, 2) << result.output;
+    return result.output;
+  };
+  const std::string is_too_long = "physics.step_s = 0.0125 s is too long for its ";
+  EXPECT_THAT(said("quadrotor_gust"),
+              HasSubstr("drone: " + is_too_long + "rotors, which are valid to 0.01 s"));
+  EXPECT_THAT(said("trmpc_stress"),
+              HasSubstr("plane: " + is_too_long + "wings, which are valid to 0.01 s"));
+}
+
+TEST(Density, OfAnotherHeightThanTheGroundsIsTold) {
+  // 600 m x 600 m of ground at 1620 m about 45 N 9 E, where UTM zone 32 has its middle.
+  const ScratchFolder folder("density");
+  std::string dem = "ncols 60\nnrows 60\nxllcorner 499700\nyllcorner 4982650\ncellsize 10\n";
+  for (int i = 0; i < 60 * 60; ++i) dem += i % 60 == 59 ? "1620\n" : "1620 ";
+  const std::string file = folder.file("high.asc", dem);
+  const std::string warning = "the air has the density of the origin's altitude";
+  const auto told = [&](const std::string& more) {
+    run(folder, scenario("{type: vineyard, row_count: 2, row_length_m: 10, surroundings_m: 90, "
+                         "crs: EPSG:32632, origin_latitude_deg: 45, origin_longitude_deg: 9, "
+                         "dem_file: " +
+                             file + more + "}",
+                         "{x_m: 0, y_m: 0}", 5));
+    return events(folder);
+  };
+  EXPECT_THAT(told(", origin_altitude_m: 0"),
+              HasSubstr(warning + ", 0 m, but the ground lies at z = 1620 m: set wind.atmosphere "
+                                  "to us76, or air_density_kgm3, or origin_altitude_m"));
+  EXPECT_THAT(told(", origin_altitude_m: 1500"), Not(HasSubstr(warning)));
+  EXPECT_THAT(told(", origin_altitude_m: 0, wind: {atmosphere: us76}"), Not(HasSubstr(warning)));
+}
+
 }  // namespace
 }  // namespace vinerow::starts_and_edges_test

@@ -16,6 +16,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from mcap_file import Cdr, Log  # noqa: E402
+
 VINEROW = sys.argv[1]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RED, GREEN = "\x1b[31m", "\x1b[32m"
@@ -122,6 +125,18 @@ class List(unittest.TestCase):
         for default in re.findall(r"default (\S+)", vinerow("list", "--full")):
             for number in re.findall(r"\d+\.\d+", default):
                 self.assertLessEqual(len(number), 11, default)
+
+
+class Info(unittest.TestCase):
+    def test_takes_a_log_and_the_runs_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "log.mcap"
+            log = Log()
+            log.message(log.channel("/rover/note", "std_msgs/msg/String", "string data"), 10**9, Cdr().text("x").message())
+            log.write(file)
+            by_file = vinerow("info", str(file))
+            self.assertRegex(by_file, r"/rover/note +std_msgs/msg/String +1 messages")
+            self.assertEqual(vinerow("info", folder), by_file)
 
 
 class Colours(unittest.TestCase):

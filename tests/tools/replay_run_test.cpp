@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "engine/api/world_model.h"
@@ -248,6 +250,23 @@ TEST_F(ReplaySection, TellsWhatItLeavesOut) {
   run.scenario.vehicles.clear();
   const ReplayPage without_vehicles(replay_section(run.input()));
   EXPECT_EQ(without_vehicles.index["notes"].back(), "the run has no vehicles");
+}
+
+TEST_F(ReplaySection, PosesCenturiesApartAreNotFilledIn) {
+  const ScratchFolder folder("replay_centuries");
+  run_into(folder, 2.0);
+  ReplayRun run = read_run(folder);
+  // False stamps: the last pose 280 years after the others.
+  VehicleTrace& drone = run.trace.vehicles.at("drone");
+  const Time far = run.trace.first + duration_from_s(280.0 * 365.25 * 86400.0);
+  drone.truth.times.back() = drone.links.times.back() = run.trace.last = far;
+  const ReplayPage page(replay_section(run.input()));
+  const json& vehicle = page.index["vehicles"][0];
+  const auto n = vehicle["samples"].get<std::size_t>();
+  EXPECT_LE(n, drone.truth.times.size());
+  const auto times = page.numbers<std::uint32_t>(vehicle["times"], n);
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  EXPECT_EQ(times.back(), std::numeric_limits<std::uint32_t>::max());  // 49.7 days, all it can hold
 }
 
 TEST_F(ReplaySection, KeepsTextFromEndingItsElement) {

@@ -9,11 +9,12 @@ void add_info_command(CLI::App& app, int& exit_status) {
   auto file = std::make_shared<std::filesystem::path>();
   CLI::App* command =
       app.add_subcommand("info", "summarise a log: topics, types, how many messages");
-  command->add_option("log", *file, "log.mcap of a run, complete or cut off")->required();
+  command->add_option("log", *file, "log.mcap of a run, complete or cut off, or its folder")->required();
   command->callback([file, &exit_status] {
-    const record::LogReader reader(*file);
+    const std::filesystem::path log = log_of(*file);
+    const record::LogReader reader(log);
     const record::LogInfo& info = reader.info();
-    fmt::print("{}: {}, {:.3f} to {:.3f} s, {} messages, {:.2f} MB\n", file->string(),
+    fmt::print("{}: {}, {:.3f} to {:.3f} s, {} messages, {:.2f} MB\n", log.string(),
                info.complete ? "complete" : "cut off (no footer)", info.first.s(), info.last.s(),
                info.messages, static_cast<double>(info.bytes) * 1e-6);
     for (const auto& [key, value] : info.metadata) fmt::print("  {}: {}\n", key, value);

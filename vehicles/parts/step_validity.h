@@ -15,6 +15,11 @@ namespace vinerow::vehicles {
 /// stiffest modes of the shipped rovers at 50 rad/s this is an eighth of a radian; 3.5 mm after a
 /// start and a turn of 2 s.
 inline constexpr Duration kMostWheelStep{2'500'000};
+/// Of what a strut's fastest motion turns in a step: semi-implicit steps of 0.5 rad are 1 % too
+/// fast, and beyond 2 rad they grow without end.
+inline constexpr double kMostStrutAngle_rad = 0.5;
+/// Damping over mass times the step: twice the angle above where that is damped critically.
+inline constexpr double kMostStrutDecay = 1.0;
 /// Bodies in the air: engine/physics/README.md, Envelope.
 inline constexpr Duration kMostFlightStep{10'000'000};
 

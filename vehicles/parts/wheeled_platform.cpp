@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "engine/api/parameter_table.h"
@@ -22,6 +23,34 @@ const ParameterTable<WheeledPlatformParams>& wheeled_platform_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>().number("mass_kg", "kg", &P::mass_kg, kPositive, "wheels included");
   return table;
+}
+
+/// The largest of K v = lambda M v.
+double largest_eigenvalue(const Eigen::Matrix3d& K, const Eigen::Matrix3d& M) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(K, M,
+                                                                         Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().maxCoeff();
+}
+
+/// Heave, roll and pitch on the struts: a step must be short beside the fastest of them.
+void demand_step_for_struts(Duration step, const WheeledPlatformParams& params) {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Zero(), D = Eigen::Matrix3d::Zero();
+  for (const WheelParams& wheel : params.wheels) {
+    const Eigen::Vector3d lever(1.0, wheel.hub_B.y(), -wheel.hub_B.x());
+    K += wheel.suspension.stiffness_N_per_m * lever * lever.transpose();
+    D += wheel.suspension.damping_Ns_per_m * lever * lever.transpose();
+  }
+  Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
+  M(0, 0) = params.mass_kg;
+  M.bottomRightCorner<2, 2>() = params.inertia_B.topLeftCorner<2, 2>();
+  const double angle_rad = std::sqrt(largest_eigenvalue(K, M)) * step.s();
+  const double decay = largest_eigenvalue(D, M) * step.s();
+  if (angle_rad <= kMostStrutAngle_rad && decay <= kMostStrutDecay) return;
+  throw ConfigError(fmt::format(
+      "{}: physics.step_s = {:g} s is too long for struts so stiff under {:g} kg: they swing {:g} "
+      "rad and damp by {:g} in a step, must be up to {:g} rad and {:g}",
+      params.name, step.s(), params.mass_kg, angle_rad, decay, kMostStrutAngle_rad,
+      kMostStrutDecay));
 }
 
 }  // namespace
@@ -68,6 +97,7 @@ WheeledPlatform::WheeledPlatform(WheeledPlatformParams params) : params_(std::mo
 
 void WheeledPlatform::spawn(physics::PhysicsWorld& world, const Pose& X_WB) {
   demand_step(world.settings().step, kMostWheelStep, params_.name, "its wheels");
+  demand_step_for_struts(world.settings().step, params_);
   world_ = &world;
   physics::BodySpec spec;
   spec.name = params_.name;

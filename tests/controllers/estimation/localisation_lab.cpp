@@ -220,7 +220,6 @@ LabScore study(const LabSetup& setup, int count, const LabFilterMaker& make,
                const std::function<bool(const LabSample&)>& counts) {
   LabScore score;
   double n = 0.0;
-  std::vector<double> nees, lateral, longitudinal;
   for (int seed = 1; seed <= count; ++seed) {
     const LabRun run = fly(setup, static_cast<std::uint64_t>(seed), make);
     ++score.seeds;
@@ -228,43 +227,25 @@ LabScore study(const LabSetup& setup, int count, const LabFilterMaker& make,
     if (!(std::hypot(last.lateral_m, last.longitudinal_m) < 1.0 + 0.0 * last.nees)) {
       ++score.lost;
     }
-    double own = 0.0, own_nees = 0.0, own_lat = 0.0, own_lon = 0.0;
     for (const LabSample& sample : run.samples) {
       if (counts ? !counts(sample) : sample.time_s < 3.0) continue;
-      own += 1.0;
-      own_nees += sample.nees;
-      own_lat += sample.lateral_m * sample.lateral_m;
-      own_lon += sample.longitudinal_m * sample.longitudinal_m;
+      n += 1.0;
+      score.nees += sample.nees;
+      score.lateral_m += sample.lateral_m * sample.lateral_m;
+      score.longitudinal_m += sample.longitudinal_m * sample.longitudinal_m;
       score.lateral_mean_m += sample.lateral_m;
       score.longitudinal_mean_m += sample.longitudinal_m;
       score.lateral_max_m = std::max(score.lateral_max_m, std::abs(sample.lateral_m));
       score.coverage += sample.in_ellipse;
       score.containment += sample.in_set;
     }
-    n += own;
-    score.nees += own_nees;
-    score.lateral_m += own_lat;
-    score.longitudinal_m += own_lon;
-    if (own == 0.0) continue;
-    nees.push_back(own_nees / own);
-    lateral.push_back(std::sqrt(own_lat / own));
-    longitudinal.push_back(std::sqrt(own_lon / own));
   }
-  const auto spread = [](const std::vector<double>& values) {
-    double mean = 0.0, square = 0.0;
-    for (const double x : values) mean += x / static_cast<double>(values.size());
-    for (const double x : values) square += (x - mean) * (x - mean);
-    return std::sqrt(square / std::max<double>(1.0, static_cast<double>(values.size()) - 1.0));
-  };
   score.lateral_m = std::sqrt(score.lateral_m / n);
   score.longitudinal_m = std::sqrt(score.longitudinal_m / n);
   for (double* mean : {&score.lateral_mean_m, &score.longitudinal_mean_m, &score.nees,
                        &score.coverage, &score.containment}) {
     *mean /= n;
   }
-  score.nees_spread = spread(nees);
-  score.lateral_spread_m = spread(lateral);
-  score.longitudinal_spread_m = spread(longitudinal);
   return score;
 }
 

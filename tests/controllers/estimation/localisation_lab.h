@@ -103,8 +103,6 @@ struct LabScore {
   double nees = 0.0;         ///< mean
   double coverage = 0.0;     ///< share inside the 95 % ellipse
   double containment = 0.0;  ///< share inside the set
-  double nees_spread = 0.0;  ///< standard deviation over seeds of a seed's mean
-  double lateral_spread_m = 0.0, longitudinal_spread_m = 0.0;  ///< the same of a seed's rms
   int seeds = 0;
   int lost = 0;  ///< not finite, or off by more than 1 m at the end; these count in all else too
 };

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
+#include "tests/controllers/estimation/linear_theory.h"
 #include "tests/controllers/estimation/localisation_lab.h"
 
 namespace vinerow::test::localisation_test {
@@ -27,11 +29,6 @@ LabScore run(const LabSetup& setup, const DistanceFilterParams& params, bool has
   return study(setup, kSeeds, distance_filter(params, has_map), counts);
 }
 
-/// Four standard errors of a figure over this many seeds, from how it spreads over them.
-double four_errors(double spread) {
-  return 4.0 * spread / std::sqrt(static_cast<double>(kSeeds));
-}
-
 TEST(Localisation, RangeEkfIsAccurateAndConsistent) {
   const LabScore score = run({}, {});
   EXPECT_LE(score.lateral_m, 0.018);
@@ -45,20 +42,32 @@ TEST(Localisation, RangeEkfIsAccurateAndConsistent) {
 }
 
 TEST(Localisation, WithoutTheMapReadingR1GivesPaperCsTable3) {
+  // Without a map the filter is linear: both the figures and those of paper C must agree with the
+  // covariance recursion, within four standard deviations that it tells of as many flights.
+  const double share = 4.0 / std::sqrt(static_cast<double>(kSeeds));
+  const LinearTheory theory({}, kR1);
+  const double margin_m2 = share * theory.mean_square_std_m2();
+  EXPECT_NEAR(0.2623 * 0.2623, theory.mean_square_m2(), margin_m2);  // table 3
+  EXPECT_NEAR(0.2616 * 0.2616, theory.mean_square_m2(), margin_m2);
   const LabScore score = run({}, with(kR1, DistanceFusion::kRangeEkf), false);
-  // A filter that scatters more may not widen its own bounds beyond a share of the figure, a little
-  // more than ten seeds scatter today.
-  const auto expect_near = [](double value, double expected, double spread, double most = 0.12) {
-    EXPECT_LT(four_errors(spread), most * expected);
-    EXPECT_NEAR(value, expected, four_errors(spread));
-  };
-  expect_near(score.lateral_m, 0.2623, score.lateral_spread_m);
-  expect_near(score.longitudinal_m, 0.2616, score.longitudinal_spread_m);
+  EXPECT_NEAR(score.lateral_m * score.lateral_m, theory.mean_square_m2(), margin_m2);
+  EXPECT_NEAR(score.longitudinal_m * score.longitudinal_m, theory.mean_square_m2(), margin_m2);
   // R3, the velocity as process model, is consistent: the reference's 0.2125 / 0.2022, NEES 1.9.
+  const LinearTheory of_velocity({});
+  const double velocity_margin_m2 = share * of_velocity.mean_square_std_m2();
+  EXPECT_NEAR(0.2125 * 0.2125, of_velocity.mean_square_m2(), velocity_margin_m2);
+  EXPECT_NEAR(0.2022 * 0.2022, of_velocity.mean_square_m2(), velocity_margin_m2);
+  EXPECT_NEAR(1.9, of_velocity.nees(), share * of_velocity.nees_std());
   const LabScore velocity = run({}, {}, false);
-  expect_near(velocity.lateral_m, 0.2125, velocity.lateral_spread_m, 0.25);
-  expect_near(velocity.longitudinal_m, 0.2022, velocity.longitudinal_spread_m, 0.35);
-  expect_near(velocity.nees, 1.9, velocity.nees_spread, 0.45);
+  EXPECT_NEAR(velocity.lateral_m * velocity.lateral_m, of_velocity.mean_square_m2(),
+              velocity_margin_m2);
+  EXPECT_NEAR(velocity.longitudinal_m * velocity.longitudinal_m, of_velocity.mean_square_m2(),
+              velocity_margin_m2);
+  EXPECT_NEAR(velocity.nees, of_velocity.nees(), share * of_velocity.nees_std());
+  std::printf("R1 %.4f / %.4f m, theory %.4f; R3 %.4f / %.4f m, NEES %.2f, theory %.4f, %.2f\n",
+              score.lateral_m, score.longitudinal_m, std::sqrt(theory.mean_square_m2()),
+              velocity.lateral_m, velocity.longitudinal_m, velocity.nees,
+              std::sqrt(of_velocity.mean_square_m2()), of_velocity.nees());
 }
 
 TEST(Localisation, Table3WithTheMapComesOutOfReadingR1) {

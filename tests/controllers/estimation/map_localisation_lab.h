@@ -28,7 +28,7 @@ class MapLocalisationFilter final : public LabFilter {
     law_.correct_fix(measured, p_W, std_m, Eigen::Vector3d::Zero());
   }
   void height(Time measured, double z_m, double std_m) override {
-    law_.correct_height(measured, z_m, std_m);
+    law_.correct_plane(measured, Eigen::Vector3d::UnitZ(), z_m, std_m);
   }
   void ranges(Time measured, std::span<const RangeReading> readings) override {
     for (const RangeReading& reading : readings) {

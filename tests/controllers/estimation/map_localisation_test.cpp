@@ -194,7 +194,7 @@ TEST(MapLocalisationLaw, RefusesAndCountsBadDataAndGoesOn) {
   law.correct_range(standing.now, 0, -1.0, 0.05);
   law.correct_range(standing.now + Duration{1'000'000'000}, 0, 1.0, 0.05);
   law.correct_fix(standing.now, {kNan, 0, 0}, {1, 1, 1}, {0, 0, 0});
-  law.correct_height(standing.now, kNan, 0.1);
+  law.correct_plane(standing.now, Eigen::Vector3d::UnitZ(), kNan, 0.1);
   law.predict(Time{0}, {0, 0, 0}, standing.q_WB);
   law.predict(standing.now, {kNan, 0, 0}, standing.q_WB);
   EXPECT_EQ(law.counters().refused, 7);

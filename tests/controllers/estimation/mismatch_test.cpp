@@ -11,6 +11,7 @@
 #include <ostream>
 #include <vector>
 
+#include "tests/controllers/estimation/linear_theory.h"
 #include "tests/controllers/estimation/localisation_lab.h"
 #include "tests/controllers/estimation/map_localisation_lab.h"
 
@@ -82,91 +83,10 @@ LabScore score_of(const LabFilterMaker& make, Noise noise, double factor, int se
   });
 }
 
-/// What linear theory says of a filter without a map, of one axis: no figure of it comes from the
-/// filter under test. The gain follows from the noise that the filter is told, whatever it meets:
-/// P+ = (I - K H) P. The true covariance S runs beside it with that gain and the true noise,
-/// S+ = (I - K H) S (I - K H)' + K R_true K' (Gelb, Applied Optimal Estimation, 1974, chapter 7).
-class MismatchTheory {
- public:
-  struct Share {
-    double fixes = 1.0, velocity = 1.0;
-  };
-  explicit MismatchTheory(Share share) {
-    const LabSetup setup;
-    const double dt = 0.01, keep = std::exp(-dt / setup.velocity_time_s);
-    const double told = setup.velocity_std_mps * setup.velocity_std_mps,
-                 met = share.velocity * share.velocity * told;
-    const double R = setup.fix_std_m.x() * setup.fix_std_m.x();
-    const Eigen::Matrix2d F{{1.0, dt}, {0.0, keep}};
-    const double start = setup.start_std_m * setup.start_std_m;
-    Eigen::Matrix2d P{{start, 0.0}, {0.0, told}}, S{{start, 0.0}, {0.0, met}};
-    const int ticks = static_cast<int>(std::lround(setup.duration_s / dt));
-    for (int k = 0; k <= ticks; ++k) {
-      Eigen::Matrix2d A = Eigen::Matrix2d::Identity();
-      if (k > 0) {
-        A = F;
-        P = F * P * F.transpose();
-        P(0, 0) += PositionKalmanParams{}.walk_m2_per_s * dt;  // told only: no such noise is met
-        P(1, 1) += told * (1.0 - keep * keep);
-        S = F * S * F.transpose();
-        S(1, 1) += met * (1.0 - keep * keep);
-      }
-      if (k % setup.fix_every == 0) {
-        const Eigen::Vector2d K = P.col(0) / (P(0, 0) + R);
-        Eigen::Matrix2d B = Eigen::Matrix2d::Identity();
-        B.col(0) -= K;
-        P = B * P;
-        S = B * S * B.transpose() + share.fixes * share.fixes * R * K * K.transpose();
-        A = B * A;
-      }
-      steps_.push_back(A);
-      told_.push_back(P(0, 0));
-      met_.push_back(S);
-    }
-    add_up();
-  }
-  double mean_square_m2() const { return mean_square_; }
-  /// Of both horizontal axes, which are alike.
-  double nees() const { return 2.0 * nees_; }
-  /// Standard deviations of the means over one flight: Gaussian errors e_i, e_j of covariance C_ij
-  /// have squares of covariance 2 C_ij^2.
-  double mean_square_std_m2() const { return mean_square_std_; }
-  double nees_std() const { return std::sqrt(2.0) * nees_std_; }
-
- private:
-  void add_up() {
-    constexpr std::size_t kFirst = 300;  // 3 s are left out
-    constexpr std::size_t kStride = 10;
-    const std::size_t n = met_.size();
-    for (std::size_t i = kFirst; i < n; ++i) {
-      mean_square_ += met_[i](0, 0) / static_cast<double>(n - kFirst);
-      nees_ += met_[i](0, 0) / told_[i] / static_cast<double>(n - kFirst);
-    }
-    double squares = 0.0, shares = 0.0, count = 0.0;
-    for (std::size_t j = kFirst; j < n; j += kStride, count += 1.0) {
-      Eigen::Matrix2d C = met_[j];
-      for (std::size_t i = j; i < n; ++i) {
-        if (i > j) C = steps_[i] * C;
-        if ((i - j) % kStride != 0) continue;
-        const double twice = i == j ? 1.0 : 2.0;
-        squares += twice * 2.0 * C(0, 0) * C(0, 0);
-        shares += twice * 2.0 * C(0, 0) * C(0, 0) / (told_[i] * told_[j]);
-      }
-    }
-    mean_square_std_ = std::sqrt(squares) / count;
-    nees_std_ = std::sqrt(shares) / count;
-  }
-
-  std::vector<Eigen::Matrix2d> steps_;  ///< error of a tick from that of the tick before
-  std::vector<double> told_;            ///< variance of the position as the filter sees it
-  std::vector<Eigen::Matrix2d> met_;
-  double mean_square_ = 0.0, nees_ = 0.0, mean_square_std_ = 0.0, nees_std_ = 0.0;
-};
-
 struct TheoryCase {
   Noise noise;
   double factor;
-  MismatchTheory::Share share;
+  LinearTheory::Share share;
 };
 
 TEST(MismatchOfALinearFilter, IsWhatTheRiccatiRecursionWithTheTrueNoiseSays) {
@@ -182,7 +102,7 @@ TEST(MismatchOfALinearFilter, IsWhatTheRiccatiRecursionWithTheTrueNoiseSays) {
                                 {Noise::kAll, 0.5, {0.5, 0.5}},
                                 {Noise::kAll, 2.0, {2.0, 2.0}}}) {
     SCOPED_TRACE(fmt::format("{} x {}", name_of(one.noise), one.factor));
-    const MismatchTheory theory(one.share);
+    const LinearTheory theory(one.share);
     const LabScore score = score_of(make, one.noise, one.factor, kFlights);
     std::printf("%-8s x %.1f %.3f / %.3f m, NEES %.2f; theory %.3f m, %.2f\n", name_of(one.noise),
                 one.factor, score.lateral_m, score.longitudinal_m, score.nees,

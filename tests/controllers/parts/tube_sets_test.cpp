@@ -9,6 +9,7 @@
 #include "controllers/parts/series_support.h"
 #include "controllers/parts/zonotope.h"
 #include "engine/core/random.h"
+#include "tests/controllers/parts/invariance.h"
 #include "tests/controllers/parts/random_sets.h"
 #include "tests/controllers/parts/wing_models.h"
 

@@ -153,6 +153,10 @@ TEST(RrtQuartilePlanner, RefusesWhatCannotWork) {
             "0.4243 m (cell_m = 0.3 m)");
   EXPECT_NE(mission.refusal({{"heuristic", Text("manhattan")}}).find("heuristic"),
             std::string::npos);
+  // Ten million nodes took 2.5 GB.
+  EXPECT_NE(mission.refusal({{"max_iterations", std::int64_t{2'000'001}}})
+                .find("max_iterations = 2000001, must be >= 1 and <= 2000000"),
+            std::string::npos);
   EXPECT_EQ(mission.refusal({}), "accepted");
 
   Mission blank(make_vineyard(2));

@@ -10,13 +10,22 @@
 namespace vinerow::test {
 namespace {
 
+constexpr double kRoverTrack_m = 1.0, kRoverRadius_m = 0.2;
 constexpr double kAxle_m = 0.75, kTrack_m = 0.85, kRadius_m = 0.2;
+
+/// Speeds that the mean wheel speed of each side stands for, wheels as in make_rover_description():
+/// fl, fr, rl, rr, rad/s.
+VelocityCommand unmix(const std::vector<double>& wheels_radps) {
+  const double left_mps = 0.5 * kRoverRadius_m * (wheels_radps[0] + wheels_radps[2]);
+  const double right_mps = 0.5 * kRoverRadius_m * (wheels_radps[1] + wheels_radps[3]);
+  return {0.5 * (left_mps + right_mps), (right_mps - left_mps) / kRoverTrack_m};
+}
 
 class RoverPlant final : public Plant {
  public:
   explicit RoverPlant(const Pose2& start) : pose_(start) {}
   void drive(const std::vector<double>& actuators, double dt_s) override {
-    driven_ = drive_.unmix(actuators);
+    driven_ = unmix(actuators);
     pose_ = advance(pose_, driven_.v_mps * dt_s, driven_.yaw_rate_radps * dt_s);
   }
   Pose2 pose() const override { return pose_; }
@@ -29,7 +38,6 @@ class RoverPlant final : public Plant {
   }
 
  private:
-  DifferentialDrive drive_{make_rover_description(), "test"};
   Pose2 pose_;
   VelocityCommand driven_;
 };
@@ -55,7 +63,7 @@ VehicleDescription make_rover_description() {
     description.actuators.push_back(
         {std::string("wheel_") + place + "_speed_radps", "rad/s", -kNoLimit, kNoLimit});
   }
-  description.wheeled = {.track_m = 1.0, .wheel_radius_m = 0.2};
+  description.wheeled = {.track_m = kRoverTrack_m, .wheel_radius_m = kRoverRadius_m};
   return description;
 }
 

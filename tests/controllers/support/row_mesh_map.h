@@ -25,4 +25,11 @@ RowMap make_row_mesh_map(const RowMeshBlock& block, RandomStream random);
 /// Ground of the block. @param along_m,across_m  from W's origin
 Eigen::Vector3d row_mesh_ground(const RowMeshBlock& block, double along_m, double across_m);
 
+/// Of all meshes of a map.
+inline std::size_t triangle_count(const RowMap& map) {
+  std::size_t count = 0;
+  for (const RowMesh& mesh : map.meshes) count += mesh.mesh_W.triangles.size();
+  return count;
+}
+
 }  // namespace vinerow::test

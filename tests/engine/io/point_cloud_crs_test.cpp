@@ -77,18 +77,18 @@ TEST_F(CloudCrs, FaultsAreNamed) {
 
 TEST_F(CloudCrs, DegreesWithoutACrsAreRefused) {
   // 200 m x 150 m of a vineyard whose canopy is 2 m above the ground.
-  const PointCloudSummary degrees = summarise_point_cloud(
-      write("a.xyz", "9.5 45.0 120.1\n9.5025 45.0013 122.3\n9.501 45.001 121\n"));
-  EXPECT_TRUE(looks_like_degrees(degrees.bounds));
-  EXPECT_EQ(error_in([&] { check_cloud_unit(folder_ / "a.xyz", "", degrees.bounds); }),
+  const Eigen::AlignedBox3d degrees(Eigen::Vector3d(9.5, 45.0, 120.1),
+                                    Eigen::Vector3d(9.5025, 45.0013, 122.3));
+  EXPECT_TRUE(looks_like_degrees(degrees));
+  EXPECT_EQ(error_in([&] { check_cloud_unit(folder_ / "a.xyz", "", degrees); }),
             "point cloud 'a.xyz' looks as if it were in degrees (x 9.5 to 9.5025, y 45 to "
             "45.0013, z 120.1 to 122.3), but has no coordinate reference system; give it by --crs "
             "EPSG:<code> (EPSG:4326 for WGS84)");
-  EXPECT_EQ(error_in([&] { check_cloud_unit("a.xyz", "EPSG:25832", degrees.bounds); }),
+  EXPECT_EQ(error_in([&] { check_cloud_unit("a.xyz", "EPSG:25832", degrees); }),
             "point cloud 'a.xyz' looks as if it were in degrees (x 9.5 to 9.5025, y 45 to "
             "45.0013, z 120.1 to 122.3), but its coordinate reference system 'ETRS89 / UTM zone "
             "32N' is projected");
-  check_cloud_unit("a.xyz", "EPSG:4326", degrees.bounds);
+  check_cloud_unit("a.xyz", "EPSG:4326", degrees);
 
   // A scan around its own origin, a single trunk, a national grid: metres.
   const auto box = [](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {

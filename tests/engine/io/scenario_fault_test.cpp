@@ -133,6 +133,7 @@ TEST(ScenarioFault, RateThatDoesNotDivideNamesBothNumbers) {
             "a whole number of physics steps of 0.001 s; 1000 Hz is the fastest");
   EXPECT_THAT(fault_of(with_line(2, "record: {truth_rate_Hz: 7}")),
               HasSubstr("scenario:2: record.truth_rate_Hz = 7 Hz, its period of 0.142857143 s"));
+  EXPECT_EQ(fault_of(with_line(2, "record: {enabled: false, truth_rate_Hz: 7}")), "");
   // A default that a changed step no longer divides is a fault of the step's user, and named as
   // well.
   EXPECT_THAT(fault_of(with_line(2, "physics: {step_s: 0.002}")),

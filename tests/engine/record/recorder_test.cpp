@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/record/log_reader.h"
 #include "tests/engine/record/log_files.h"
+#include "tests/engine/record/raw_messages.h"
 #include "tests/support/no_alloc.h"
 
 namespace vinerow::record::recorder_test {
@@ -107,8 +108,8 @@ TEST(Recorder, StoresOnlyWhatWasWrittenSince) {
 
 std::vector<std::vector<std::uint8_t>> messages_of(const std::filesystem::path& file) {
   std::vector<std::vector<std::uint8_t>> messages;
-  LogReader(file).read_raw(
-      [&](Time time, const ChannelInfo& channel, const std::vector<std::uint8_t>& data) {
+  test::read_raw(
+      file, [&](Time time, const ChannelInfo& channel, const std::vector<std::uint8_t>& data) {
         messages.push_back(data);
         messages.back().push_back(static_cast<std::uint8_t>(channel.id));
         for (int i = 0; i < 8; ++i) {

@@ -9,6 +9,7 @@
 #include "engine/record/log_reader.h"
 #include "engine/sensors/register.h"
 #include "engine/sim/folder_lock.h"
+#include "tests/engine/record/raw_messages.h"
 #include "tests/engine/sim/small_run.h"
 
 namespace vinerow::run_files_test {
@@ -121,7 +122,8 @@ TEST_F(RunFiles, SensorsStandInTheTreeOfFrames) {
   };
   std::vector<Found> found;
   std::map<std::string, std::string> frames;  // of readings, by topic
-  log().read_raw(
+  test::read_raw(
+      folder_ / "log.mcap",
       [&](Time t, const record::ChannelInfo& channel, const std::vector<std::uint8_t>& bytes) {
         record::CdrReader in(bytes);
         const auto skip_time = [&] { in.read<std::int32_t>(), in.read<std::uint32_t>(); };

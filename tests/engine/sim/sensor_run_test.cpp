@@ -11,6 +11,7 @@
 #include "engine/sensors/register.h"
 #include "engine/sim/run.h"
 #include "engine/sim/scheduler.h"
+#include "tests/engine/record/raw_messages.h"
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sim/small_parts.h"
 
@@ -119,7 +120,8 @@ vehicles:
   });
   // Of 99 that were due by the end, five standard deviations about 60 %.
   EXPECT_NEAR(fixes, 59.4, 5.0 * std::sqrt(0.6 * 0.4 * 99));
-  log.read_raw([&](Time logged, const record::ChannelInfo& channel, const auto&) {
+  const auto file = folder / "log.mcap";
+  test::read_raw(file, [&](Time logged, const record::ChannelInfo& channel, const auto&) {
     if (channel.topic == "/rover/gps") {
       EXPECT_EQ(logged.ns % 200'000'000, 100'000'000) << "0.3 s after the measurement";
     }

@@ -219,6 +219,32 @@ TEST(WheeledPlatform, RefusesAStepThatItsWheelsAreNotMadeFor) {
   }
 }
 
+TEST(WheeledPlatform, RefusesStrutsThatAreTooStiffForTheStep) {
+  const auto fault_of = [](double heave_radps, double damping_per_s) {
+    WheeledPlatformParams params = rover_params();
+    params.mass_kg = 100.0;
+    params.inertia_B = 1e4 * Eigen::Matrix3d::Identity();  // heave is the fastest of its motions
+    for (WheelParams& wheel : params.wheels) {
+      wheel.suspension.stiffness_N_per_m = heave_radps * heave_radps * params.mass_kg / 4.0;
+      wheel.suspension.damping_Ns_per_m = damping_per_s * params.mass_kg / 4.0;
+    }
+    WheeledPlatform platform(params);
+    WorldModel model = make_flat_world();
+    physics::PhysicsWorld world(settings_with_step(1'000'000), model);
+    try {
+      platform.spawn(world, pose_on_ground(model, 0.0, 0.0, 0.0, 0.38));
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(fault_of(490.0, 900.0), "");
+  EXPECT_EQ(fault_of(510.0, 900.0),
+            "rover: physics.step_s = 0.001 s is too long for struts so stiff under 100 kg: they "
+            "swing 0.51 rad and damp by 0.9 in a step, must be up to 0.5 rad and 1");
+  EXPECT_NE(fault_of(490.0, 1100.0).find("damp by 1.1 in a step"), std::string::npos);
+}
+
 TEST(WheeledPlatform, BrakingMovesLoadToTheFront) {
   Rig rig(make_flat_world(), rover_params());
   rig.command(5.0, 5.0);
@@ -262,7 +288,9 @@ TEST(WheeledPlatform, ClimbsUpToTheFrictionLimitAndNotBeyond) {
 TEST(WheeledPlatform, WideTurnFollowsTheSmallSlipTrack) {
   // yaw rate = R (w_r - w_l) / (B (1 + (c_y / c_x)(L / B)^2)), vehicles/parts/README.md.
   WorldModel world = make_flat_world();
-  const double track = calc_small_slip_track_m(1.0, 1.5, world.soil);
+  const double stiffness_ratio =
+      world.soil.cornering_stiffness_per_rad / world.soil.slip_stiffness;
+  const double track = 1.0 * (1.0 + stiffness_ratio * (1.5 / 1.0) * (1.5 / 1.0));
   EXPECT_NEAR(track, 2.5, 1e-12);
   Rig rig(std::move(world), rover_params());
   rig.command(4.98, 5.02);

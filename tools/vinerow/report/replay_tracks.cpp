@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -65,13 +66,29 @@ bool same(const Pose& a, const Pose& b) {
   return (a.p - b.p).norm() < kFixed_m && a.q.angularDistance(b.q) < kFixed_rad;
 }
 
+/// Every 1 / rate_Hz, or where the log holds poses if those are fewer: few poses lie far apart
+/// where they were written seldom, or with false stamps centuries apart.
+std::vector<Time> sample_times(const VehicleTrace& trace, double rate_Hz) {
+  const std::vector<Time>& poses = trace.truth.times;
+  const Time first = poses.front(), last = poses.back();
+  const double count = std::ceil((last - first).s() * rate_Hz);
+  std::vector<Time> times;
+  if (count > static_cast<double>(poses.size() + trace.links.times.size())) {
+    std::set_union(poses.begin(), poses.end(), trace.links.times.begin(), trace.links.times.end(),
+                   std::back_inserter(times));
+    std::erase_if(times, [&](Time t) { return t < first || t > last; });
+    return times;
+  }
+  for (std::int64_t k = 0; k <= static_cast<std::int64_t>(count); ++k) {
+    times.push_back(std::min(last, first + duration_from_s(static_cast<double>(k) / rate_Hz)));
+  }
+  return times;
+}
+
 Samples take_samples(const VehicleTrace& trace, std::size_t links, double rate_Hz) {
   Samples all;
   all.X_BL.resize(links);
-  const Time first = trace.truth.times.front(), last = trace.truth.times.back();
-  const auto count = static_cast<std::int64_t>(std::ceil((last - first).s() * rate_Hz));
-  for (std::int64_t k = 0; k <= count; ++k) {
-    const Time t = std::min(last, first + duration_from_s(static_cast<double>(k) / rate_Hz));
+  for (const Time t : sample_times(trace, rate_Hz)) {
     all.times.push_back(t);
     all.X_WB.push_back(trace.truth_at(t).X_WB);
     const std::vector<Pose> X_WL = trace.links_at(t);
@@ -178,8 +195,7 @@ json vehicle_index(const ReplayInput& input, std::size_t v, double rate_Hz, std:
   std::vector<std::int32_t> positions;
   std::vector<Eigen::Quaterniond> rotations;
   for (std::size_t i = 0; i < samples.times.size(); ++i) {
-    times.push_back(static_cast<std::uint32_t>(
-        std::llround(1e3 * (samples.times[i] - input.trace->first).s())));
+    times.push_back(steps_of<std::uint32_t>((samples.times[i] - input.trace->first).s(), 1e-3));
     for (int c = 0; c < 3; ++c) {
       positions.push_back(steps_of<std::int32_t>(samples.X_WB[i].p[c], 1e-3));
     }

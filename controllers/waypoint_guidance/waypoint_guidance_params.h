@@ -40,7 +40,7 @@ struct WaypointGuidanceParams {
   double approach_height_m = 30.0;
   double approach_mps = 0.0;  ///< unless given: legs.airspeed_mps
   double glide_rad = rad_from_deg(5.0);
-  double flare_m = 1.0;
+  double flare_m = 1.5;
   double power_off_m = 0.1;
 };
 

@@ -99,7 +99,7 @@ TEST(ReportCommand, ShowsTheMapThatAJobMade) {
   const ScratchFolder folder("report_map");
   const auto run = folder.path() / "run";
   // As far as the map; of the frames the first alone, small.
-  run_vinerow("run " + scenario_file("cooperative_small") + " --set duration_s=296 --quiet" +
+  run_vinerow("run " + scenario_file("cooperative_small") + " --set duration_s=298 --quiet" +
               " --set pictures.width=64 --set pictures.height=64 --out " + run.string());
   const std::string page = read_text(run / "report.html");
   for (const char* picture : {"top.png", "classes.png", "mesh.png", "grid.png"}) {

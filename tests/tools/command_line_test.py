@@ -135,7 +135,7 @@ class Info(unittest.TestCase):
             log.message(log.channel("/rover/note", "std_msgs/msg/String", "string data"), 10**9, Cdr().text("x").message())
             log.write(file)
             by_file = vinerow("info", str(file))
-            self.assertRegex(by_file, r"/rover/note +std_msgs/msg/String +1 messages")
+            self.assertRegex(by_file, r"/rover/note +std_msgs/msg/String +1 message ")
             self.assertEqual(vinerow("info", folder), by_file)
 
 

@@ -119,10 +119,12 @@ const ParameterTable<GivenParams>& given_table() {
           .numbers("land_at_m", "m", of(&P::land_at_m), kAnyNumber,
                    "[x, y] in W of the touchdown; default the start")
           .number("land_height_m", "m", of(&P::land_height_m), between(-1e4, 1e4),
-                  "z of W of the ground there; default the ground at the start")
+                  "z of W of the ground there; default that of the map, where it has none that of "
+                  "the start")
           .degrees("land_bearing_deg", &G::land_bearing_rad, between(-360.0, 360.0),
                    "course of the landing, clockwise from north; default against the mean wind, "
-                   "below 1 m/s of wind the heading at the start")
+                   "below 1 m/s of wind the heading at the start, or the nearest course that the "
+                   "ground allows")
           .degrees("land_course_deg", of(&P::land_course_rad), between(-360.0, 360.0),
                    "old form of land_bearing_deg, counted from east to the left; warns")
           .number("land_tolerance_m", "m", of(&P::land_tolerance_m), kPositive,

@@ -66,8 +66,8 @@ void draw_grid_lines(const Projection& at, const MapStyle& style, Svg& svg) {
   for (double k = first; k * step_m <= at.shown().y.high; ++k) {
     const double y = at({0.0, k * step_m}).y();
     svg.line(at.left(), y, style.width, y, "grid");
-    // The corner belongs to the axis' name.
-    if (y > 24.0) svg.text(at.left() - 5, y + 4, tick_text(k * step_m, step_m), "tick end");
+    // The corner belongs to the axis' name, 80 units long on a telephone.
+    if (y > 90.0) svg.text(at.left() - 5, y + 4, tick_text(k * step_m, step_m), "tick end");
   }
   svg.text(style.width - 2, bottom + 33, "east, m", "tick end");
   svg.raw(

@@ -6,9 +6,9 @@
 /// falls over that foot, faster and faster, and rolls on over the downhill feet. So its rotors hold
 /// what they held, and give way at a rate: a rate controller about a held torque, tau = S - D w,
 /// dS/dt = -K w, while |S| falls by K w_lay. A fall slower than w_lay is helped on, a faster one is
-/// braked; a vehicle that lies does not turn, and its rotors fall silent. Where the slope leads down
-/// need not be known. The flight law's own torque plays no part: its integrators and observers take
-/// the ground's push for wind.
+/// braked; a vehicle that lies does not turn, and its rotors fall silent. Where the slope leads
+/// down need not be known. The flight law's own torque plays no part: its integrators and observers
+/// take the ground's push for wind.
 
 #include <Eigen/Core>
 #include <algorithm>

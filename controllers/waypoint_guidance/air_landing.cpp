@@ -34,8 +34,8 @@ AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
   Approach approach;
   approach.course_rad = course_rad;
   const auto below = ground_ ? ground_(place) : std::nullopt;
-  const double ground_m = params_.land_height_m.value_or(
-      below.value_or(start_.height_m - params_.standing_m));
+  const double ground_m =
+      params_.land_height_m.value_or(below.value_or(start_.height_m - params_.standing_m));
   const LandingSlope slope(ground_m + params_.belly_m, params_.glide_rad, params_.flare_m);
   // Never up again for the landing, unless it is lower than the flare.
   const double above_m = std::clamp(height_.height_m() - slope.touchdown_m(),
@@ -56,8 +56,7 @@ AirMission::Approach AirMission::lay_approach(const Eigen::Vector2d& place,
       LoiterCircle::tangent(entry, course_rad, params_.loiter_radius_m, params_.loiter_side);
   if (below) {
     // As high above the ground as it can lose again on the glide.
-    const double ground_below_m =
-        find_highest_below(ground_, approach.circle) + ground_m - *below;
+    const double ground_below_m = find_highest_below(ground_, approach.circle) + ground_m - *below;
     const double most_m = from_m + 0.5 * length_m * std::tan(params_.glide_rad);
     from_m = std::clamp(ground_below_m + kClear_m, from_m, most_m);
     approach.clearance_m = from_m - ground_below_m;
@@ -108,7 +107,8 @@ void AirMission::lay_landing(const GuidanceState& state) {
   const LegFrame& frame = final_.front().frame;
   std::string news = fmt::format(
       "lands at ({:.1f}, {:.1f}) on bearing {:.0f} deg: circles down to {:.0f} m above it",
-      place.x(), place.y(), bearing_deg(approach.course_rad), frame.from_W().z() - frame.to_W().z());
+      place.x(), place.y(), bearing_deg(approach.course_rad),
+      frame.from_W().z() - frame.to_W().z());
   // Without a map's ground it knows that at its start only.
   constexpr double kSameGround_m = 20.0;
   const double away_m = (place - start_.position).norm();
@@ -122,9 +122,10 @@ void AirMission::lay_landing(const GuidanceState& state) {
   }
   const bool is_low = approach.clearance_m < kClear_m - 1e-6;
   if (is_low) {
-    news += fmt::format("; comes as near to the ground as {:.1f} m on its circles: "
-                        "approach_height_m, land_bearing_deg and loiter_side choose others",
-                        approach.clearance_m);
+    news += fmt::format(
+        "; comes as near to the ground as {:.1f} m on its circles: "
+        "approach_height_m, land_bearing_deg and loiter_side choose others",
+        approach.clearance_m);
   }
   tell(is_guess || is_low, std::move(news));
 }
@@ -188,7 +189,8 @@ AirMission::Wanted AirMission::fly_land(double dt_s, const GuidanceState& state)
   // So slow only what lies on the ground is, wherever that is.
   const bool is_stalled = state.airspeed_mps() < 0.5 * params_.stall_mps;
   const double above_m = state.height_m - lying.height_m;
-  // Past the place with power it would float on in the flare, half a metre too high, for a long way.
+  // Past the place with power it would float on in the flare, half a metre too high, for a long
+  // way.
   const bool is_past = frame.along_m(state.position) > frame.length_m();
   if (above_m < params_.power_off_m || is_past || is_stalled) has_power_ = false;
   constexpr double kStanding_mps = 0.5, kStanding_s = 1.0;

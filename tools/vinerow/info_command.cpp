@@ -9,7 +9,8 @@ void add_info_command(CLI::App& app, int& exit_status) {
   auto file = std::make_shared<std::filesystem::path>();
   CLI::App* command =
       app.add_subcommand("info", "summarise a log: topics, types, how many messages");
-  command->add_option("log", *file, "log.mcap of a run, complete or cut off, or its folder")->required();
+  command->add_option("log", *file, "log.mcap of a run, complete or cut off, or its folder")
+      ->required();
   command->callback([file, &exit_status] {
     const std::filesystem::path log = log_of(*file);
     const record::LogReader reader(log);

@@ -74,9 +74,9 @@ std::vector<std::string> written(const std::vector<MetricNumber>& numbers) {
 }
 
 const MetricNumber* find_number(const std::vector<MetricNumber>& numbers, std::string_view name) {
-  const auto found =
-      std::find_if(numbers.begin(), numbers.end(),
-                   [&](const MetricNumber& number) { return is_of_form(number.name, name); });
+  const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const MetricNumber& number) {
+    return is_of_form(number.name, name);
+  });
   return found == numbers.end() ? nullptr : &*found;
 }
 

@@ -26,8 +26,7 @@ class LinearTheory {
     const bool is_velocity = reading == InertialReading::kVelocity;
     const double dt = 0.01, keep = std::exp(-dt / setup.velocity_time_s);
     const double stated = setup.velocity_std_mps * setup.velocity_std_mps,
-                 told = is_velocity ? stated : 0.0,
-                 met = share.velocity * share.velocity * stated;
+                 told = is_velocity ? stated : 0.0, met = share.velocity * share.velocity * stated;
     const Eigen::Matrix2d F{{1.0, dt}, {0.0, keep}};
     const double start = setup.start_std_m * setup.start_std_m;
     Eigen::Matrix2d P{{start, 0.0}, {0.0, told}}, S{{start, 0.0}, {0.0, met}};

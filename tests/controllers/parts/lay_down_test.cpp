@@ -37,8 +37,7 @@ TEST(LayDown, ComesDownLikeADampedOscillatorsStep) {
     for (double t = kDt_s; t < 0.8; t += kDt_s) {
       body.advance();
       const double decay = std::exp(-zeta * omega * t);
-      const double swing =
-          std::cos(damped * t) + zeta * omega / damped * std::sin(damped * t);
+      const double swing = std::cos(damped * t) + zeta * omega / damped * std::sin(damped * t);
       const double rate = kLay_radps * (1.0 - decay * swing);
       ASSERT_NEAR(body.rates_B.dot(way_B), rate, 0.002) << t;
       ASSERT_LT((body.rates_B - body.rates_B.dot(way_B) * way_B).norm(), 1e-9);

@@ -1,4 +1,5 @@
-/// Where the guidance lands: on ground that it knows at its start only, and on hillsides of its map.
+/// Where the guidance lands: on ground that it knows at its start only, and on hillsides of its
+/// map.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +35,7 @@ TEST(AirLanding, WarnsOfGroundThatNobodyTold) {
   EXPECT_EQ(guess.level, Event::Level::kWarning);
   EXPECT_THAT(guess.text,
               ::testing::HasSubstr("; takes the ground there to be at z = 0.0 m as at the start, "
-                                 "500 m away: land_height_m tells it"));
+                                   "500 m away: land_height_m tells it"));
 }
 
 TEST(AirLanding, IsSilentWhereTheGroundIsKnown) {
@@ -84,7 +85,8 @@ TEST(AirLanding, TouchesSoftlyUphillDownhillAndAlong) {
         const Eigen::Vector2d wind =
             -against_mps * Eigen::Vector2d(std::sin(from_rad), std::cos(from_rad));
         const HillLanding landing = land_on(slope, {{"land_bearing_deg", bearing_deg}}, wind);
-        EXPECT_LT(landing.touch_mps, kSoft_mps) << slope << ' ' << bearing_deg << ' ' << against_mps;
+        EXPECT_LT(landing.touch_mps, kSoft_mps)
+            << slope << ' ' << bearing_deg << ' ' << against_mps;
       }
     }
   }
@@ -114,8 +116,8 @@ TEST(AirLanding, ChoosesACourseThatTheGroundAllows) {
 }
 
 TEST(AirLanding, KeepsItsCirclesAboveAHillAndWarnsWhereItCannot) {
-  // It comes from the hill in the east. Above the gentler one higher circles help; on the steeper one
-  // they would be higher than the glide can lose.
+  // It comes from the hill in the east. Above the gentler one higher circles help; on the steeper
+  // one they would be higher than the glide can lose.
   for (const double rise : {0.3, 0.6}) {
     PlaneOptions options;
     options.terrain = [=](const Eigen::Vector2d& p) { return rise * std::max(0.0, p.x() - 50.0); };

@@ -55,7 +55,8 @@ TEST(LandingPath, SinksOntoASlopeAsOntoAPlain) {
 }
 
 TEST(LandingPath, KeepsClearOfARidgeBeforeTheTouchdown) {
-  // Eight metres high, 60 m before: a glide of 5 deg to the touchdown would pass 2.1 m below its top.
+  // Eight metres high, 60 m before: a glide of 5 deg to the touchdown would pass 2.1 m below its
+  // top.
   const auto ridge_m = [](double to_go_m) {
     return 7.0 + 8.0 * std::exp(-std::pow((to_go_m - 60.0) / 20.0, 2));
   };

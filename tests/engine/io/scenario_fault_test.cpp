@@ -251,9 +251,10 @@ TEST(ScenarioFault, ANameIsOneOfAFolderInRuns) {
 }
 
 TEST(ScenarioFault, PicturesWithoutEndAreRefused) {
-  EXPECT_EQ(fault_of(with_line(2, "duration_s: 20\npictures: {every_s: 0.001}")),
-            "scenario:3: pictures.every_s = 0.001 s makes 20000 frames of each camera in 20 s, must "
-            "make at most 10000");
+  EXPECT_EQ(
+      fault_of(with_line(2, "duration_s: 20\npictures: {every_s: 0.001}")),
+      "scenario:3: pictures.every_s = 0.001 s makes 20000 frames of each camera in 20 s, must "
+      "make at most 10000");
   EXPECT_EQ(fault_of(with_line(2, "duration_s: 20\npictures: {every_s: 0.002}")), "");
 }
 
@@ -328,7 +329,8 @@ TEST(ScenarioFault, ObserversHaveNamesOfTheirOwn) {
       observers("estimate: {type: filter}"),
       "scenario:11: vehicles.rover.observers.estimate: an observer cannot have the name of "
       "another signal (truth, estimate, plan, reference, links, actuators, follower, command, "
-      "plan_tree, local_command, ellipsoid, estimator_state, contacts, map_edges, landing, authority)");
+      "plan_tree, local_command, ellipsoid, estimator_state, contacts, map_edges, landing, "
+      "authority)");
   EXPECT_EQ(observers("gps: {type: filter}"),
             "scenario:11: vehicles.rover.observers.gps: its signal 'gps' has the name of the "
             "sensor 'gps'");

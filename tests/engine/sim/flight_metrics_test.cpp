@@ -7,10 +7,10 @@
 
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/flight.h"
+#include "engine/api/plan_stretch.h"
 #include "engine/math/angles.h"
 #include "engine/sim/metrics/flight.h"
 #include "engine/sim/metrics/path_deviation.h"
-#include "engine/api/plan_stretch.h"
 #include "engine/sim/metrics/travel.h"
 #include "engine/sim/metrics/wheel_slip.h"
 #include "tests/support/no_alloc.h"
@@ -75,8 +75,8 @@ PathPoint point(const Vector3d& p_W, PathKind kind, int alley = -1) {
 }
 
 /// On the slope: up to 1.5 m at home (0, 0), two legs of 20 m, east at y = 2, west at
-/// y = 7, with a turn between them; then up, a detour to (20, 9) and 3 m above the ground diagonally
-/// across both legs back to home, and down. The climb is part of the way home.
+/// y = 7, with a turn between them; then up, a detour to (20, 9) and 3 m above the ground
+/// diagonally across both legs back to home, and down. The climb is part of the way home.
 PlannedPath two_rows_and_home() {
   const auto above = [](double x, double y, double height_m) {
     return Vector3d(x, y, SlopeWithARow::ground_m(x) + height_m);

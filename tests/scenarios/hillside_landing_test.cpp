@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include "engine/math/angles.h"
 #include "engine/sim/simulation.h"
@@ -83,6 +84,10 @@ struct WingLanding {
   double land_bearing_deg;  // uphill is 90
   double rise;
 };
+
+void PrintTo(const WingLanding& landing, std::ostream* out) {
+  *out << landing.name;
+}
 
 class WingOnAHillside : public ::testing::TestWithParam<WingLanding> {};
 

@@ -46,10 +46,15 @@ class LayDown {
   double most_thrust_N() const { return std::max(held_.thrust_N, kMostLift * weight_N_); }
 
  private:
+  /// w_lay: 21 deg of slope take a second.
   static constexpr double kLay_radps = 0.35;
+  /// K and D over the inertia: an oscillator of 5.5 rad/s, damped by 0.41. So fast a vehicle of the
+  /// Q4T's size falls over its foot: sqrt(m g l / I) = 5.1 rad/s.
   static constexpr double kHold_per_s2 = 30.0, kBrake_per_s = 4.5;
-  /// Within this time rotors hold no more than torques take.
+  /// Within this time rotors hold no more than torques take: carried by them for long it slides.
   static constexpr double kGrip_s = 0.5;
+  /// Of the weight. With a friction of 0.8 feet hold on 21 deg of slope while rotors carry less
+  /// than cos(s) - sin(s) / 0.8 = 0.49 of it.
   static constexpr double kMostLift = 0.5;
 
   double inertia_kgm2_ = 0.0, weight_N_ = 0.0;

@@ -124,8 +124,9 @@ RrtQuartile::RrtQuartile(const RrtQuartileParams& params, PartContext context)
 Result<std::vector<PathPiece>> RrtQuartile::find(const Pose2& from, const Pose2& to,
                                                  const Footprint& footprint, int problem,
                                                  SearchReport& report) {
-  if (!footprint.is_free(from))
+  if (!footprint.is_free(from)) {
     return Failure{"start in collision: " + describe_room(from, footprint)};
+  }
   if (!footprint.is_free(to)) return Failure{"goal in collision: " + describe_room(to, footprint)};
   const GoalDistance distance(params_.heuristic, footprint, from.p, to.p);
   if (std::isinf(distance.at(from.p))) {

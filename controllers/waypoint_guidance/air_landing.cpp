@@ -11,7 +11,8 @@ namespace vinerow {
 
 namespace {
 
-/// Of the circle before the glide, above the ground.
+/// Of the circle before the glide, above the ground: several times the 0.6 m that the flying wing
+/// strays from its height at most in the turbulence of the shipped missions.
 constexpr double kClear_m = 5.0;
 
 /// Of the known ground below a circle; far down where there is none.

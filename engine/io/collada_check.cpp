@@ -159,8 +159,9 @@ class ColladaCheck {
 
   /// Nodes below this one, itself too, with all that instances bring.
   std::uint64_t count_nodes(const tinyxml2::XMLElement& node, const std::string& name, int depth) {
-    if (depth > kDeepestNode)
+    if (depth > kDeepestNode) {
       fail(fmt::format("its nodes are nested deeper than {}", kDeepestNode));
+    }
     const auto [found, is_new] = counts_.try_emplace(&node, kBeingCounted);
     if (!is_new) {
       if (found->second == kBeingCounted) fail(fmt::format("the node '{}' contains itself", name));

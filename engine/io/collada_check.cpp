@@ -205,7 +205,22 @@ void check_collada(const std::filesystem::path& file) {
     throw ConfigError(fmt::format("mesh file '{}' cannot be read: it is no XML (line {})",
                                   file.string(), document.ErrorLineNum()));
   }
-  ColladaCheck(file, text.size()).check(*document.RootElement());
+  // assimp takes the first <COLLADA> of the document's elements, so that what stands before it
+  // would be all that is checked.
+  const tinyxml2::XMLElement& root = *document.RootElement();
+  if (std::strcmp(root.Name(), "COLLADA") != 0) {
+    throw ConfigError(
+        fmt::format("mesh file '{}' cannot be read: its outermost element is <{}> (line {}), must "
+                    "be <COLLADA>",
+                    file.string(), std::string(root.Name()).substr(0, 40), root.GetLineNum()));
+  }
+  if (const auto* second = root.NextSiblingElement()) {
+    throw ConfigError(fmt::format(
+        "mesh file '{}' cannot be read: <{}> (line {}) stands beside "
+        "<COLLADA>, a document has one outermost element",
+        file.string(), std::string(second->Name()).substr(0, 40), second->GetLineNum()));
+  }
+  ColladaCheck(file, text.size()).check(root);
 }
 
 }  // namespace vinerow::io

@@ -372,6 +372,21 @@ TEST_F(MeshFileTest, ColladaThatPromisesMoreThanItHoldsIsRefused) {
             std::string::npos);
 }
 
+/// assimp reads the <COLLADA> that stands behind another element: unchecked, it took 40 GB of
+/// memory.
+TEST_F(MeshFileTest, ColladaIsTheOneOutermostElement) {
+  const std::string whole = wedge_dae("Z_UP", "1");
+  const std::string declaration = "<?xml version=\"1.0\"?>";
+  ASSERT_EQ(whole.rfind(declaration, 0), 0u);
+  const std::string collada = whole.substr(declaration.size());
+  const std::string file = "mesh file '" + (folder_ / "w.dae").string() + "' cannot be read: ";
+  EXPECT_EQ(error_of(write("w.dae", declaration + "\n<asset/>\n" + collada)),
+            file + "its outermost element is <asset> (line 2), must be <COLLADA>");
+  EXPECT_EQ(
+      error_of(write("w.dae", declaration + "\n" + collada + "\n<asset/>\n")),
+      file + "<asset> (line 3) stands beside <COLLADA>, a document has one outermost element");
+}
+
 TEST_F(MeshFileTest, BadFilesAreRefusedInOneSentence) {
   EXPECT_EQ(error_of(folder_ / "none.stl"),
             "mesh file '" + (folder_ / "none.stl").string() + "' does not exist");

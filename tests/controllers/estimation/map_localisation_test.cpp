@@ -220,6 +220,37 @@ TEST(MapLocalisationLaw, RefusesAndCountsBadDataAndGoesOn) {
   EXPECT_TRUE(law.state().is_sound());
 }
 
+/// Closed form: a law that knows its place has no innovation from a fix without error, so that
+/// nothing moves, however old the fix is, however the vehicle has moved and turned since, and
+/// wherever the antenna sits.
+TEST(MapLocalisationLaw, AnOldFixWithoutErrorIsComparedWithWhereTheAntennaWas) {
+  constexpr double kSpeedMps = 1.3;
+  constexpr double kTurnRadps = 0.5;
+  const Duration tick{10'000'000};
+  const Eigen::Vector3d p_BA(0.4, -0.1, 0.3);
+  Standing standing;
+  MapLocalisationLaw& law = *standing.law;
+  const Eigen::Vector3d v_W = kSpeedMps * standing.world.along_W();
+  const auto place_W = [&](double t_s) { return Eigen::Vector3d(standing.true_p_W + t_s * v_W); };
+  const auto turned = [&](double t_s) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(kTurnRadps * t_s, Eigen::Vector3d::UnitZ()) *
+                              standing.q_WB);
+  };
+  const Time start = standing.now;
+  for (int k = 0; k < 100; ++k) {
+    standing.now = standing.now + tick;
+    law.predict(standing.now, v_W, turned((standing.now - start).s()));
+  }
+  for (const int age : {0, 20, 60}) {
+    const Time measured = standing.now - Duration{age * tick.ns};
+    const double t_s = (measured - start).s();
+    law.correct_fix(measured, place_W(t_s) + turned(t_s) * p_BA, {0.05, 0.05, 0.05}, p_BA);
+    EXPECT_NEAR(law.fix_nis(), 0.0, 1e-9) << age << " ticks old";
+    EXPECT_LT((law.state().p_W() - place_W(1.0)).norm(), 1e-9) << age << " ticks old";
+  }
+  EXPECT_EQ(law.counters().fixes, 3);
+}
+
 TEST(MapLocalisationLaw, BeginningAnewKeepsTheOldPlaceInQuestion) {
   Standing standing;
   MapLocalisationLaw& law = *standing.law;

@@ -64,7 +64,8 @@ TEST(Xacro, IsAskedForWhereItIsNotInstalled) {
 
 TEST(Xacro, SaysItsOwnReason) {
   // A stand-in that fails as xacro does: the reason is on the last line of its standard error.
-  const auto program = write_file("bin/xacro", "#!/bin/sh\necho noise >&2\necho name \\'b\\' is not defined >&2\nexit 2\n");
+  const auto program = write_file(
+      "bin/xacro", "#!/bin/sh\necho noise >&2\necho name \\'b\\' is not defined >&2\nexit 2\n");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   const PathOf folder(program.parent_path().string() + ":/usr/bin:/bin");
   const auto source = write_file("x.urdf", "<robot name='a'><link name='${b}'/></robot>");
@@ -147,6 +148,24 @@ TEST(Urdf, FaultsAreOneClearSentence) {
       "<robot name='a'><link name='b'><visual><geometry><mesh "
       "filename='package://nowhere_to_be/gone.stl'/></geometry></visual></link></robot>");
   EXPECT_NE(error_of(package).find("uses package 'nowhere_to_be', whose folder is not known"),
+            std::string::npos);
+}
+
+/// liburdfdom would take the value that it complains about for a format of printf.
+TEST(Urdf, APercentSignIsRefusedButInNamesOfFiles) {
+  const auto origin = write_file("percent.urdf",
+                                 "<robot name='a'>\n<link name='b'><visual>\n<origin xyz='0 "
+                                 "%s%s%n 0'/></visual></link></robot>");
+  EXPECT_EQ(error_of(origin), origin.string() +
+                                  ":3: xyz=\"0 %s%s%n 0\" of <origin>: a '%' may stand in names of "
+                                  "files only");
+  const auto name = write_file("percent.urdf", "<robot name='a'>\n<link name='b%n'/></robot>");
+  EXPECT_EQ(error_of(name),
+            name.string() + ":2: name=\"b%n\" of <link>: a '%' may stand in names of files only");
+  const auto mesh = write_file("percent.urdf",
+                               "<robot name='a'><link name='b'><visual><geometry><mesh "
+                               "filename='a%20mesh.stl'/></geometry></visual></link></robot>");
+  EXPECT_NE(error_of(mesh).find("link 'b' uses mesh 'a%20mesh.stl', which does not exist"),
             std::string::npos);
 }
 

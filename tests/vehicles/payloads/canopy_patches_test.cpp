@@ -265,6 +265,9 @@ TEST(CanopyNumbers, AreWeightedByArea) {
   EXPECT_NEAR(all.covered_share, 0.25, 1e-6);
   EXPECT_NEAR(all.mean, 1.0, 1e-6);
   EXPECT_NEAR(all.variation, std::sqrt((9.0 + 1.0) / 4.0 - 1.0), 1e-6);
+  coverage.patches[2].amount = coverage.wanted;
+  EXPECT_NEAR(calc_canopy_numbers(patches, coverage).covered_share, 0.5, 1e-6)
+      << "the wanted amount itself is enough";
   std::vector<std::uint8_t> left(static_cast<std::size_t>(patches.step_count()), 0);
   left[0] = left[1] = 1;
   const CanopyNumbers part = calc_canopy_numbers(patches, coverage, left);

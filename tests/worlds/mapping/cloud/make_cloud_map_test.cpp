@@ -397,12 +397,24 @@ TEST(MakeCloudMap, SurvivesPointsThatAreNoParcel) {
   one_spot.points.assign(10'000, Eigen::Vector3f(1.0f, 2.0f, 3.0f));
   EXPECT_EQ(refusal(one_spot).find("no rows found: "), 0u);
   ParcelCloud three;
-  three.points = {{0, 0, 0}, {100, 0, 0}, {0, 100, 50}};
+  three.points = {{0, 0, 0}, {99, 0, 0}, {0, 100, 50}};
   EXPECT_EQ(refusal(three).find("no rows found: "), 0u);
   ParcelCloud far;
   far.points = {{0, 0, 0}, {1e6f, 0, 0}, {0, 1e6f, 0}};
   EXPECT_EQ(refusal(far),
-            "the cloud is 1000000 m x 1000000 m, too large for a terrain of 1 m cells; cut it into "
+            "the cloud's 3 points lie over 1000000 m x 1000000 m, less than one in 4 m2; remove "
+            "points that lie far off, or cut it into parcels");
+  // A point in 4 m2, over more than the terrain's histograms can hold.
+  ParcelCloud wide;
+  for (int i = 0; i < 1000; ++i) {
+    for (int j = 0; j < 1000; ++j) {
+      wide.points.emplace_back(2.0f * static_cast<float>(i), 2.0f * static_cast<float>(j), 0.0f);
+    }
+  }
+  CloudMapOptions fine;
+  fine.terrain_cell_m = 0.5;
+  EXPECT_EQ(refusal(wide, fine),
+            "the cloud is 1998 m x 1998 m, too large for a terrain of 0.5 m cells; cut it into "
             "parcels");
 }
 

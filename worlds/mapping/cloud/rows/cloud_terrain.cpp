@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
@@ -17,6 +18,14 @@ namespace {
 
 using Eigen::Vector3f;
 
+constexpr double kCoarseCell_m = 5.0;
+// Of a terrain. Its histograms then take 3.6 GB where all cells are full, and those of the coarse
+// surface 2 GB.
+constexpr double kMostCells = 4e6;
+constexpr double kMostCoarseCells = 250e3;
+// A cloud with fewer points than this has some that are not the parcel's: rows need 60 per m2.
+constexpr double kLeastPerM2 = 0.25;
+constexpr double kSmall_m2 = 1e4;  // where it does not matter
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
 /// Counts that many threads add to: sums of whole numbers are the same in any order.
@@ -51,6 +60,7 @@ struct Lattice {
     fit(box.min().y(), box.max().y(), corner_y, rows);
   }
   std::size_t size() const { return static_cast<std::size_t>(columns) * rows; }
+  double cells() const { return static_cast<double>(columns) * rows; }
   std::size_t cell_of(const Vector3f& p) const {
     const int i = std::clamp(static_cast<int>((p.x() - corner_x) / cell + 0.5f), 0, columns - 1);
     const int j = std::clamp(static_cast<int>((p.y() - corner_y) / cell + 0.5f), 0, rows - 1);
@@ -70,34 +80,48 @@ std::pair<float, float> height_range(const ParcelCloud& cloud) {
   return {heights[cut] - 2.0f, heights[heights.size() - 1 - cut] + 2.0f};
 }
 
-/// Mean of 3 x 3 samples that have a height, again and again until all have one; 0 where none has.
+/// Mean of the 3 x 3 samples that have a height, round by round until all have one; 0 where none
+/// has. A round takes what stood before it, and looks at the border of what is missing only.
 void fill_in(std::vector<float>& heights, int columns, int rows) {
   if (std::all_of(heights.begin(), heights.end(), [](float h) { return std::isnan(h); })) {
     std::fill(heights.begin(), heights.end(), 0.0f);
   }
-  std::vector<float> next;
-  for (bool is_done = false; !is_done;) {
-    is_done = true;
-    next = heights;
-    for (int j = 0; j < rows; ++j) {
-      for (int i = 0; i < columns; ++i) {
-        const std::size_t at = static_cast<std::size_t>(j) * columns + i;
-        if (!std::isnan(heights[at])) continue;
-        double sum = 0.0;
-        int count = 0;
-        for (int v = std::max(0, j - 1); v <= std::min(rows - 1, j + 1); ++v) {
-          for (int u = std::max(0, i - 1); u <= std::min(columns - 1, i + 1); ++u) {
-            const float h = heights[static_cast<std::size_t>(v) * columns + u];
-            if (std::isnan(h)) continue;
-            sum += h;
-            ++count;
-          }
-        }
-        if (count > 0) next[at] = static_cast<float>(sum / count);
-        is_done = false;
+  const auto for_each_around = [&](std::size_t at, const auto& look) {
+    const int i = static_cast<int>(at % columns), j = static_cast<int>(at / columns);
+    for (int v = std::max(0, j - 1); v <= std::min(rows - 1, j + 1); ++v) {
+      for (int u = std::max(0, i - 1); u <= std::min(columns - 1, i + 1); ++u) {
+        look(static_cast<std::size_t>(v) * columns + u);
       }
     }
-    heights.swap(next);
+  };
+  std::vector<std::uint8_t> is_queued(heights.size(), 0);
+  std::vector<std::size_t> border;
+  const auto queue_around = [&](std::size_t at) {
+    for_each_around(at, [&](std::size_t other) {
+      if (!std::isnan(heights[other]) || is_queued[other] != 0) return;
+      is_queued[other] = 1;
+      border.push_back(other);
+    });
+  };
+  for (std::size_t at = 0; at < heights.size(); ++at) {
+    if (!std::isnan(heights[at])) queue_around(at);
+  }
+  std::vector<float> means;
+  while (!border.empty()) {
+    means.clear();
+    for (const std::size_t at : border) {
+      double sum = 0.0;
+      int count = 0;
+      for_each_around(at, [&](std::size_t other) {
+        if (std::isnan(heights[other])) return;
+        sum += heights[other];
+        ++count;
+      });
+      means.push_back(static_cast<float>(sum / count));
+    }
+    const std::vector<std::size_t> filled = std::exchange(border, {});
+    for (std::size_t k = 0; k < filled.size(); ++k) heights[filled[k]] = means[k];
+    for (const std::size_t at : filled) queue_around(at);
   }
 }
 
@@ -133,11 +157,27 @@ void smooth(std::vector<float>& heights, std::vector<float>& weights, int column
   pass(rows, columns, stride, 1);
 }
 
+void check_extent(const Eigen::AlignedBox3f& box, std::size_t points, const Lattice& lattice,
+                  const Lattice& coarse) {
+  const double width_m = box.sizes().x(), depth_m = box.sizes().y();
+  const double area_m2 = width_m * depth_m;
+  if (area_m2 > kSmall_m2 && static_cast<double>(points) < kLeastPerM2 * area_m2) {
+    throw ConfigError(
+        fmt::format("the cloud's {} points lie over {:.0f} m x {:.0f} m, less than one in {:g} m2; "
+                    "remove points that lie far off, or cut it into parcels",
+                    points, width_m, depth_m, 1.0 / kLeastPerM2));
+  }
+  if (lattice.cells() > kMostCells || coarse.cells() > kMostCoarseCells) {
+    throw ConfigError(
+        fmt::format("the cloud is {:.0f} m x {:.0f} m, too large for a terrain of {:g} m cells; "
+                    "cut it into parcels",
+                    width_m, depth_m, lattice.cell));
+  }
+}
+
 /// A surface that follows the ground's slope at 5 m: every cell's lowest heights.
-HeightField coarse_surface(const ParcelCloud& cloud, const Eigen::AlignedBox3f& box) {
-  constexpr double kCell_m = 5.0;
+HeightField coarse_surface(const ParcelCloud& cloud, const Lattice& lattice) {
   constexpr double kLowShare = 0.03;
-  const Lattice lattice(box, kCell_m);
   const std::pair<float, float> range = height_range(cloud);
   const float low = range.first, high = range.second;
   const int bins = std::clamp(static_cast<int>((high - low) / 0.2f), 1, 2000);
@@ -155,7 +195,7 @@ HeightField coarse_surface(const ParcelCloud& cloud, const Eigen::AlignedBox3f& 
   HeightField field;
   field.columns = lattice.columns;
   field.rows = lattice.rows;
-  field.cell_m = kCell_m;
+  field.cell_m = kCoarseCell_m;
   field.corner_W = {lattice.corner_x, lattice.corner_y};
   field.heights_m.assign(lattice.size(), kNoHeight);
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
@@ -287,15 +327,9 @@ CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m) {
   VINEROW_DEMAND(!cloud.points.empty() && cell_m > 0.0);
   Eigen::AlignedBox3f box;
   for (const Vector3f& p : cloud.points) box.extend(p);
-  const Lattice lattice(box, cell_m);
-  constexpr double kMostCells = 50e6;
-  if (static_cast<double>(lattice.columns) * lattice.rows > kMostCells) {
-    throw ConfigError(
-        fmt::format("the cloud is {:.0f} m x {:.0f} m, too large for a terrain of {:g} m cells; "
-                    "cut it into parcels",
-                    box.sizes().x(), box.sizes().y(), cell_m));
-  }
-  const HeightField coarse = coarse_surface(cloud, box);
+  const Lattice lattice(box, cell_m), coarse_lattice(box, kCoarseCell_m);
+  check_extent(box, cloud.points.size(), lattice, coarse_lattice);
+  const HeightField coarse = coarse_surface(cloud, coarse_lattice);
   const HeightAbove above_coarse(coarse, Eigen::Vector3d::Zero());
   Histograms histograms(lattice.size(), kHeightBins);
   for_chunks(

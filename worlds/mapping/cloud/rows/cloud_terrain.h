@@ -17,7 +17,9 @@ struct CloudTerrain {
 /// by more than vegetation can hide (under a canopy, on a wall or a hedge) and samples without
 /// points are filled in from their neighbours, then all are smoothed over about two cells. Points
 /// below the ground (false matches) are outvoted. Cost: linear in the points, two passes.
-/// @pre cloud not empty. @throws ConfigError where the bounds need more than 50 million cells
+/// @pre cloud not empty. @throws ConfigError where the bounds need more than 4 million cells (or
+/// are beyond 6.25 km2), and where they hold less than a point in 4 m2 and are larger than a
+/// hectare
 CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m);
 
 /// Heights above a field at points given relative to an origin in W: the field's own triangles, in

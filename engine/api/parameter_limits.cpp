@@ -12,8 +12,9 @@ struct UnitLimits {
 };
 
 constexpr UnitLimits kUnitLimits[] = {
-    {"m", 1e7, 1e-9},    {"s", 1e9, 1e-9},    {"m/s", 1e6, 1e-9},
-    {"km/h", 1e6, 1e-9}, {"m/s2", 1e6, 1e-9}, {"Hz", 1e9, 1e-9},
+    {"m", 1e7, 1e-9},      {"s", 1e9, 1e-9},    {"Hz", 1e9, 1e-9},    {"m/s", 1e4, 1e-9},
+    {"km/h", 1e5, 1e-9},   {"m/s2", 1e5, 1e-9}, {"rad/s", 1e4, 1e-9}, {"deg/s", 1e6, 1e-9},
+    {"rad/s2", 1e6, 1e-9}, {"deg", 1e6, 1e-9},  {"rad", 1e5, 1e-9},   {"kg", 1e6, 1e-9},
 };
 constexpr UnitLimits kOtherUnits = {"", 1e15, 1e-15};
 

@@ -8,9 +8,9 @@
 
 namespace vinerow {
 
-/// The spec with the ends of its range that are open closed by its unit: lengths within 10,000 km,
-/// times within 30 years, all else within 1e15; what must be above 0 is at least 1e-9 (1e-15 of
-/// units other than lengths, times, speeds, accelerations and rates). Whole numbers keep theirs.
+/// The spec with the ends of its range that are open closed by its unit: a length at 10,000 km, a
+/// time at 30 years, a speed at 10 km/s (parameter_limits.cpp has them all), other units at 1e15.
+/// What must be above 0 is at least 1e-9 (1e-15 in other units). Whole numbers keep theirs.
 ParameterSpec with_limits_of_unit(ParameterSpec spec);
 
 }  // namespace vinerow

@@ -43,7 +43,8 @@ const ParameterTable<PursuitParams>& pursuit_table() {
           .degrees("largest_angle_deg", law(&Law::largest_angle_rad), kPositive,
                    "theta_max of the speed law (eq. 7)")
           .number("min_turning_radius_m", "m", &P::min_turning_radius_m, between(0.0, 1e3),
-                  "limits the yaw rate to speed / radius (table 1); 0 = no limit")
+                  "limits the commanded yaw rate to speed / radius (table 1); 0 = no limit: wheels "
+                  "that slip turn a vehicle less than told, so give 0 under physics")
           .number("turn_gain", "", law(&Law::turn_gain), kPositive,
                   "share of the steering angle turned in one cycle; 1 = eq. 6, less for "
                   "vehicles with inertia")

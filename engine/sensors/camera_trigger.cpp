@@ -85,8 +85,7 @@ const ParameterTable<CameraMountingParams>& camera_mounting_table() {
 class CameraTrigger final : public MountedSensor<CameraShot> {
  public:
   CameraTrigger(const ParameterSet& parameters, const SensorContext& context)
-      : CameraTrigger(camera_trigger_table().read(parameters, context.part), parameters, context) {
-  }
+      : CameraTrigger(camera_trigger_table().read(parameters, context.part), parameters, context) {}
   CameraTrigger(const CameraTriggerParams& params, const ParameterSet& parameters,
                 const SensorContext& context)
       : MountedSensor(parameters, context),
@@ -112,6 +111,7 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
       static_cast<void>(ports.read<PlannedPath>("plan"));
       plan_.connect(ports);
     }
+    estimate_ = ports.read_optional<Odometry>("estimate");
     MountedSensor::connect(ports);
   }
 
@@ -121,7 +121,10 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
     const Eigen::Quaterniond q_W =
         has_gimbal_ ? gimbal_.advance((now - last_).s(), truth.X_WB.q) : truth.X_WB.q;
     last_ = now;
-    if (!is_due(now, truth) || readings_.is_in_outage(now)) {
+    // Whoever releases the shutter knows where the vehicle thinks it is; without an estimator there
+    // is the truth alone.
+    const Odometry& known = estimate_.has_value() ? estimate_.value() : truth;
+    if (!is_due(now, known) || readings_.is_in_outage(now)) {
       readings_.push_nothing();
       return;
     }
@@ -129,16 +132,16 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
     shot_.index += 1;
     look({q_W * X_BS_.q, X_WS().p});
     shot_at_ = now;
-    shot_from_W_ = truth.X_WB.p.head<2>();
+    shot_from_W_ = known.X_WB.p.head<2>();
     readings_.push(now, shot_, shot_);
   }
 
  private:
-  bool is_due(Time now, const Odometry& truth) {
+  bool is_due(Time now, const Odometry& known) {
     bool begins = shot_.index < 0;
     if (on_lanes_) {
       plan_.take_over();
-      const int lane = plan_.lane(truth.X_WB.p, truth.X_WB.q * truth.v_WB_B);
+      const int lane = plan_.lane(known.X_WB.p, known.X_WB.q * known.v_WB_B);
       begins = lane != lane_;
       lane_ = lane;
       waits_for_lane_ = begins || waits_for_lane_;
@@ -148,7 +151,7 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
     if (shot_.index >= 0) {
       const Duration since = now - shot_at_;
       if (since.ns < (begins ? fastest_ : interval_).ns) return false;
-      const double way_m = (truth.X_WB.p.head<2>() - shot_from_W_).norm();
+      const double way_m = (known.X_WB.p.head<2>() - shot_from_W_).norm();
       if (!begins && way_m < distance_m_) return false;
     }
     return true;
@@ -182,10 +185,11 @@ class CameraTrigger final : public MountedSensor<CameraShot> {
   std::array<Eigen::Vector3d, 4> corners_S_;
   CameraShot shot_;  ///< the last
   Time shot_at_;
-  Eigen::Vector2d shot_from_W_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d shot_from_W_ = Eigen::Vector2d::Zero();  ///< as known then
   int lane_ = -1;
   bool waits_for_lane_ = false;  ///< a lane has begun, and there is no picture of it yet
   PlanStretch plan_;
+  SignalReader<Odometry> estimate_;
 };
 
 }  // namespace
@@ -195,9 +199,10 @@ PartSpec camera_trigger_spec() {
       "camera_trigger",
       "Survey camera: pictures by time or by distance, each with its pose and its footprint on the "
       "ground",
-      20.0,
-      camera_trigger_table().specs(), camera_mounting_table().specs());
+      20.0, camera_trigger_table().specs(), camera_mounting_table().specs());
   spec.reads.push_back("plan (where on: lanes)");
+  spec.reads.push_back(
+      "estimate (where there is one: which lane, and how far from the last picture)");
   spec.gives = ProductKind::kPictures;
   return spec;
 }

@@ -1,5 +1,5 @@
-#include "engine/api/messages/sensors.h"
 #include "engine/sensors/camera_trigger.h"
+#include "engine/api/messages/sensors.h"
 
 #include <gtest/gtest.h>
 
@@ -242,6 +242,29 @@ TEST_F(CameraBench, OnLanesOnly) {
   for (int i = 0; i < 40; ++i) {
     EXPECT_FALSE(tick({24, 50.0 + 0.5 * i, 150}, {0, 0, kPi / 2})) << i;
   }
+}
+
+/// The estimate is 6 m ahead of the truth: at 0.6 m a tick pictures are due 10 ticks earlier, and
+/// show what the true place sees.
+TEST_F(CameraBench, IsReleasedByTheEstimate) {
+  SignalWriter<Odometry> estimate = bench_.bus.advertise<Odometry>("rover/estimate", "test");
+  start({});
+  PlannedPath path;
+  path.points = {point(-50, 0, PathKind::kTransit, -1), point(24, 0, PathKind::kLeg, 0),
+                 point(48, 0, PathKind::kTurn, -1), point(48, 60, PathKind::kLeg, 1)};
+  bench_.plan.write(now_, path);
+  std::vector<int> taken;
+  for (int i = 0; i < 60; ++i) {
+    const Vector3d p_W(0.6 * i, 0, 150);
+    Odometry known;
+    known.X_WB.p = p_W + Vector3d(6.3, 0, 0);
+    known.v_WB_B = {12, 0, 0};
+    estimate.write(now_, known);
+    if (!tick(p_W)) continue;
+    taken.push_back(i);
+    EXPECT_NEAR((shot().X_WS.p - p_W).norm(), 0.0, 1e-9) << i;
+  }
+  EXPECT_EQ(taken, (std::vector<int>{30, 50}));
 }
 
 TEST_F(CameraBench, ALaneBeginsWithAPicture) {

@@ -1,7 +1,7 @@
+#include "worlds/surveyed/surveyed.h"
 #include "engine/api/map.h"
 #include "engine/api/mesh.h"
 #include "engine/api/world_model.h"
-#include "worlds/surveyed/surveyed.h"
 
 #include <gtest/gtest.h>
 
@@ -118,6 +118,11 @@ TEST(Surveyed, RefusesBadInputInOneSentence) {
   const std::string zero =
       test::temporary_file("zero.geojson", R"({"type":"LineString","coordinates":[[1,2],[1,2]]})");
   EXPECT_EQ(error_of(zero), "'" + zero + "', feature 0: the row has no length");
+  // There and back over a tenth of a degree of latitude.
+  const std::string detour = test::temporary_file(
+      "detour.geojson", R"({"type":"LineString","coordinates":[[1,2],[1,2.1],[1.001,2]]})");
+  EXPECT_EQ(error_of(detour),
+            "'" + detour + "', feature 0: the row is 22.1 km long, must be at most 5 km");
   const std::string far = test::temporary_file(
       "far.geojson",
       R"({"type":"MultiLineString","coordinates":[[[1,2],[1,2.0001]],[[50,2],[50,2.0001]]]})");

@@ -107,6 +107,7 @@ std::vector<RowCurve> read_rows(const std::vector<io::GeoFeature>& features,
                                 const io::LocalFrame& frame, const std::string& file) {
   constexpr double kSamePoint_m = 1e-3;
   constexpr double kFarAway_m = 20000.0;
+  constexpr double kLongest_m = 5000.0;  // planted ones seldom have one kilometre
   std::vector<RowCurve> rows;
   for (const io::GeoFeature& feature : features) {
     std::vector<Eigen::Vector2d> points;
@@ -125,6 +126,11 @@ std::vector<RowCurve> read_rows(const std::vector<io::GeoFeature>& features,
           fmt::format("'{}', feature {}: the row has no length", file, feature.index));
     }
     rows.emplace_back(std::move(points));
+    if (rows.back().length_m() > kLongest_m) {
+      throw ConfigError(
+          fmt::format("'{}', feature {}: the row is {:.1f} km long, must be at most {:g} km", file,
+                      feature.index, rows.back().length_m() / 1000.0, kLongest_m / 1000.0));
+    }
   }
   return order_rows(std::move(rows));
 }

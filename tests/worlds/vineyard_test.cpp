@@ -266,6 +266,9 @@ TEST(Vineyard, RefusesBadInputInOneSentence) {
   EXPECT_NE(error("headland_m", 3.0).find("must be >= 8 m"), std::string::npos);
   EXPECT_EQ(error("vine_spacing_m", 0.001),
             "vine_spacing_m = 0.001 m, must be >= 0.1 m and <= 100 m");
+  // 40 m rows of such posts took 22 GB.
+  EXPECT_EQ(error("post_spacing_m", 5.4e-6),
+            "post_spacing_m = 5.4e-06 m, must be >= 0.1 m and <= 100 m");
   EXPECT_EQ(error("row_length_m", 1e9),
             "row_length_m = 1000000000 m, must be >= 1 m and <= 5000 m");
 }

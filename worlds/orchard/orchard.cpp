@@ -56,7 +56,8 @@ const ParameterTable<OrchardParams>& orchard_table() {
           .number("refinement_per_m2", "1/m2", &P::refinement_per_m2, kPositive,
                   "elements per square metre, m: the map is then the paper's "
                   "matrix, rows alone, and not the grid of occupancy_cell_m")
-          .number("tree_spacing_m", "m", &P::tree_spacing_m, kPositive, "between trees of a row")
+          .number("tree_spacing_m", "m", &P::tree_spacing_m, between(0.1, 100.0),
+                  "between trees of a row")
           .number("tree_height_m", "m", inside(&P::trees, &Trees::height_m), kPositive,
                   "of the tallest trees")
           .number("crown_base_m", "m", inside(&P::trees, &Trees::crown_base_m), kPositive,

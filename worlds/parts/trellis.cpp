@@ -22,7 +22,8 @@ const ParameterTable<TrellisParams>& trellis_table() {
   static const ParameterTable<P> table =
       ParameterTable<P>()
           .boolean("posts", &P::posts, "whether rows have posts and wires")
-          .number("post_spacing_m", "m", &P::post_spacing_m, kPositive, "between posts of a row")
+          .number("post_spacing_m", "m", &P::post_spacing_m, between(0.1, 100.0),
+                  "between posts of a row")
           .number("post_height_m", "m", &P::post_height_m, kPositive, "of posts above ground")
           .degrees("end_post_lean_deg", &P::end_post_lean_rad, between(0.0, 40.0),
                    "outward lean of end posts")

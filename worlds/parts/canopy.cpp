@@ -34,11 +34,11 @@ const ParameterTable<CanopyParams>& canopy_table() {
   using P = CanopyParams;
   static const ParameterTable<P> table =
       ParameterTable<P>()
-          .number("canopy_width_m", "m", &P::width_m, kPositive,
+          .number("canopy_width_m", "m", &P::width_m, above(0.0, 10.0),
                   "mean width of the foliage across the row")
           .number("canopy_base_m", "m", &P::base_m, between(0.0, 10.0),
                   "lowest leaves above ground")
-          .number("canopy_top_m", "m", &P::top_m, kPositive, "highest leaves above ground")
+          .number("canopy_top_m", "m", &P::top_m, above(0.0, 30.0), "highest leaves above ground")
           .number("canopy_variation", "", &P::variation, between(0.0, 0.4),
                   "standard deviation of width and height from vine to vine, as a share")
           .number("canopy_step_m", "m", &P::step_m, {.min = 0.05},

@@ -24,11 +24,12 @@ const ParameterTable<TrellisParams>& trellis_table() {
           .boolean("posts", &P::posts, "whether rows have posts and wires")
           .number("post_spacing_m", "m", &P::post_spacing_m, between(0.1, 100.0),
                   "between posts of a row")
-          .number("post_height_m", "m", &P::post_height_m, kPositive, "of posts above ground")
+          .number("post_height_m", "m", &P::post_height_m, above(0.0, 10.0),
+                  "of posts above ground")
           .degrees("end_post_lean_deg", &P::end_post_lean_rad, between(0.0, 40.0),
                    "outward lean of end posts")
-          .number("trunk_radius_m", "m", &P::trunk_radius_m, kPositive, "of vine stems")
-          .number("arm_height_m", "m", &P::arm_height_m, kPositive,
+          .number("trunk_radius_m", "m", &P::trunk_radius_m, above(0.0, 0.5), "of vine stems")
+          .number("arm_height_m", "m", &P::arm_height_m, above(0.0, 10.0),
                   "of the vines' arms and the first wire");
   return table;
 }

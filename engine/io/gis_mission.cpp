@@ -15,7 +15,7 @@
 namespace vinerow::io {
 namespace {
 
-constexpr int kWaypoint = 16, kSpeed = 178, kSprayer = 216;
+constexpr int kWaypointCommand = 16, kSpeedCommand = 178, kSprayerCommand = 216;
 constexpr int kAboveSea = 0, kNoPlace = 2, kAboveHome = 3;
 
 std::string place_of_feature(const std::filesystem::path& file, const GeoFeature& feature) {
@@ -24,7 +24,7 @@ std::string place_of_feature(const std::filesystem::path& file, const GeoFeature
 
 /// Nothing where the feature does not have the property.
 std::optional<double> property_number(const std::filesystem::path& file, const GeoFeature& feature,
-                                  const std::string& name) {
+                                      const std::string& name) {
   const std::string text = feature.property(name);
   if (text.empty() || text == "null") return std::nullopt;
   double value = 0.0;
@@ -38,7 +38,7 @@ std::optional<double> property_number(const std::filesystem::path& file, const G
 
 /// Nothing where the feature does not have the property.
 std::optional<bool> property_switch(const std::filesystem::path& file, const GeoFeature& feature,
-                                const std::string& name) {
+                                    const std::string& name) {
   const std::string text = feature.property(name);
   if (text.empty() || text == "null") return std::nullopt;
   if (text == "1" || text == "true" || text == "on") return true;
@@ -79,7 +79,7 @@ class Route {
     for (const Geodetic& point : feature.points) {
       const bool is_above_sea = !height_m && feature.has_altitude;
       MissionItem item;
-      item.command = kWaypoint;
+      item.command = kWaypointCommand;
       item.frame = is_above_sea ? kAboveSea : kAboveHome;
       item.number = number;
       item.params[4] = deg_from_rad(point.latitude_rad);
@@ -88,11 +88,11 @@ class Route {
       add(item);
       if (!is_first) continue;
       // These hold from the place before them on.
-      if (speed_mps) add_command(kSpeed, number, 1.0, *speed_mps);
-      if (sprays) add_command(kSprayer, number, 1.0, 0.0);
+      if (speed_mps) add_command(kSpeedCommand, number, 1.0, *speed_mps);
+      if (sprays) add_command(kSprayerCommand, number, 1.0, 0.0);
       is_first = false;
     }
-    if (sprays) add_command(kSprayer, number, 0.0, 0.0);
+    if (sprays) add_command(kSprayerCommand, number, 0.0, 0.0);
   }
 
   MissionFile take() { return std::move(mission_); }

@@ -257,9 +257,15 @@ std::vector<fs::path> read_plugin_list(const YamlNode& root) {
 
 /// Overrides that matter before the plug-ins are known.
 Overrides of_plugins(const Overrides& overrides) {
+  const auto is_of_plugins = [](const std::string& text) {
+    return text == "plugins" || text.starts_with("plugins=") || text.starts_with("plugins.");
+  };
   Overrides result;
+  for (const OverrideValue& value : overrides.values) {
+    if (is_of_plugins(value.path)) result.values.push_back(value);
+  }
   for (const std::string& set : overrides.sets) {
-    if (set.starts_with("plugins=") || set.starts_with("plugins.")) result.sets.push_back(set);
+    if (is_of_plugins(set)) result.sets.push_back(set);
   }
   return result;
 }
@@ -276,12 +282,20 @@ std::vector<fs::path> load_plugin_list(const fs::path& file, const Overrides& ov
   return read_plugin_list(root);
 }
 
-Scenario load_scenario(const fs::path& file, const Registry& registry, const Overrides& overrides) {
-  YamlNode root = load_yaml_with_includes(file);
-  apply_overrides(root, overrides, folder_of(file));
-  Scenario scenario = ScenarioReader(root, {file.string(), 0}, registry).read(file.stem().string());
-  scenario.file = fs::absolute(file).lexically_normal();
+ScenarioSource::ScenarioSource(const fs::path& file)
+    : file_(file), tree_(load_yaml_with_includes(file)) {}
+
+Scenario ScenarioSource::load(const Registry& registry, const Overrides& overrides) const {
+  YamlNode root = tree_;
+  apply_overrides(root, overrides, folder_of(file_));
+  Scenario scenario =
+      ScenarioReader(root, {file_.string(), 0}, registry).read(file_.stem().string());
+  scenario.file = fs::absolute(file_).lexically_normal();
   return scenario;
+}
+
+Scenario load_scenario(const fs::path& file, const Registry& registry, const Overrides& overrides) {
+  return ScenarioSource(file).load(registry, overrides);
 }
 
 Scenario parse_scenario(const std::string& yaml, const fs::path& folder, const Registry& registry,

@@ -12,6 +12,7 @@
 #include "engine/api/registry.h"
 #include "engine/core/time.h"
 #include "engine/io/source_mark.h"
+#include "engine/io/yaml.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::io {
@@ -202,11 +203,18 @@ struct Scenario {
   std::string resolved_yaml;  ///< includes and overrides applied, defaults written out
 };
 
-/// Values from the command line, applied over the file.
+/// A value for a key path. Errors name the value's own mark, and a relative path in it starts at
+/// its own folder.
+struct OverrideValue {
+  std::string path;  ///< "rover.controller.lookahead_m"; `vehicles.` may be left out
+  YamlNode value;
+};
+
+/// Values applied over the file: first `values`, then `sets`, each in order.
 struct Overrides {
-  std::vector<std::string>
-      sets;  ///< "rover.controller.lookahead_m=0.5"; `vehicles.` may be left out
+  std::vector<std::string> sets;  ///< of the command line: "rover.controller.lookahead_m=0.5"
   std::optional<std::uint64_t> seed;
+  std::vector<OverrideValue> values = {};  ///< of a study
 };
 
 /// Only the plug-in list, read first because plug-ins extend the registry that the rest is checked
@@ -215,8 +223,22 @@ struct Overrides {
 std::vector<std::filesystem::path> load_plugin_list(const std::filesystem::path& file,
                                                     const Overrides& overrides = {});
 
-/// Loads, includes, overrides and checks. @throws ConfigError with "file:line: key = value, ..." in
-/// one sentence
+/// A scenario file that is read once, for scenarios that differ by their overrides.
+class ScenarioSource {
+ public:
+  /// Reads the file and what it includes. @throws ConfigError
+  explicit ScenarioSource(const std::filesystem::path& file);
+  /// Overrides and checks. @throws ConfigError with "file:line: key = value, ..." in one sentence
+  Scenario load(const Registry& registry, const Overrides& overrides = {}) const;
+  /// The file with its includes merged in.
+  const YamlNode& tree() const { return tree_; }
+
+ private:
+  std::filesystem::path file_;
+  YamlNode tree_;
+};
+
+/// The same for one scenario of a file.
 Scenario load_scenario(const std::filesystem::path& file, const Registry& registry,
                        const Overrides& overrides = {});
 /// The same from text; relative paths start at `folder`, and an empty one is the current folder.

@@ -19,7 +19,9 @@ std::vector<std::string> split_path(const std::string& path, const SourceMark& m
     const std::size_t end = path.find('.', begin);
     keys.push_back(path.substr(begin, end - begin));
     if (keys.back().empty()) {
-      fail_at(mark, "the path before '=' has an empty key; write it like rover.controller.rate_Hz");
+      fail_at(mark, fmt::format("the path '{}' has an empty key; write it like "
+                                "rover.controller.rate_Hz",
+                                path));
     }
     if (end == std::string::npos) return keys;
     begin = end + 1;
@@ -107,16 +109,23 @@ void mark_all(YamlNode& node, const SourceMark& mark) {
   }
 }
 
+/// @param value  with its marks
+void apply_value(YamlNode& root, const std::string& path, YamlNode value) {
+  const SourceMark mark = value.mark;
+  std::vector<std::string> keys = split_path(path, mark);
+  complete_path(keys, root, mark);
+  if (keys.back() == "include")
+    fail_at(mark, "include cannot be set; name the file in the scenario");
+  resolve_includes(value, "");
+  set_value(root, keys, std::move(value));
+}
+
 void apply_set(YamlNode& root, const std::string& set, const std::filesystem::path& folder) {
   const SourceMark mark{fmt::format("--set {}", set), 0};
   const std::size_t equals = set.find('=');
   if (equals == std::string::npos || equals == 0) {
     fail_at(mark, "must have the form path=value, e.g. rover.controller.lookahead_m=0.5");
   }
-  std::vector<std::string> keys = split_path(set.substr(0, equals), mark);
-  complete_path(keys, root, mark);
-  if (keys.back() == "include")
-    fail_at(mark, "include cannot be set; name the file in the scenario");
   YamlNode value;
   try {
     value = parse_yaml(set.substr(equals + 1), mark.file, folder);
@@ -124,14 +133,14 @@ void apply_set(YamlNode& root, const std::string& set, const std::filesystem::pa
     fail_at(mark, fmt::format("the value '{}' is not valid YAML", set.substr(equals + 1)));
   }
   mark_all(value, mark);
-  resolve_includes(value, "");
-  set_value(root, keys, std::move(value));
+  apply_value(root, set.substr(0, equals), std::move(value));
 }
 
 }  // namespace
 
 void apply_overrides(YamlNode& root, const Overrides& overrides,
                      const std::filesystem::path& folder) {
+  for (const OverrideValue& value : overrides.values) apply_value(root, value.path, value.value);
   for (const std::string& set : overrides.sets) apply_set(root, set, folder);
   if (overrides.seed) {
     YamlNode seed = yaml_text(std::to_string(*overrides.seed));

@@ -17,4 +17,16 @@ Scenario with_seed(Scenario scenario, std::uint64_t seed) {
   return scenario;
 }
 
+std::string resolved_block(const Scenario& scenario, const std::string& key) {
+  const std::string& text = scenario.resolved_yaml;
+  const std::size_t begin = text.find("\n" + key + ":");
+  if (begin == std::string::npos) return "";
+  // What belongs to the key is indented.
+  std::size_t end = text.find('\n', begin + 1);
+  while (end != std::string::npos && end + 1 < text.size() && text[end + 1] == ' ') {
+    end = text.find('\n', end + 1);
+  }
+  return text.substr(begin + 1, end - begin - 1);
+}
+
 }  // namespace vinerow::io

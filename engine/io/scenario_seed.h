@@ -1,5 +1,6 @@
 #pragma once
-/// The same scenario for a run with another seed.
+/// What can be said of a scenario by its resolved text: the same with another seed, one of its
+/// keys.
 
 #include "engine/io/scenario.h"
 
@@ -8,5 +9,9 @@ namespace vinerow::io {
 /// As load_scenario with Overrides::seed gives it, its `resolved_yaml` included, but without
 /// reading the file again.
 Scenario with_seed(Scenario scenario, std::uint64_t seed);
+
+/// The resolved text of a top-level key with all that stands below it; "" where it is absent. Equal
+/// texts mean equal values.
+std::string resolved_block(const Scenario& scenario, const std::string& key);
 
 }  // namespace vinerow::io

@@ -245,9 +245,10 @@ std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
 /// A run that is built, with what can be refused before its first step refused.
 /// @throws ConfigError
 Session open_run(const io::Scenario& scenario, const Registry& registry,
-                 const std::filesystem::path& products) {
+                 const std::filesystem::path& products, std::shared_ptr<RunShelf> shelf) {
   SessionOptions options;
   options.products = products;
+  options.shelf = std::move(shelf);
   // The caller keeps the registry.
   Session session(scenario, std::shared_ptr<const Registry>(std::shared_ptr<void>(), &registry),
                   std::move(options));
@@ -272,6 +273,7 @@ void judge_run(const io::Scenario& scenario, const Session& session, RunResult& 
   result.digest = session.digest();
   result.finished = session.finished();
   result.metrics = session.metrics();
+  result.planning = simulation.planning();
   result.phases = simulation.phases();
   result.criteria =
       judge(scenario.criteria, with_missing_numbers(scenario, result.metrics, result.phases));
@@ -314,50 +316,11 @@ std::string end_by(EndKind kind) {
                                    : fmt::format("ended: a vehicle {}", to_string(kind));
 }
 
-}  // namespace
-
-std::vector<std::string> rehearse_run(const io::Scenario& scenario, const Registry& registry) {
-  constexpr Duration kLongest{10'000'000'000};
-  Session session = open_run(scenario, registry, {});
-  std::vector<std::string> notes = session.simulation().world().notes;
-  if (!scenario.phases.empty()) return notes;
-  while (!session.over() && session.now() <= Time{kLongest.ns} &&
-         !without_plan(session.simulation()).empty()) {
-    session.advance(session.now());
-  }
-  for (const std::string& vehicle : without_plan(session.simulation())) {
-    notes.push_back(
-        fmt::format("{}.planner: not asked, as the estimate does not begin in the "
-                    "first {:g} s",
-                    vehicle, session.now().s()));
-  }
-  return notes;
-}
-
-RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
-                       const RunOptions& options) {
-  Session session = open_run(scenario, registry, options.out / "products");
+/// Steps to the end and judges. @param log  null: none
+void step_and_judge(Session& session, const RunOptions& options, LogObserver* log,
+                    RunResult& result) {
   Simulation& simulation = session.simulation();
-  simulation.scheduler().set_clock(wall_ns, options.measure_cost);
-
-  RunResult result;
-  io::make_folder(options.out);
-  result.lock = std::make_shared<FolderLock>(options.out);
-  clear_earlier_run(options.out);
-  // Whatever fills the disk, the verdict has its place.
-  constexpr std::size_t kVerdictBytes = 1 << 20;
-  DiskReserve reserve(options.out, kVerdictBytes);
-  write_whole_file(options.out / "scenario.resolved.yaml", scenario.resolved_yaml);
-  const std::filesystem::path log_file = options.out / "log.mcap";
-  const bool with_log = options.log && scenario.record.enabled;
-  std::unique_ptr<LogObserver> log;
-  if (with_log) {
-    log = std::make_unique<LogObserver>(simulation, log_file);
-    simulation.add_observer(log.get());
-  }
-  EventFile events(options.out / "events.jsonl");
-  simulation.add_observer(&events);
-
+  const io::Scenario& scenario = session.scenario();
   const auto break_off = [&](const SimulationError& error) {
     result.status = RunStatus::kBrokenOff;
     result.error = error.what();
@@ -383,6 +346,58 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   }
   result.wall_s = seconds_since(start);
   judge_run(scenario, session, result);
+}
+
+}  // namespace
+
+std::vector<std::string> rehearse_run(const io::Scenario& scenario, const Registry& registry) {
+  constexpr Duration kLongest{10'000'000'000};
+  Session session = open_run(scenario, registry, {}, nullptr);
+  std::vector<std::string> notes = session.simulation().world().notes;
+  if (!scenario.phases.empty()) return notes;
+  while (!session.over() && session.now() <= Time{kLongest.ns} &&
+         !without_plan(session.simulation()).empty()) {
+    session.advance(session.now());
+  }
+  for (const std::string& vehicle : without_plan(session.simulation())) {
+    notes.push_back(
+        fmt::format("{}.planner: not asked, as the estimate does not begin in the "
+                    "first {:g} s",
+                    vehicle, session.now().s()));
+  }
+  return notes;
+}
+
+RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
+                       const RunOptions& options) {
+  const bool writes = !options.out.empty();
+  Session session =
+      open_run(scenario, registry, writes ? options.out / "products" : "", options.shelf);
+  Simulation& simulation = session.simulation();
+  simulation.scheduler().set_clock(wall_ns, options.measure_cost);
+
+  RunResult result;
+  if (!writes) {
+    step_and_judge(session, options, nullptr, result);
+    return result;
+  }
+  io::make_folder(options.out);
+  result.lock = std::make_shared<FolderLock>(options.out);
+  clear_earlier_run(options.out);
+  // Whatever fills the disk, the verdict has its place.
+  constexpr std::size_t kVerdictBytes = 1 << 20;
+  DiskReserve reserve(options.out, kVerdictBytes);
+  write_whole_file(options.out / "scenario.resolved.yaml", scenario.resolved_yaml);
+  const std::filesystem::path log_file = options.out / "log.mcap";
+  const bool with_log = options.log && scenario.record.enabled;
+  std::unique_ptr<LogObserver> log;
+  if (with_log) {
+    log = std::make_unique<LogObserver>(simulation, log_file);
+    simulation.add_observer(log.get());
+  }
+  EventFile events(options.out / "events.jsonl");
+  simulation.add_observer(&events);
+  step_and_judge(session, options, log.get(), result);
 
   reserve.give_back();
   const auto write_verdict = [&] {

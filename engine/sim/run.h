@@ -16,6 +16,8 @@
 
 namespace vinerow {
 
+class RunShelf;
+
 /// Exit status of `vinerow run` (docs/architecture.md).
 enum class RunStatus { kAllMet = 0, kCriterionFailed = 1, kBadInput = 2, kBrokenOff = 3 };
 
@@ -28,10 +30,11 @@ struct Progress {
 struct RunResult;
 
 struct RunOptions {
-  std::filesystem::path out;  ///< folder of the files; created
+  std::filesystem::path out;  ///< folder of the files; created; empty: nothing is written
   bool log = true;
   bool pictures = true;
-  bool measure_cost = true;                       ///< computing time of each stage in summary.json
+  bool measure_cost = true;         ///< computing time of each stage in summary.json
+  std::shared_ptr<RunShelf> shelf;  ///< worlds and contents of files, shared with other runs
   std::function<void(const Progress&)> progress;  ///< called about five times a second of wall time
   /// Asked every simulated quarter second, where true ends the run, and before each picture, where
   /// it ends the drawing.
@@ -51,6 +54,7 @@ struct RunResult {
   std::vector<CriterionResult> criteria;
   std::vector<Crash> crashes;  ///< any of them makes the status kCriterionFailed
   std::map<std::string, std::map<std::string, double>> metrics;
+  std::map<std::string, std::map<std::string, double>> planning;  ///< what planners counted
   std::vector<PhaseReport> phases;  ///< of a mission; any that did not succeed: kCriterionFailed
   std::vector<std::filesystem::path> canopy;  ///< what payloads did, a file each
   std::vector<std::filesystem::path> pictures;
@@ -71,8 +75,9 @@ struct RunResult {
 /// @throws ConfigError, SimulationError as run_scenario()
 std::vector<std::string> rehearse_run(const io::Scenario& scenario, const Registry& registry);
 
-/// Runs a scenario and writes its files; each of them, but log and events, is there whole or not at
-/// all. Verdict and summary are written before pictures are drawn, and once more behind them.
+/// Runs a scenario and, where options.out names a folder, writes its files; each of them, but log
+/// and events, is there whole or not at all. Verdict and summary are written before pictures are
+/// drawn, and once more behind them.
 /// @throws ConfigError on bad input found while building or planning, or if another run has the
 ///   folder; WriteError where the run cannot even begin to write
 RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "engine/api/file_shelf.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/io/scenario_seed.h"
+#include "engine/sim/run_shelf.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"
 
@@ -29,7 +29,7 @@ struct Session::Impl {
 
   std::shared_ptr<const Registry> registry;
   SessionOptions options;
-  std::shared_ptr<FileShelf> shelf;  ///< outlives the run
+  std::shared_ptr<RunShelf> shelf;  ///< outlives the run
   std::unique_ptr<Run> run;
   std::map<std::string, std::shared_ptr<SignalSlot>> slots;
   std::string broken;  ///< why the run goes no further; empty: it does
@@ -43,7 +43,7 @@ struct Session::Impl {
     setup.products = options.products;
     setup.world = std::move(world);
     setup.outside = options.outside;
-    setup.shelf = shelf.get();
+    setup.shelf = &shelf->files();
     // The old run stays until the new one is there: what throws here changes nothing.
     run = std::make_unique<Run>(scenario, *registry, std::move(setup));
     broken.clear();
@@ -55,8 +55,8 @@ struct Session::Impl {
     if (const SignalBase* signal = bus.find(name)) return *signal;
     std::vector<std::string> known;
     for (const auto& signal : bus.signals()) known.push_back(signal->name());
-    throw ConfigError(fmt::format("no signal '{}'{} (known: {})", name, did_you_mean(name, known),
-                                  join(known)));
+    throw ConfigError(
+        fmt::format("no signal '{}'{} (known: {})", name, did_you_mean(name, known), join(known)));
   }
 
   void demand_going(const char* what) const {
@@ -77,8 +77,11 @@ Session::Session(const io::Scenario& scenario, std::shared_ptr<const Registry> r
     : impl_(std::make_unique<Impl>()) {
   impl_->registry = std::move(registry);
   impl_->options = std::move(options);
-  impl_->shelf = std::make_shared<FileShelf>();
-  impl_->begin(scenario, std::nullopt);
+  const bool shares = impl_->options.shelf != nullptr;
+  impl_->shelf = shares ? impl_->options.shelf : std::make_shared<RunShelf>();
+  std::optional<BuiltWorld> world;
+  if (shares) world = impl_->shelf->world(scenario, *impl_->registry);
+  impl_->begin(scenario, std::move(world));
 }
 
 Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -99,7 +102,7 @@ Session Session::twin() const {
 void Session::reset(std::uint64_t seed) {
   const io::Scenario next = io::with_seed(scenario(), seed);
   impl_->begin(next, reseed_world(simulation().built_world(), next, *impl_->registry,
-                                  impl_->shelf.get()));
+                                  &impl_->shelf->files()));
 }
 
 void Session::reset() {
@@ -188,8 +191,8 @@ std::vector<SessionCrash> Session::crashes() const {
 std::vector<SessionPhase> Session::phases() const {
   std::vector<SessionPhase> all;
   for (const PhaseReport& phase : simulation().phases()) {
-    all.push_back({phase.name, to_string(phase.state), phase.begin, phase.end, phase.reason,
-                   phase.numbers});
+    all.push_back(
+        {phase.name, to_string(phase.state), phase.begin, phase.end, phase.reason, phase.numbers});
   }
   return all;
 }

@@ -33,6 +33,7 @@ namespace vinerow {
 namespace io {
 struct Scenario;
 }
+class RunShelf;
 class Simulation;
 
 /// A session's reference to one of its signals. reset() looks it up again; the end of the session
@@ -108,6 +109,9 @@ struct SessionOptions {
   std::vector<OutsideSignal> outside;
   /// Folder for the products of a mission's jobs; empty: a temporary one, removed with the session.
   std::filesystem::path products;
+  /// Worlds and contents of files, shared with sessions of other scenarios
+  /// (engine/sim/run_shelf.h, private); null: the session's own.
+  std::shared_ptr<RunShelf> shelf;
 
   /// E.g. take_over<NamedValues>("rover/actuators") of a vehicle without a controller.
   template <class T>

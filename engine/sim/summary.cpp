@@ -161,7 +161,7 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   for (const auto& [vehicle, metrics] : result.metrics) {
     for (const auto& [name, value] : metrics) summary["metrics"][vehicle][name] = value;
   }
-  for (const auto& [vehicle, numbers] : simulation.planning()) {
+  for (const auto& [vehicle, numbers] : result.planning) {
     for (const auto& [name, value] : numbers) summary["planning"][vehicle][name] = value;
   }
   for (const auto& file : result.canopy) {

@@ -50,6 +50,10 @@ OUTSIDE = {
     r"zstd|lz4": [RECORD],
     r"ompl/": ["controllers/planning"],
     r"CLI/": ["tools"],
+    r"boost/random": [IO],
+    r"sqlite3": ["tools/study"],
+    r"muParser": ["tools/study"],
+    r"boost/math": ["tools/study"],
 }
 
 INCLUDE = re.compile(r'^\s*#include\s+(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)

@@ -470,7 +470,7 @@ TEST(ScenarioFault, OverridesNameTheirText) {
       fault("rover.mass_kg"),
       "--set rover.mass_kg: must have the form path=value, e.g. rover.controller.lookahead_m=0.5");
   EXPECT_EQ(fault("rover..mass_kg=1"),
-            "--set rover..mass_kg=1: the path before '=' has an empty key; write it like "
+            "--set rover..mass_kg=1: the path 'rover..mass_kg' has an empty key; write it like "
             "rover.controller.rate_Hz");
   EXPECT_EQ(fault("criteria.1.max=1"),
             "--set criteria.1.max=1: criteria is a list, its entries are 0 to 0, not '1'");

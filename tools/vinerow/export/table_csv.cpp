@@ -4,6 +4,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "engine/io/csv.h"
 #include "tools/vinerow/export/table_cells.h"
 #include "tools/vinerow/export/table_files.h"
 
@@ -11,14 +12,6 @@ namespace vinerow::tools {
 namespace {
 
 using record::RosKind;
-
-/// By RFC 4180: quotes around what holds a comma, a quote or a line end, quotes doubled.
-std::string quoted_cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 template <class T>
 void print_cell(const char* bytes, std::string& out) {
@@ -92,7 +85,7 @@ std::string csv_of(const MessageTable& table, const std::string& what) {
   for (const TableColumn& column : table.columns()) {
     widths.push_back(column.width());
     for (std::size_t i = 0; i < widths.back(); ++i) {
-      out += "," + quoted_cell(column.list ? fmt::format("{}[{}]", column.name, i) : column.name);
+      out += "," + io::csv_text(column.list ? fmt::format("{}[{}]", column.name, i) : column.name);
     }
   }
   out += '\n';
@@ -108,7 +101,7 @@ std::string csv_of(const MessageTable& table, const std::string& what) {
         out += ',';
         if (i >= column.counts[row]) continue;  // a shorter sequence leaves cells empty
         if (column.kind == RosKind::kText) {
-          out += quoted_cell(cells.text(c, row, i));
+          out += io::csv_text(cells.text(c, row, i));
         } else {
           print_number(column.kind, cells.number(c, row, i), out);
         }

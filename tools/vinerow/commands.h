@@ -10,12 +10,14 @@
 #include "engine/api/registry.h"
 #include "engine/io/scenario.h"
 #include "engine/sim/coverage_log.h"
+#include "engine/sim/run.h"
 
 namespace vinerow::tools {
 
 /// Adds one command. @param exit_status  set by the command when it has run
 void add_run_command(CLI::App& app, int& exit_status);
 void add_validate_command(CLI::App& app, int& exit_status);
+void add_study_command(CLI::App& app, int& exit_status);
 void add_list_command(CLI::App& app, int& exit_status);
 void add_schema_command(CLI::App& app, int& exit_status);
 void add_render_command(CLI::App& app, int& exit_status);
@@ -43,6 +45,16 @@ struct ScenarioArguments {
 /// @param set_example  what the help of --set shows: a value that means something to this command
 void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments,
                             const std::string& set_example);
+
+/// What `vinerow run` writes.
+struct RunChoice {
+  std::filesystem::path out;  ///< empty: runs/<scenario name>
+  bool no_log = false, no_pictures = false, no_report = false, quiet = false;
+};
+/// Runs a scenario as `vinerow run` does: progress, verdict, pictures, report. @returns the exit
+/// status
+RunStatus run_and_tell(const io::Scenario& scenario, const Registry& registry,
+                       const RunChoice& choice);
 
 /// RUN/log.mcap of a folder, else the file itself.
 std::filesystem::path log_of(const std::filesystem::path& run_or_log);

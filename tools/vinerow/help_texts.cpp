@@ -34,6 +34,11 @@ constexpr std::array kHelpTexts = {
              "input, 3 the simulation broke off or something could not be stored"},
     HelpText{"validate", kSimulate, "validate my.yaml\nvalidate my.yaml --files-only",
              "0 valid, 2 not valid (one sentence says what and where)"},
+    HelpText{"study", kSimulate,
+             "study run my_study.yaml --jobs 8\nstudy table my_study.yaml\n"
+             "study list my_study.yaml --state waiting",
+             "0 all cells met their criteria, 1 some did not, 2 bad input, 3 some did not run to "
+             "their end or something could not be stored"},
     HelpText{"report", kLook, "report runs/x\nreport runs/x --out page.html", ""},
     HelpText{"replay", kLook, "replay runs/x --out replay.html", ""},
     HelpText{"render", kLook,

@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   // The help lists groups and commands in this order.
   vinerow::tools::add_run_command(app, exit_status);
   vinerow::tools::add_validate_command(app, exit_status);
+  vinerow::tools::add_study_command(app, exit_status);
   vinerow::tools::add_report_command(app, exit_status);
   vinerow::tools::add_replay_command(app, exit_status);
   vinerow::tools::add_render_command(app, exit_status);

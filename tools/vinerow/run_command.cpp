@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 
 #include "engine/core/error.h"
@@ -10,21 +9,13 @@
 #include "engine/sim/run.h"
 #include "tools/vinerow/colour.h"
 #include "tools/vinerow/commands.h"
+#include "tools/vinerow/interrupt.h"
 #include "tools/vinerow/map_picture_files.h"
 #include "tools/vinerow/progress_line.h"
 #include "tools/vinerow/report/report.h"
 
 namespace vinerow::tools {
 namespace {
-
-/// Set by Ctrl-C, so that log and summary are closed properly; a second Ctrl-C ends the program at
-/// once.
-volatile std::sig_atomic_t interrupt_seen = 0;
-
-void note_interrupt(int) {
-  interrupt_seen = 1;
-  std::signal(SIGINT, SIG_DFL);
-}
 
 /// Thrown out of work that Ctrl-C ends.
 struct Interrupted {};
@@ -123,82 +114,84 @@ void print_files(const char* what, const std::vector<std::filesystem::path>& fil
 
 }  // namespace
 
+RunStatus run_and_tell(const io::Scenario& scenario, const Registry& registry,
+                       const RunChoice& choice) {
+  RunOptions options;
+  options.out = choice.out.empty() ? std::filesystem::path("runs") / scenario.name : choice.out;
+  options.log = !choice.no_log;
+  options.pictures = !choice.no_pictures;
+  ProgressLine line(choice.quiet);
+  watch_for_interrupt();
+  const bool with_log = options.log && scenario.record.enabled;
+  options.progress = [&line](const Progress& progress) { show_simulation(line, progress); };
+  options.picture_progress = [&line](int done, int total) {
+    line.count("drawing pictures", done, total);
+  };
+  options.interrupted = is_interrupted;
+  options.judged = [&](const RunResult& result) {
+    line.end();
+    print_verdict(result, options.out, with_log);
+  };
+  const RunResult result = run_scenario(scenario, registry, options);
+  line.end();
+  print_pictures(result, options.out);
+  Unwritten unwritten;
+  unwritten.tell(result.write_failure);
+  const bool broke_off = result.status == RunStatus::kBrokenOff;
+  const bool drawing_interrupted = is_interrupted() && !broke_off;
+  try {
+    if (drawing_interrupted) throw Interrupted();
+    if (with_log && options.pictures) {
+      // Where the vehicles took pictures of the ground, and the maps that jobs made.
+      unwritten.try_to_write("coverage", [&] {
+        print_files("coverage", write_coverage(options.out / "log.mcap", registry, {},
+                                               options.out / "coverage.png"));
+      });
+      unwritten.try_to_write("pictures of maps",
+                             [&] { print_files("map", write_job_pictures(scenario, result)); });
+    }
+    if (!choice.no_report) {
+      unwritten.try_to_write("report", [&] {
+        const std::filesystem::path report = options.out / "report.html";
+        write_report(options.out, registry, report, [&](int done, int total) {
+          // After Ctrl-C in the simulation the report is still wanted.
+          if (is_interrupted() && !broke_off) throw Interrupted();
+          line.count("writing the report", done, total);
+        });
+        line.end();
+        print_files("report", {report});
+      });
+    }
+  } catch (const Interrupted&) {
+    line.end();
+    const std::string out = options.out.string();
+    fmt::print(stderr,
+               "vinerow: interrupted: verdict, log and the pictures so far are kept; 'vinerow "
+               "render {}/log.mcap' draws the pictures, 'vinerow report {}' writes the report\n",
+               out, out);
+  }
+  return unwritten.any() ? RunStatus::kBrokenOff : result.status;
+}
+
 void add_run_command(CLI::App& app, int& exit_status) {
   struct Arguments {
     ScenarioArguments scenario;
-    std::filesystem::path out;
-    bool no_log = false, no_pictures = false, no_report = false, quiet = false;
+    RunChoice choice;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("run", "run a scenario headless and write log, summary and pictures");
   add_scenario_arguments(*command, arguments->scenario, "rover.controller.speed_mps=0.8");
-  command->add_option("--out", arguments->out,
+  command->add_option("--out", arguments->choice.out,
                       "folder for the results (default: runs/<scenario name>)");
-  command->add_flag("--no-log", arguments->no_log, "write no log (and so no pictures)");
-  command->add_flag("--no-pictures", arguments->no_pictures, "draw no pictures");
-  command->add_flag("--no-report", arguments->no_report, "write no report.html");
-  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->add_flag("--no-log", arguments->choice.no_log, "write no log (and so no pictures)");
+  command->add_flag("--no-pictures", arguments->choice.no_pictures, "draw no pictures");
+  command->add_flag("--no-report", arguments->choice.no_report, "write no report.html");
+  command->add_flag("--quiet", arguments->choice.quiet, "no progress");
   command->callback([arguments, &exit_status] {
     Registry registry;
     const io::Scenario scenario = load(arguments->scenario, registry);
-    RunOptions options;
-    options.out =
-        arguments->out.empty() ? std::filesystem::path("runs") / scenario.name : arguments->out;
-    options.log = !arguments->no_log;
-    options.pictures = !arguments->no_pictures;
-    ProgressLine line(arguments->quiet);
-    std::signal(SIGINT, note_interrupt);
-    const bool with_log = options.log && scenario.record.enabled;
-    options.progress = [&line](const Progress& progress) { show_simulation(line, progress); };
-    options.picture_progress = [&line](int done, int total) {
-      line.count("drawing pictures", done, total);
-    };
-    options.interrupted = [] { return interrupt_seen != 0; };
-    options.judged = [&](const RunResult& result) {
-      line.end();
-      print_verdict(result, options.out, with_log);
-    };
-    const RunResult result = run_scenario(scenario, registry, options);
-    line.end();
-    print_pictures(result, options.out);
-    Unwritten unwritten;
-    unwritten.tell(result.write_failure);
-    exit_status = static_cast<int>(result.status);
-    const bool broke_off = result.status == RunStatus::kBrokenOff;
-    const bool drawing_interrupted = interrupt_seen != 0 && !broke_off;
-    try {
-      if (drawing_interrupted) throw Interrupted();
-      if (with_log && options.pictures) {
-        // Where the vehicles took pictures of the ground, and the maps that jobs made.
-        unwritten.try_to_write("coverage", [&] {
-          print_files("coverage", write_coverage(options.out / "log.mcap", registry, {},
-                                                 options.out / "coverage.png"));
-        });
-        unwritten.try_to_write("pictures of maps",
-                               [&] { print_files("map", write_job_pictures(scenario, result)); });
-      }
-      if (!arguments->no_report) {
-        unwritten.try_to_write("report", [&] {
-          const std::filesystem::path report = options.out / "report.html";
-          write_report(options.out, registry, report, [&](int done, int total) {
-            // After Ctrl-C in the simulation the report is still wanted.
-            if (interrupt_seen != 0 && !broke_off) throw Interrupted();
-            line.count("writing the report", done, total);
-          });
-          line.end();
-          print_files("report", {report});
-        });
-      }
-    } catch (const Interrupted&) {
-      line.end();
-      const std::string out = options.out.string();
-      fmt::print(stderr,
-                 "vinerow: interrupted: verdict, log and the pictures so far are kept; 'vinerow "
-                 "render {}/log.mcap' draws the pictures, 'vinerow report {}' writes the report\n",
-                 out, out);
-    }
-    if (unwritten.any()) exit_status = static_cast<int>(RunStatus::kBrokenOff);
+    exit_status = static_cast<int>(run_and_tell(scenario, registry, arguments->choice));
   });
 }
 

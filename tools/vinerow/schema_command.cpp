@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "engine/io/study.h"
 #include "tools/vinerow/commands.h"
 #include "worlds/mapping/cloud/folder/map_json.h"
 
@@ -9,15 +10,17 @@ void add_schema_command(CLI::App& app, int& exit_status) {
   auto plugins = std::make_shared<std::vector<std::filesystem::path>>();
   auto of = std::make_shared<std::string>("scenario");
   CLI::App* command = app.add_subcommand(
-      "schema", "print the JSON Schema of scenario files, or of the files of a map");
-  command->add_option("of", *of, "scenario, or map.json or report.json of a map")
+      "schema",
+      "print the JSON Schema of scenario files, of study files, or of the files of a map");
+  command->add_option("of", *of, "scenario, study, or map.json or report.json of a map")
       ->capture_default_str()
-      ->check(CLI::IsMember({"scenario", "map.json", "report.json"}));
+      ->check(CLI::IsMember({"scenario", "study", "map.json", "report.json"}));
   command->add_option("--plugin", *plugins, "include the parts of a plug-in")
       ->allow_extra_args(false);
   command->callback([plugins, of, &exit_status] {
     fmt::print("{}\n", *of == "map.json"      ? worlds::map_json_schema()
                        : *of == "report.json" ? worlds::report_json_schema()
+                       : *of == "study"       ? io::study_json_schema()
                                               : io::scenario_json_schema(make_registry(*plugins)));
     exit_status = 0;
   });

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "tools/vinerow/export/utf8.h"
+
 namespace vinerow::tools::report {
 namespace {
 
@@ -22,12 +24,20 @@ std::string grouped(const std::string& digits) {
   return out + digits.substr(whole);
 }
 
+/// XML has no place for U+FFFE and U+FFFF.
+std::string without_noncharacters(std::string text) {
+  for (const char* none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
+    for (std::size_t at = 0; (at = text.find(none, at)) != std::string::npos;) text.erase(at, 3);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string escaped(const std::string& text) {
   std::string out;
   out.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : without_noncharacters(valid_utf8(text))) {
     switch (c) {
       case '&':
         out += "&amp;";
@@ -96,6 +106,10 @@ std::string table(const std::vector<std::string>& heads,
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
+}
+
+std::string legend_key(const std::string& css_class, const std::string& label) {
+  return fmt::format("<span><i class=\"key {}\"></i>{}</span>", css_class, escaped(label));
 }
 
 std::string section(const std::string& id, const std::string& title, const std::string& content) {

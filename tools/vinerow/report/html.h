@@ -6,7 +6,8 @@
 
 namespace vinerow::tools::report {
 
-/// Text for content and attributes: & < > " are escaped, control characters left out.
+/// Text for content and attributes: & < > " are escaped, control characters left out, bytes that
+/// are no UTF-8 become U+FFFD.
 std::string escaped(const std::string& text);
 
 /// A number for people: four significant digits, thousands apart, a true minus sign. "not measured"
@@ -27,6 +28,9 @@ std::string counted(long count, const std::string& noun);
 std::string table(const std::vector<std::string>& heads,
                   const std::vector<std::vector<std::string>>& rows,
                   const std::string& css_class = "");
+
+/// One entry of a legend. @param css_class  of its mark: "s0", "area s0", "limit"
+std::string legend_key(const std::string& css_class, const std::string& label);
 
 /// What a chapter of the page is called, and its content, nothing where that is empty.
 std::string section(const std::string& id, const std::string& title, const std::string& content);

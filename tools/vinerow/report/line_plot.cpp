@@ -60,10 +60,7 @@ void draw_axes(const Axis& x, const Axis& y, const LinePlot& plot, const PlotFra
   svg.line(x.from_px(), bottom, right, bottom, "axis");
   svg.line(x.from_px(), bottom, x.from_px(), y.to_px(), "axis");
   svg.text(0.5 * (x.from_px() + right), frame.height - 8, plot.x_label, "label mid");
-  const double middle = 0.5 * (bottom + y.to_px());
-  svg.raw(fmt::format(
-      "<text class=\"label mid\" transform=\"translate(15 {}) rotate(-90)\">{}</text>\n",
-      px(middle), escaped(plot.y_label)));
+  svg.turned_text(15, 0.5 * (bottom + y.to_px()), -90, plot.y_label, "label mid");
 }
 
 void draw_line(const PlotLine& line, const Axis& x, const Axis& y, Svg& svg) {
@@ -95,21 +92,17 @@ void draw_band(const PlotBand& band, const Axis& x, const Axis& y, Svg& svg) {
   svg.polygon(outline, "band " + band.style);
 }
 
-std::string key(const std::string& css_class, const std::string& label) {
-  return fmt::format("<span><i class=\"key {}\"></i>{}</span>", css_class, escaped(label));
-}
-
 std::string legend(const LinePlot& plot) {
   std::string keys;
-  for (const PlotLine& line : plot.lines) keys += key(line.style, line.label);
-  for (const PlotBand& band : plot.bands) keys += key("area " + band.style, band.label);
-  if (!plot.spans.empty()) keys += key("area span", plot.spans_label);
+  for (const PlotLine& line : plot.lines) keys += legend_key(line.style, line.label);
+  for (const PlotBand& band : plot.bands) keys += legend_key("area " + band.style, band.label);
+  if (!plot.spans.empty()) keys += legend_key("area span", plot.spans_label);
   const Range lines = line_range(plot);
   std::string told;
   for (const PlotLimit& limit : plot.limits) {
     if (limit.label == told || !is_near(limit, lines, plot.least_span)) continue;
     told = limit.label;
-    keys += key("limit", limit.label);
+    keys += legend_key("limit", limit.label);
   }
   return "<p class=\"legend\">" + keys + "</p>\n";
 }

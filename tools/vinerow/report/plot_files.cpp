@@ -98,8 +98,9 @@ std::string plain_selector(std::string selector) {
 }
 
 /// The page's rules for pictures, with plain colours in place of variables.
-std::string plain_style() {
-  const std::vector<Rule> rules = rules_of_all_media(report::page_style());
+std::string plain_style(const std::string& more_style) {
+  const std::string style = report::page_style() + more_style;
+  const std::vector<Rule> rules = rules_of_all_media(style);
   std::map<std::string, std::string> colours;
   for (const Rule& rule : rules) {
     if (rule.selector == ":root ") add_colours(between(rule.body, "{", "}"), colours);
@@ -239,8 +240,8 @@ std::string complete_picture(std::string_view svg, std::string_view before,
 
 }  // namespace
 
-std::vector<PlotFile> plot_files_of(const std::string& page) {
-  const std::string style = plain_style();
+std::vector<PlotFile> plot_files_of(const std::string& page, const std::string& more_style) {
+  const std::string style = plain_style(more_style);
   std::vector<PlotFile> files;
   std::set<std::string> taken;
   constexpr std::string_view kPicture = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=";

@@ -14,7 +14,8 @@ struct PlotFile {
   std::string svg;
 };
 
-/// @param page  of write_report()
-std::vector<PlotFile> plot_files_of(const std::string& page);
+/// @param page        of write_report(), or another whose figures are written alike
+/// @param more_style  of that page, beside page_style(): rules that begin with "svg" count
+std::vector<PlotFile> plot_files_of(const std::string& page, const std::string& more_style = "");
 
 }  // namespace vinerow::tools

@@ -11,7 +11,7 @@ set(report_sources
   vinerow/report/run_folder.cpp vinerow/report/setup.cpp vinerow/report/svg.cpp
   vinerow/report/time_line.cpp vinerow/report/track.cpp
   vinerow/report/units.cpp vinerow/report/vehicle_log.cpp vinerow/report/verdict.cpp vinerow/colour_scale.cpp
-  vinerow/report/plot_files.cpp)
+  vinerow/report/plot_files.cpp vinerow/export/utf8.cpp)
 add_library(vinerow_report STATIC ${report_sources})
 vinerow_use_common_headers(vinerow_report)
 vinerow_compile_together(vinerow_report 12 ${report_sources})

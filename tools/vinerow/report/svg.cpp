@@ -14,6 +14,10 @@ std::string class_of(const std::string& css_class) {
   return css_class.empty() ? "" : " class=\"" + css_class + "\"";
 }
 
+std::string more(const std::string& attributes) {
+  return attributes.empty() ? "" : " " + attributes;
+}
+
 /// "/>", or the element's end with a text that shows while the pointer rests on it.
 std::string end_of(const std::string& element, const std::string& tip) {
   return tip.empty() ? "/>\n" : fmt::format("><title>{}</title></{}>\n", escaped(tip), element);
@@ -42,7 +46,7 @@ Svg::Svg(double width, double height, const std::string& css_class, const std::s
   out_ = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" class=\"{}\" role=\"img\" "
       "aria-label=\"{}\"{}>\n",
-      px(width), px(height), css_class, escaped(label), attributes.empty() ? "" : " " + attributes);
+      px(width), px(height), css_class, escaped(label), more(attributes));
 }
 
 void Svg::line(double x1, double y1, double x2, double y2, const std::string& css_class) {
@@ -51,15 +55,16 @@ void Svg::line(double x1, double y1, double x2, double y2, const std::string& cs
 }
 
 void Svg::rect(double x, double y, double width, double height, const std::string& css_class,
-               const std::string& tip) {
-  out_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}{}", px(x), px(y),
-                      px(width), px(height), class_of(css_class), end_of("rect", tip));
+               const std::string& tip, const std::string& attributes) {
+  out_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}{}{}", px(x), px(y),
+                      px(width), px(height), class_of(css_class), more(attributes),
+                      end_of("rect", tip));
 }
 
 void Svg::circle(double x, double y, double radius, const std::string& css_class,
-                 const std::string& tip) {
-  out_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}{}", px(x), px(y), px(radius),
-                      class_of(css_class), end_of("circle", tip));
+                 const std::string& tip, const std::string& attributes) {
+  out_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}{}{}", px(x), px(y), px(radius),
+                      class_of(css_class), more(attributes), end_of("circle", tip));
 }
 
 void Svg::polyline(const std::vector<Eigen::Vector2d>& points, const std::string& css_class,
@@ -78,6 +83,12 @@ void Svg::polygon(const std::vector<Eigen::Vector2d>& points, const std::string&
 void Svg::text(double x, double y, const std::string& text, const std::string& css_class) {
   out_ += fmt::format("<text x=\"{}\" y=\"{}\"{}>{}</text>\n", px(x), px(y), class_of(css_class),
                       escaped(text));
+}
+
+void Svg::turned_text(double x, double y, double degrees, const std::string& text,
+                      const std::string& css_class) {
+  out_ += fmt::format("<text{} transform=\"translate({} {}) rotate({})\">{}</text>\n",
+                      class_of(css_class), px(x), px(y), px(degrees), escaped(text));
 }
 
 void Svg::image(double x, double y, double width, double height, const std::string& png) {

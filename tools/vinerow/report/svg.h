@@ -21,16 +21,20 @@ class Svg {
       const std::string& attributes = "");
 
   void line(double x1, double y1, double x2, double y2, const std::string& css_class);
+  /// @param attributes  further ones, as text, like `data-cell="1"`
   void rect(double x, double y, double width, double height, const std::string& css_class,
-            const std::string& tip = "");
+            const std::string& tip = "", const std::string& attributes = "");
   void circle(double x, double y, double radius, const std::string& css_class,
-              const std::string& tip = "");
+              const std::string& tip = "", const std::string& attributes = "");
   /// Fewer than two points draw nothing.
   void polyline(const std::vector<Eigen::Vector2d>& points, const std::string& css_class,
                 const std::string& label = "");
   void polygon(const std::vector<Eigen::Vector2d>& points, const std::string& css_class);
   /// @param css_class  "mid" and "end" anchor it there
   void text(double x, double y, const std::string& text, const std::string& css_class = "");
+  /// The same turned about its anchor. @param degrees  clockwise
+  void turned_text(double x, double y, double degrees, const std::string& text,
+                   const std::string& css_class = "");
   /// A picture inside the picture, its pixels kept square-edged. @param png  of a PNG file
   void image(double x, double y, double width, double height, const std::string& png);
   void open_group(const std::string& attributes);

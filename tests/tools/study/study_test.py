@@ -1,0 +1,337 @@
+#!/usr/bin/env python3
+"""`vinerow study` as users call it.
+
+    study_test.py VINEROW
+"""
+
+import csv
+import json
+import math
+import os
+import pathlib
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+VINEROW = pathlib.Path(sys.argv[1]).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+SCENARIO = ROOT / "assets" / "scenarios" / "orchard_rover.yaml"
+NOISY = "rover.sensors: {gps: {type: gps, rate_Hz: 40, error: uniform, accuracy_m: 0.05}}, rover.estimator: {type: gps_pose, heading: truth}"
+
+
+class Study(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def write(self, text, name="s.yaml", duration_s=3, set_more=""):
+        scenario = f"vinerow_study: 1\nscenario: {SCENARIO}\n"
+        values = f"set: {{duration_s: {duration_s}, criteria: [], {NOISY}{set_more}}}\n"
+        (self.folder / name).write_text(scenario + ("" if "set: {" in text else values) + text)
+        return self.folder / name
+
+    def study(self, action, file, *more, status=0, out="out"):
+        run = subprocess.run([VINEROW, "study", action, file, "--out", self.folder / out, *map(str, more)],
+                             capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(run.returncode, status, run.stdout + run.stderr)
+        return run.stderr if status == 2 else run.stdout + run.stderr
+
+    def rows(self, out="out", table="cells.csv"):
+        with open(self.folder / out / table, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def bytes_of(self, out="out", table="cells.csv"):
+        return (self.folder / out / table).read_bytes()
+
+    TWO = ("factors:\n  lookahead: {key: rover.controller.lookahead_m, values: [0.5, 1.0]}\n"
+           "  pitch: {key: rover.planner.waypoint_pitch_m, values: [0.33, 0.66]}\nseeds: 3\n")
+
+    def test_a_cell_is_what_run_gives(self):
+        file = self.write(self.TWO)
+        self.study("run", file)
+        row = self.rows()[8]  # setting 2 of 3 seeds: lookahead 1.0, pitch 0.33, seed 3
+        self.assertEqual((row["setting"], row["seed"], row["lookahead"], row["pitch"]), ("2", "3", "1.0", "0.33"))
+        subprocess.run([VINEROW, "run", SCENARIO, "--set", "duration_s=3", "--set", "criteria=[]",
+                        *(word for pair in NOISY.split(", rover.est") for word in
+                          ("--set", ("rover.est" if pair.startswith("imator") else "") + pair.replace(": ", "=", 1))),
+                        "--set", "rover.controller.lookahead_m=1.0", "--set", "rover.planner.waypoint_pitch_m=0.33", "--seed", "3",
+                        "--out", self.folder / "run", "--quiet", "--no-pictures", "--no-report", "--no-log"],
+                       check=True, capture_output=True)
+        summary = json.loads((self.folder / "run" / "summary.json").read_text())
+        self.assertEqual(row["digest"], summary["digest"])
+        numbers = {f"{v}.{n}": x for v, metrics in summary["metrics"].items() for n, x in metrics.items()}
+        self.assertGreater(len(numbers), 20)
+        for name, value in numbers.items():
+            told = row[name]
+            if value is None:
+                self.assertIn(told, ("", "inf", "-inf"), name)
+            else:
+                self.assertEqual(float(told), value, name)
+
+    def test_settings_have_the_statistics_of_their_cells(self):
+        self.study("run", self.write(self.TWO + "metrics: [rover.average_deviation_m]\nderived: {twice: 2 * rover.average_deviation_m + lookahead}\n"))
+        cells, settings = self.rows(), self.rows(table="settings.csv")
+        self.assertEqual(len(settings), 4)
+        for setting in settings:
+            values = [float(c["rover.average_deviation_m"]) for c in cells if c["setting"] == setting["setting"]]
+            mean = sum(values) / 3
+            deviation = math.sqrt(sum((v - mean) ** 2 for v in values) / 2)
+            half = 4.302652729749464 * deviation / math.sqrt(3)  # Student's t, 2 degrees of freedom, 97.5 %
+            for what, want in (("mean", mean), ("deviation", deviation), ("median", sorted(values)[1]), ("mean_low", mean - half),
+                               ("mean_high", mean + half)):
+                self.assertAlmostEqual(float(setting[f"rover.average_deviation_m:{what}"]), want, delta=1e-12)
+            self.assertAlmostEqual(float(setting["twice:mean"]), 2 * mean + float(setting["lookahead"]), delta=1e-12)
+            self.assertEqual((setting["met"], setting["finished"]), ("3", "3"))
+            self.assertAlmostEqual(float(setting["met_share_low"]), 1 / (1 + 1.959963984540054**2 / 3), delta=1e-12)  # Wilson
+
+    def test_one_core_or_two_in_one_go_or_resumed(self):
+        file = self.write(self.TWO.replace("seeds: 3", "seeds: 30"), duration_s=60)
+        self.study("run", file, "--jobs", 1, out="one")
+        driver = subprocess.Popen([VINEROW, "study", "run", file, "--out", self.folder / "two", "--jobs", "2", "--quiet"],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        cells = self.folder / "two" / "cells"
+        while sum(1 for _ in cells.glob("*/*.json")) < 20 and driver.poll() is None:
+            time.sleep(0.01)
+        driver.send_signal(signal.SIGKILL)
+        driver.wait()
+        finished = sum(1 for _ in cells.glob("*/*.json"))
+        self.assertLess(finished, 120, "killed too late to test anything")
+        told = self.study("resume", file, "--jobs", 2, out="two")
+        self.assertIn("were finished before", told)
+        before = int(told.split(" s, ")[-1].split(" were")[0])
+        self.assertGreaterEqual(before, finished)
+        for table in ("cells.csv", "settings.csv"):
+            self.assertEqual(self.bytes_of("one", table), self.bytes_of("two", table))
+        self.assertEqual(len({row["cell"] for row in self.rows("two")}), 120)
+        # Nothing is computed twice.
+        self.assertIn("run      0 cells", self.study("run", file, out="two"))
+
+    def test_two_drivers(self):
+        file = self.write(self.TWO.replace("seeds: 3", "seeds: 40"), duration_s=60)
+        first = subprocess.Popen([VINEROW, "study", "run", file, "--out", self.folder / "a", "--cells", self.folder / "shared", "--jobs", "1"],
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not (self.folder / "a" / "study.sqlite").exists():
+            time.sleep(0.01)
+        time.sleep(0.2)
+        refused = self.study("run", file, "--cells", self.folder / "shared", out="a", status=2)
+        self.assertIn("another run", refused)
+        self.study("run", file, "--cells", self.folder / "shared", "--jobs", 1, out="b")
+        self.assertEqual(first.wait(), 0)
+        self.assertEqual(self.bytes_of("a"), self.bytes_of("b"))
+
+    def test_cells_by_another_driver(self):
+        file = self.write(self.TWO)
+        numbers = self.study("list", file, "--state", "waiting").split()
+        self.assertEqual(numbers, [str(n) for n in range(12)])
+        for number in numbers:
+            self.assertIn(f"cell {number}: met", self.study("cell", file, number))
+        self.assertEqual(self.study("list", file, "--state", "waiting"), "")
+        self.study("table", file)
+        self.study("run", file, out="driver")
+        self.assertEqual(self.bytes_of(), self.bytes_of("driver"))
+        with sqlite3.connect(self.folder / "driver" / "study.sqlite") as index:
+            listed = index.execute('SELECT cell, "factor.lookahead", seed, state, digest FROM cells ORDER BY cell').fetchall()
+            numbers = dict(index.execute('SELECT cell, "rover.average_deviation_m" FROM numbers').fetchall())
+        index.close()
+        for row, (cell, lookahead, seed, state, digest) in zip(self.rows(), listed, strict=True):
+            self.assertEqual((row["cell"], float(row["lookahead"]), row["seed"], row["state"], row["digest"]),
+                             (str(cell), lookahead, str(seed), state, digest))
+            self.assertEqual(float(row["rover.average_deviation_m"]), numbers[cell])
+
+    def test_what_does_not_run_to_its_end_is_a_row(self):
+        # A step of 12.5 ms does not divide the period of 50 Hz: the combination is refused, its parts alone are not.
+        file = self.write("set: {criteria: [{metric: rover.distance_m, min: 1000}], duration_s: 2}\n"
+                          "factors:\n  step: {key: physics.step_s, values: [0.005, 0.0125]}\n"
+                          "  rate: {key: rover.controller.rate_Hz, values: [40, 50]}\n")
+        told = self.study("run", file, status=3)
+        states = [row["state"] for row in self.rows()]
+        self.assertEqual(states.count("invalid"), 1)
+        self.assertEqual(states.count("not met"), 3)
+        for row in self.rows():
+            self.assertTrue(row["reason"], row)
+        bad = next(row for row in self.rows() if row["state"] == "invalid")
+        self.assertIn("is not a whole number of physics steps", bad["reason"])
+        self.assertEqual(bad["rover.average_deviation_m"], "")
+        self.assertIn("invalid", told)
+        self.assertIn("invalid", (self.folder / "out" / "study.html").read_text())
+
+    def test_a_budget_ends_a_cell_and_no_other(self):
+        file = self.write("factors: {long: {key: duration_s, values: [1, 100000]}}\nbudget: {time_s: 2}\n"
+                          "set: {criteria: [], stop_when_finished: false}\n")
+        self.study("run", file, status=3)
+        self.assertEqual([row["state"] for row in self.rows()], ["met", "out of time"])
+        self.assertIn("budget.time_s = 2 s", self.rows()[1]["reason"])
+        # Known now, and so not run again, unless asked for.
+        self.assertIn("run      0 cells", self.study("resume", file, status=3))
+        self.assertIn("run      1 cells", self.study("resume", file, "--retry", status=3))
+
+    def test_a_crash_is_a_row(self):
+        # Less than the program needs.
+        file = self.write("budget: {memory_MB: 5}\n", duration_s=3000)
+        self.study("run", file, status=3)
+        self.assertEqual(self.rows()[0]["state"], "out of memory")
+        file = self.write("seeds: 2\n", name="killed.yaml", duration_s=100000, set_more=", stop_when_finished: false")
+        driver = subprocess.Popen([VINEROW, "study", "run", file, "--out", self.folder / "killed", "--jobs", "1", "--quiet"],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        for _ in range(2):  # both cells
+            worker = None
+            while worker is None and driver.poll() is None:
+                time.sleep(0.2)
+                children = pathlib.Path(f"/proc/{driver.pid}/task/{driver.pid}/children").read_text().split()
+                worker = int(children[0]) if children else None
+            os.kill(worker, signal.SIGSEGV)
+            while pathlib.Path(f"/proc/{worker}").exists():
+                time.sleep(0.01)
+        self.assertEqual(driver.wait(), 3)
+        self.assertEqual([row["state"] for row in self.rows("killed")], ["crashed"] * 2)
+        self.assertIn("signal 11", self.rows("killed")[0]["reason"])
+
+    def test_ctrl_c_keeps_what_is_finished(self):
+        file = self.write(self.TWO.replace("seeds: 3", "seeds: 200"), duration_s=60)
+        driver = subprocess.Popen([VINEROW, "study", "run", file, "--out", self.folder / "out", "--jobs", "2", "--quiet"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while sum(1 for _ in (self.folder / "out" / "cells").glob("*/*.json")) < 10:
+            time.sleep(0.01)
+        driver.send_signal(signal.SIGINT)
+        _, error = driver.communicate()
+        self.assertEqual(driver.returncode, 3)
+        self.assertIn("interrupted: finished cells are kept", error)
+        finished = [row for row in self.rows() if row["state"] == "met"]
+        self.assertGreaterEqual(len(finished), 10)
+        self.assertEqual(list((self.folder / "out" / "kept").glob("*")) if (self.folder / "out" / "kept").exists() else [], [])
+
+    def test_enough_seeds(self):
+        text = ("factors: {accuracy: {key: rover.sensors.gps.accuracy_m, values: [0.001, 0.3]}}\nseeds: 25\n"
+                "stop: {metric: rover.average_deviation_m, half_width: 0.2, relative: true, at_least: 4}\n"
+                "metrics: [rover.average_deviation_m]\n")
+        file = self.write(text, duration_s=5)
+        self.study("run", file, "--jobs", 2)
+        self.study("run", self.write(text.split("stop")[0] + "metrics: [rover.average_deviation_m]\n", name="all.yaml", duration_s=5), out="all")
+        for setting in ("0", "1"):
+            values = [float(row["rover.average_deviation_m"]) for row in self.rows("all") if row["setting"] == setting]
+            for count in range(4, 26):
+                from scipy import stats
+                low, high = stats.t.interval(0.95, count - 1, loc=sum(values[:count]) / count, scale=stats.sem(values[:count]))
+                if (high - low) / 2 <= 0.2 * sum(values[:count]) / count:
+                    break
+            states = [row["state"] for row in self.rows() if row["setting"] == setting]
+            self.assertEqual(states, ["met"] * count + ["not needed"] * (25 - count))
+        self.study("run", file, "--jobs", 1, out="one")
+        self.assertEqual(self.bytes_of(), self.bytes_of("one"))
+
+    def test_files_that_are_kept(self):
+        limit = "set: {duration_s: 3, criteria: [{metric: rover.distance_m, min: 1}]}\nfactors: {speed: {key: rover.controller.speed_mps, values: [0.1, 1]}}\n"
+        for keep, names in (("nothing", []), ("summary", ["summary.json"] * 2), ("log", ["log.mcap"] * 2), ("failed", ["log.mcap"])):
+            file = self.write(limit + f"keep: {keep}\n")
+            self.study("run", file, out=keep, status=1)
+            kept = sorted(p.name for p in (self.folder / keep / "kept").glob("*")) if names else []
+            self.assertEqual(len(kept), len(names))
+            for folder, name in zip(kept, names, strict=True):
+                self.assertTrue((self.folder / keep / "kept" / folder / name).exists())
+                self.assertEqual((self.folder / keep / "kept" / folder / "log.mcap").exists(), name == "log.mcap")
+        self.assertEqual([row["state"] for row in self.rows("failed")], ["not met", "met"])
+
+    def test_repeat_is_the_same_run(self):
+        file = self.write(self.TWO)
+        self.study("run", file)
+        told = self.study("repeat", file, 7, "--quiet")
+        self.assertIn(self.rows()[7]["digest"], told)
+        self.assertTrue((self.folder / "out" / "repeat" / "7" / "log.mcap").exists())
+
+    def test_plots_and_page(self):
+        import xml.etree.ElementTree as xml
+        file = self.write(self.TWO + "metrics: [rover.average_deviation_m, rover.distance_m]\ndescription: <b>not bold</b>\n")
+        self.study("run", file)
+        self.study("plot", file)
+        plots = sorted((self.folder / "out" / "plots").glob("*.svg"))
+        self.assertGreaterEqual(len(plots), 5)
+        for plot in plots:
+            xml.parse(plot)
+        page = (self.folder / "out" / "study.html").read_text()
+        self.assertNotIn("<b>not bold", page)
+        xml.fromstring(page.split("\n", 1)[1])
+        for word in ("data-cell=\"9\"", "study repeat", "What moves what", "Differences", "http://www.w3.org/2000/svg"):
+            self.assertIn(word, page)
+        self.assertNotIn("src=\"http", page)
+
+    def test_bad_input(self):
+        def fault(text, **more):
+            return self.study("run", self.write(text, **more), status=2, out="bad").replace(str(self.folder) + "/", "")
+
+        self.assertIn("s.yaml:4: unknown path 'rovr'; did you mean 'rover'?",
+                      fault("factors: {a: {key: rovr.controller.lookahead_m, values: [1]}}"))
+        self.assertIn("s.yaml:4: vehicles.rover.controller.lookahead_m = -1 m, must be > 0 m",
+                      fault("factors: {a: {key: rover.controller.lookahead_m, values: [1, -1]}}"))
+        self.assertIn("s.yaml:4: metrics: no cell has a number 'rover.tme_s'; did you mean 'rover.time_s'?", fault("metrics: [rover.tme_s]"))
+        self.assertIn("s.yaml:4: derived.x = '1 +' is no expression", fault("derived: {x: 1 +}"))
+        self.assertIn("s.yaml:4: derived.x: no cell has a number 'nothing'", fault("derived: {x: nothing + 1}"))
+        self.assertIn("make 1e+09 cells", fault("seeds: 1000\nfactors: {a: {key: gravity_mps2, from: 1, to: 2, count: 1000}, "
+                                                "b: {key: rover.controller.lookahead_m, from: 1, to: 2, count: 1000}}"))
+        self.assertIn("there is nothing to resume", self.study("resume", self.write(""), status=2, out="none"))
+        self.assertIn("there is no cell 1, the study's are 0 to 0", self.study("cell", self.write(""), 1, status=2))
+        self.assertFalse((self.folder / "bad").exists(), "a refused study writes nothing")
+
+    def test_what_has_changed_is_told(self):
+        scenario = self.folder / "mine.yaml"
+        scenario.write_text(f"include: {SCENARIO}\n")
+        file = self.folder / "s.yaml"
+        text = ("vinerow_study: 1\nscenario: mine.yaml\nset: {duration_s: 2, criteria: []}\n"
+                "factors: {a: {key: rover.controller.lookahead_m, values: [1, 2]}}\n")
+        file.write_text(text)
+        self.study("run", file)
+        file.write_text(text.replace("[1, 2]", "[1, 2, 3]"))
+        self.assertIn("the study's list of cells has changed since; --fresh", self.study("run", file, status=2))
+        self.assertIn("run      1 cells", self.study("run", file, "--fresh"))
+        with scenario.open("a") as more:
+            more.write("# edited\n")
+        self.assertIn("run      0 cells", self.study("run", file), "a comment changes no run")
+        scenario.write_text(scenario.read_text() + "gravity_mps2: 9.7\n")
+        self.assertIn("the scenario or a file it names has changed since", self.study("run", file, status=2))
+        other = self.write("", name="other.yaml")
+        self.assertIn("is of another study", self.study("run", other, status=2))
+        (self.folder / "out" / "study.sqlite").write_bytes(b"no database at all" * 100)
+        self.assertIn("study.sqlite' cannot be read: file is not a database", self.study("run", file, status=2))
+        cell = next((self.folder / "out" / "cells").glob("*/*.json"))
+        cell.write_text("{}")
+        file.write_text(text)
+        scenario.write_text(f"include: {SCENARIO}\n")
+        self.assertIn("is no result of a cell", self.study("run", file, "--fresh", status=2))
+
+    def test_a_full_disk_keeps_what_is_finished(self):
+        if not os.access("/dev/full", os.W_OK):
+            self.skipTest("/dev/full is absent")
+        file = self.write(self.TWO)
+        # Beyond its limit a file cannot grow: as on a full disk.
+        run = subprocess.run(["bash", "-c", f"ulimit -f 20; exec {VINEROW} study run {file} --out {self.folder}/full --quiet"],
+                             capture_output=True, text=True)
+        self.assertEqual(run.returncode, 3, run.stderr)
+        self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+
+    def test_schema(self):
+        import jsonschema
+        schema = json.loads(subprocess.run([VINEROW, "schema", "study"], capture_output=True, text=True, check=True).stdout)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        validator = jsonschema.Draft202012Validator(schema)
+        good = {"vinerow_study": 1, "scenario": "a.yaml"}
+        factors = [{"key": "a.b", "values": [1]}, {"key": "a.b", "from": 0, "to": 1, "step": 0.1},
+                   {"key": "a.b", "from": 1, "to": 2, "count": 3, "scale": "log"}, {"alternatives": {"x": {}}},
+                   {"zip": {"a.b": [1], "c": [2]}}, {"sample": "sobol", "count": 3, "ranges": {"a.b": {"from": 0, "to": 1}}}]
+        for factor in factors:
+            validator.validate(good | {"factors": {"f": factor}})
+        validator.validate(good | {"seeds": 3, "metrics": ["a.b"], "stop": {"metric": "a.b", "half_width": 1}, "budget": {"time_s": 3},
+                                   "keep": "failed", "derived": {"x": "a.b * 2"}, "set": {"duration_s": 3}})
+        for bad in ({"seeds": 0}, {"keep": "all"}, {"nothing": 1}, {"factors": {"f": {"values": [1]}}}, {"factors": {"f": {"zip": {}}}},
+                    {"factors": {"f": {"key": "a", "from": 0, "to": 1}}}, {"vinerow_study": 2}):
+            self.assertFalse(validator.is_valid(good | bad), bad)
+
+
+if __name__ == "__main__":
+    if subprocess.run([sys.executable, "-c", "import scipy, jsonschema"], capture_output=True).returncode != 0:
+        print("skipped: python3-scipy or python3-jsonschema is absent")
+        sys.exit(77)
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

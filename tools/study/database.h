@@ -1,0 +1,66 @@
+#pragma once
+/// A SQLite file, as little of it as the store needs.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace vinerow::study {
+
+class Database;
+
+/// A prepared statement. Parameters and columns are counted from 0.
+class Statement {
+ public:
+  Statement(Database& database, const std::string& sql);
+  Statement& bind(int place, std::int64_t value);
+  Statement& bind(int place, double value);  ///< NaN is stored as NULL
+  Statement& bind(int place, std::string_view text);
+  /// To the next row. @returns whether there is one; the statement is ready again where there is
+  /// not
+  bool step();
+  /// Of a statement that gives no rows.
+  void run();
+
+  int columns() const;
+  std::string column_name(int place) const;
+  std::int64_t integer(int place) const;
+  double number(int place) const;  ///< NaN of NULL
+  std::string text(int place) const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  Database& database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+class Database {
+ public:
+  enum class Mode { kRead, kWrite, kCreate };
+  /// @throws ConfigError "'x/study.sqlite' cannot be read: file is not a database"
+  Database(const std::filesystem::path& file, Mode mode);
+
+  /// @throws WriteError where the disk is full or fails, else ConfigError
+  void run(const std::string& sql);
+  [[noreturn]] void fail(int status) const;
+
+ private:
+  friend class Statement;
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::filesystem::path file_;
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// "\"rover.time_s\"": any name as SQL takes it.
+std::string sql_name(std::string_view name);
+
+}  // namespace vinerow::study

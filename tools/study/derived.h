@@ -1,0 +1,33 @@
+#pragma once
+/// Columns that are computed from others: `cost: rover.time_s * 40 / 3600`.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/io/study.h"
+
+namespace vinerow::study {
+
+/// Names that an expression uses. @throws ConfigError "study.yaml:9: derived.cost: ..." where it is
+/// no expression
+std::vector<std::string> variables_of(const io::DerivedColumn& column);
+
+/// An expression ready to be computed many times. Operators and functions are those of muParser.
+class Expression {
+ public:
+  /// @throws ConfigError as variables_of()
+  explicit Expression(const io::DerivedColumn& column);
+  ~Expression();
+  Expression(Expression&&) noexcept;
+
+  /// @param value_of  of a name; NaN where there is none, which makes the result NaN
+  double value(const std::function<double(const std::string&)>& value_of);
+
+ private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+};
+
+}  // namespace vinerow::study

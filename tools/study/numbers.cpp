@@ -1,0 +1,34 @@
+#include "tools/study/numbers.h"
+
+#include <charconv>
+
+namespace vinerow::study {
+
+Numbers::Numbers(const Results& results) : results_(results) {
+  const Design& design = results.design();
+  for (std::size_t k = 0; k < design.columns().size(); ++k) factors_[design.columns()[k]] = k;
+  for (const io::DerivedColumn& column : design.study().derived) {
+    expressions_.emplace(column.name, column);
+  }
+}
+
+double Numbers::factor(std::size_t cell, std::size_t column) const {
+  const std::string text = results_.design().texts(results_.design().setting_of(cell))[column];
+  double value = kNoNumber;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : kNoNumber;
+}
+
+double Numbers::value(std::size_t cell, const std::string& name) {
+  if (const auto found = factors_.find(name); found != factors_.end()) {
+    return factor(cell, found->second);
+  }
+  if (!has_numbers(results_.state(cell))) return kNoNumber;
+  // A column may use those that stand before it in the file, which open_study.cpp checks.
+  if (const auto found = expressions_.find(name); found != expressions_.end()) {
+    return found->second.value([&](const std::string& used) { return value(cell, used); });
+  }
+  return results_.value(cell, name);
+}
+
+}  // namespace vinerow::study

@@ -1,0 +1,32 @@
+#pragma once
+/// A study with all that belongs to it.
+
+#include <filesystem>
+#include <memory>
+
+#include "engine/api/registry.h"
+#include "engine/io/study.h"
+#include "tools/study/design.h"
+#include "tools/study/identity.h"
+
+namespace vinerow::study {
+
+struct OpenStudy {
+  /// Reads the study and its scenario, loads plug-ins. @throws ConfigError
+  explicit OpenStudy(const std::filesystem::path& file);
+  OpenStudy(const OpenStudy&) = delete;
+  OpenStudy& operator=(const OpenStudy&) = delete;
+
+  const io::Study study;
+  const Design design;
+  const io::ScenarioSource source;
+  Registry registry;
+  const Identity identity;
+};
+
+/// Refuses before the first cell what can be refused: key paths and values that do not fit the
+/// scenario, names of metrics that no cell has, expressions that cannot be computed.
+/// @throws ConfigError
+void check_study(const OpenStudy& open);
+
+}  // namespace vinerow::study

@@ -1,0 +1,273 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "engine/core/error.h"
+#include "engine/core/whole_file.h"
+#include "engine/io/output_folder.h"
+#include "engine/sim/run.h"
+#include "tools/study/drive.h"
+#include "tools/study/plots/plot_style.h"
+#include "tools/study/report.h"
+#include "tools/study/tables.h"
+#include "tools/vinerow/colour.h"
+#include "tools/vinerow/commands.h"
+#include "tools/vinerow/interrupt.h"
+#include "tools/vinerow/progress_line.h"
+#include "tools/vinerow/report/plot_files.h"
+
+namespace vinerow::tools {
+namespace {
+
+using study::CellState;
+using study::OpenStudy;
+using study::Results;
+
+struct StudyArguments {
+  std::filesystem::path file, out, cells;
+  int jobs = 0;
+  bool fresh = false, retry = false, quiet = false, serve = false;
+  std::size_t cell = 0;
+  std::string state;
+
+  study::StudyFolder folder(const OpenStudy& open) const {
+    study::StudyFolder folder;
+    folder.out = out.empty() ? std::filesystem::path("runs") / open.study.name : out;
+    folder.cells = cells.empty() ? folder.out / "cells" : cells;
+    return folder;
+  }
+};
+
+CLI::App* add_action(CLI::App& study, const char* name, const char* words,
+                     const std::shared_ptr<StudyArguments>& arguments) {
+  CLI::App* action = study.add_subcommand(name, words);
+  action->add_option("study", arguments->file, "study file (YAML)")->required();
+  action->add_option("--out", arguments->out,
+                     "folder of index, tables and kept runs (default: runs/<study name>)");
+  action->add_option("--cells", arguments->cells,
+                     "folder of finished cells, which studies may share (default: <out>/cells)");
+  return action;
+}
+
+/// Exit status of a study by its cells: the worst of them.
+RunStatus status_of(const Results& results) {
+  const auto counts = results.counts();
+  const auto count = [&](CellState state) {
+    const auto found = counts.find(state);
+    return found == counts.end() ? std::size_t{0} : found->second;
+  };
+  if (count(CellState::kBrokenOff) + count(CellState::kCrashed) + count(CellState::kOutOfTime) +
+          count(CellState::kOutOfMemory) + count(CellState::kInvalid) + count(CellState::kWaiting) >
+      0) {
+    return RunStatus::kBrokenOff;
+  }
+  return count(CellState::kNotMet) > 0 ? RunStatus::kCriterionFailed : RunStatus::kAllMet;
+}
+
+Colour colour_of(CellState state) {
+  if (state == CellState::kMet) return Colour::kGood;
+  if (state == CellState::kWaiting || state == CellState::kNotNeeded) return Colour::kPlain;
+  return Colour::kBad;
+}
+
+/// How many cells are in each state, and of each kind of failure the first cells with their reason.
+void print_counts(const OpenStudy& open, const Results& results) {
+  fmt::print("study    {}: {} settings x {} seeds = {} cells\n", open.study.name,
+             open.design.settings(), open.design.seeds(), open.design.cells());
+  for (const auto& [state, count] : results.counts()) {
+    fmt::print("{} {:7}\n", coloured(fmt::format("{:13}", to_string(state)), colour_of(state)),
+               count);
+    if (state == CellState::kMet || !study::is_finished(state)) continue;
+    constexpr std::size_t kShown = 3;
+    std::size_t shown = 0;
+    for (std::size_t cell = 0; cell < open.design.cells() && shown < kShown; ++cell) {
+      if (results.state(cell) != state) continue;
+      fmt::print("              cell {}: {}\n", cell, results.reason(cell));
+      ++shown;
+    }
+  }
+}
+
+void check_cell(const OpenStudy& open, std::size_t cell) {
+  if (cell < open.design.cells()) return;
+  throw ConfigError(
+      fmt::format("there is no cell {}, the study's are 0 to {}", cell, open.design.cells() - 1));
+}
+
+void write_report(const OpenStudy& open, const Results& results, const study::StudyFolder& folder) {
+  io::make_folder(folder.out);
+  const std::filesystem::path file = folder.out / "study.html";
+  write_whole_file(file, study_page(open, results));
+  fmt::print("report   {}\n", file.string());
+}
+
+void write_tables(const Results& results, const study::StudyFolder& folder) {
+  io::make_folder(folder.out);
+  const std::pair<const char*, std::string> tables[] = {
+      {"cells.csv", study::cells_csv(results)},
+      {"settings.csv", study::settings_csv(results)},
+      {"costs.csv", study::costs_csv(results)}};
+  for (const auto& [name, text] : tables) {
+    write_whole_file(folder.out / name, text);
+    fmt::print("table    {}\n", (folder.out / name).string());
+  }
+}
+
+void show_progress(ProgressLine& line, const study::StudyProgress& progress) {
+  const double rate =
+      progress.wall_s > 0.0 ? static_cast<double>(progress.run) / progress.wall_s : 0;
+  const auto left =
+      static_cast<double>(progress.total - std::min(progress.finished, progress.total));
+  std::string detail =
+      fmt::format("{} of {} cells, {} failed", progress.finished, progress.total, progress.failed);
+  if (rate > 0.0) detail += fmt::format(", {:.3g} cells/s, {:.0f} s left", rate, left / rate);
+  const double total = static_cast<double>(std::max<std::size_t>(progress.total, 1));
+  line.show("running", static_cast<double>(progress.finished) / total, detail);
+}
+
+void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_status) {
+  const OpenStudy open(arguments.file);
+  study::DriveOptions options;
+  options.folder = arguments.folder(open);
+  std::error_code error;
+  if (must_be_there && !std::filesystem::exists(options.folder.index(), error)) {
+    throw ConfigError(
+        fmt::format("'{}' does not exist: there is nothing to resume; 'vinerow study "
+                    "run {}' begins the study",
+                    options.folder.index().string(), arguments.file.string()));
+  }
+  check_study(open);
+  options.jobs = arguments.jobs > 0
+                     ? arguments.jobs
+                     : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.fresh = arguments.fresh;
+  options.retry = arguments.retry;
+  ProgressLine line(arguments.quiet);
+  options.progress = [&line](const study::StudyProgress& p) { show_progress(line, p); };
+  options.interrupted = is_interrupted;
+  watch_for_interrupt();
+  const study::DriveResult result = study::drive(open, options);
+  line.end();
+  print_counts(open, result.results);
+  fmt::print("run      {} cells in {:.1f} s, {} were finished before\n", result.run, result.wall_s,
+             result.taken);
+  write_tables(result.results, options.folder);
+  write_report(open, result.results, options.folder);
+  if (result.interrupted) {
+    fmt::print(stderr,
+               "vinerow: interrupted: finished cells are kept; 'vinerow study resume {}' goes on\n",
+               arguments.file.string());
+  }
+  exit_status = static_cast<int>(status_of(result.results));
+}
+
+}  // namespace
+
+void add_study_command(CLI::App& app, int& exit_status) {
+  CLI::App* study = app.add_subcommand(
+      "study", "run a scenario many times with other values and seeds, and make one table of it");
+  study->require_subcommand(1);
+  auto arguments = std::make_shared<StudyArguments>();
+  for (const bool resumes : {false, true}) {
+    CLI::App* action =
+        resumes ? add_action(*study, "resume", "go on with a study that was begun", arguments)
+                : add_action(*study, "run", "run the cells that are not finished", arguments);
+    action->add_option("--jobs", arguments->jobs, "cells at a time (default: one for each core)")
+        ->check(CLI::PositiveNumber);
+    if (!resumes) {
+      action->add_flag("--fresh", arguments->fresh,
+                       "begin a new index; cells that nothing has changed are taken over");
+    }
+    action->add_flag("--retry", arguments->retry,
+                     "run cells again that crashed or went over their budget");
+    action->add_flag("--quiet", arguments->quiet, "no progress");
+    action->callback(
+        [arguments, resumes, &exit_status] { run_study(*arguments, resumes, exit_status); });
+  }
+  add_action(*study, "status", "tell how many cells are finished, failed, waiting", arguments)
+      ->callback([arguments, &exit_status] {
+        const OpenStudy open(arguments->file);
+        const Results results = look(open, arguments->folder(open));
+        print_counts(open, results);
+        exit_status = static_cast<int>(status_of(results));
+      });
+  add_action(*study, "table", "write cells.csv, settings.csv and costs.csv", arguments)
+      ->callback([arguments, &exit_status] {
+        const OpenStudy open(arguments->file);
+        const study::StudyFolder folder = arguments->folder(open);
+        const Results results = look(open, folder);
+        write_tables(results, folder);
+        exit_status = static_cast<int>(status_of(results));
+      });
+  add_action(*study, "report", "write study.html: outcome, plots, effects, differences", arguments)
+      ->callback([arguments, &exit_status] {
+        const OpenStudy open(arguments->file);
+        const study::StudyFolder folder = arguments->folder(open);
+        const Results results = look(open, folder);
+        write_tables(results, folder);
+        write_report(open, results, folder);
+        exit_status = static_cast<int>(status_of(results));
+      });
+  add_action(*study, "plot", "write the plots of the report as SVG files into <out>/plots",
+             arguments)
+      ->callback([arguments, &exit_status] {
+        const OpenStudy open(arguments->file);
+        const study::StudyFolder folder = arguments->folder(open);
+        io::make_folder(folder.out / "plots");
+        const std::string page = study_page(open, look(open, folder));
+        for (const PlotFile& plot : plot_files_of(page, study::study_plot_style())) {
+          write_whole_file(folder.out / "plots" / plot.name, plot.svg);
+          fmt::print("plot     {}\n", (folder.out / "plots" / plot.name).string());
+        }
+        exit_status = 0;
+      });
+  CLI::App* list = add_action(*study, "list", "print the numbers of cells", arguments);
+  list->add_option("--state", arguments->state, "of this state, e.g. waiting (default: all)");
+  list->callback([arguments, &exit_status] {
+    const OpenStudy open(arguments->file);
+    const bool all = arguments->state.empty();
+    const CellState state = all ? CellState::kWaiting : study::cell_state_of(arguments->state);
+    const Results results = look(open, arguments->folder(open));
+    for (std::size_t cell = 0; cell < open.design.cells(); ++cell) {
+      if (all || results.state(cell) == state) fmt::print("{}\n", cell);
+    }
+    exit_status = 0;
+  });
+  CLI::App* cell = add_action(*study, "cell", "run one cell and store its result", arguments);
+  CLI::Option* number = cell->add_option("number", arguments->cell, "of the cell, from 0");
+  cell->add_flag("--serve", arguments->serve, "run cells that a driver names")->group("");
+  cell->callback([arguments, number, &exit_status] {
+    const OpenStudy open(arguments->file);
+    const study::StudyFolder folder = arguments->folder(open);
+    exit_status = 0;
+    if (arguments->serve) return serve(open, folder);
+    if (number->count() == 0) throw ConfigError("the number of the cell must be given");
+    check_cell(open, arguments->cell);
+    const study::CellResult result = run_one(open, folder, arguments->cell);
+    fmt::print("cell {}: {}{}{}\n", arguments->cell, to_string(result.state),
+               result.reason.empty() ? "" : ": ", result.reason);
+    exit_status = result.state == CellState::kMet       ? 0
+                  : result.state == CellState::kNotMet  ? 1
+                  : result.state == CellState::kInvalid ? 2
+                                                        : 3;
+  });
+  CLI::App* repeat = add_action(
+      *study, "repeat",
+      "run one cell as 'vinerow run' does, with log, pictures and report in <out>/repeat/<cell>",
+      arguments);
+  repeat->add_option("number", arguments->cell, "of the cell, from 0")->required();
+  repeat->add_flag("--quiet", arguments->quiet, "no progress");
+  repeat->callback([arguments, &exit_status] {
+    const OpenStudy open(arguments->file);
+    check_cell(open, arguments->cell);
+    RunChoice choice;
+    choice.out = arguments->folder(open).out / "repeat" / std::to_string(arguments->cell);
+    choice.quiet = arguments->quiet;
+    const io::Scenario scenario =
+        open.source.load(open.registry, open.design.overrides(arguments->cell));
+    exit_status = static_cast<int>(run_and_tell(scenario, open.registry, choice));
+  });
+}
+
+}  // namespace vinerow::tools

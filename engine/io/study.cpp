@@ -121,7 +121,7 @@ void check_columns(const Study& study) {
   }
 }
 
-void check_count(const Study& study, const SourceMark& mark) {
+void check_cell_count(const Study& study, const SourceMark& mark) {
   double cells = static_cast<double>(study.seeds.size());
   for (const Factor& factor : study.factors) cells *= static_cast<double>(factor.levels.size());
   if (cells <= kMostCells) return;
@@ -175,7 +175,7 @@ Study load_study(const std::filesystem::path& file) {
   study.seeds = seeds ? read_seeds(*seeds) : std::vector<std::uint64_t>{1};
   check_key_paths(study);
   check_columns(study);
-  check_count(study, whole);
+  check_cell_count(study, whole);
   if (study.stop && study.stop->at_least > static_cast<int>(study.seeds.size())) {
     fail_at(study.stop_mark, fmt::format("stop.at_least = {}, but there are {} seeds",
                                          study.stop->at_least, study.seeds.size()));

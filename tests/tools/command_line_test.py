@@ -37,8 +37,8 @@ def commands() -> list[str]:
     return [line.split()[0] for block in blocks for line in block.splitlines()[1:] if re.match(r"  \w", line)]
 
 
-def options_of(command: str) -> set[str]:
-    return {o for o in re.findall(r"^  ((?:-\w,)?--[\w-]+.*)$", vinerow(command, "--help"), re.MULTILINE)
+def options_of(*command: str) -> set[str]:
+    return {o for o in re.findall(r"^  ((?:-\w,)?--[\w-]+.*)$", vinerow(*command, "--help"), re.MULTILINE)
             for o in re.findall(r"--[\w-]+", o.split("  ")[0])}  # fmt: skip
 
 
@@ -83,9 +83,10 @@ class Help(unittest.TestCase):
             for line in examples.splitlines():
                 words = shlex.split(line.split(" > ")[0])
                 self.assertEqual(words[:2], ["vinerow", command])
+                action = [command] + (words[2:3] if "Subcommands:" in vinerow(command, "--help") else [])
                 for word in words[2:]:
                     if word.startswith("--"):
-                        self.assertIn(word, options_of(command), line)
+                        self.assertIn(word, options_of(*action), line)
                     if word.startswith("assets/"):
                         self.assertTrue((ROOT / word).exists(), line)
 
@@ -192,7 +193,10 @@ class Completion(unittest.TestCase):
             self.assertEqual(offered, options_of(command) | {"--color"}, command)
 
     def test_bash_offers_values_and_files(self):
-        self.assertEqual(sorted(self.bash("schema", "")), ["map.json", "report.json", "scenario"])
+        self.assertEqual(sorted(self.bash("schema", "")), ["map.json", "report.json", "scenario", "study"])
+        self.assertEqual(sorted(self.bash("study", "re")), ["repeat", "report", "resume"])
+        self.assertEqual(set(self.bash("study", "resume", "--")), options_of("study", "resume") | {"--color"})
+        self.assertEqual(self.bash("study", "run", "READ"), ["README.md"])
         self.assertEqual(sorted(self.bash("compare", "--fail-on", "")), ["difference", "none", "regression"])
         self.assertEqual(self.bash("run", "CHANGE"), ["CHANGELOG.md"])
         self.assertEqual(self.bash("run", "--out", "READ"), ["README.md"])

@@ -25,7 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// The result of a cell whose worker could not tell it.
-CellResult result_of(const EndedCell& ended) {
+CellResult result_of_end(const EndedCell& ended) {
   CellResult result;
   result.state = ended.how == EndedCell::How::kOutOfTime     ? CellState::kOutOfTime
                  : ended.how == EndedCell::How::kOutOfMemory ? CellState::kOutOfMemory
@@ -174,7 +174,7 @@ class Driver {
                                      cells_.file_of(identity).string()));
       }
     } else {
-      result = result_of(ended);
+      result = result_of_end(ended);
       cells_.put(identity, *result);
     }
     results_.put(ended.cell, *result);
@@ -308,7 +308,8 @@ CellResult run_one(const OpenStudy& open, const StudyFolder& folder, std::size_t
   std::vector<EndedCell> ended;
   while (ended.empty()) ended = pool.wait(1.0);
   if (ended.front().how == EndedCell::How::kNotStored) throw WriteError(ended.front().words);
-  if (ended.front().how != EndedCell::How::kStored) cells.put(identity, result_of(ended.front()));
+  if (ended.front().how != EndedCell::How::kStored)
+    cells.put(identity, result_of_end(ended.front()));
   return cells.find(identity).value();
 }
 

@@ -27,7 +27,7 @@ struct Column {
   std::vector<std::size_t> of;  ///< [setting] place among texts
 };
 
-std::optional<double> number_of(const std::string& text) {
+std::optional<double> parse_number(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -48,7 +48,7 @@ std::vector<Column> columns_of(const Design& design) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
     columns[k].name = design.columns()[k];
     for (const std::string& text : columns[k].texts) {
-      const std::optional<double> number = number_of(text);
+      const std::optional<double> number = parse_number(text);
       if (number) columns[k].numbers.push_back(*number);
     }
     if (columns[k].numbers.size() < columns[k].texts.size()) columns[k].numbers.clear();

@@ -15,11 +15,11 @@ namespace {
 
 class Row {
  public:
-  Row& text(const std::string& text) { return add(io::csv_text(text)); }
+  Row& word(const std::string& text) { return add(io::csv_text(text)); }
   Row& number(double value) { return add(io::csv_number(value)); }
   Row& count(std::size_t value) { return add(std::to_string(value)); }
-  Row& texts(const std::vector<std::string>& texts) {
-    for (const std::string& one : texts) text(one);
+  Row& words(const std::vector<std::string>& texts) {
+    for (const std::string& one : texts) word(one);
     return *this;
   }
   std::string line() const { return line_ + "\n"; }
@@ -49,17 +49,17 @@ std::string cells_csv(const Results& results) {
   const std::vector<std::string> names = kept_numbers(results);
   Numbers numbers(results);
   std::string csv = Row()
-                        .texts({"cell", "setting", "seed"})
-                        .texts(design.columns())
-                        .texts({"state", "reason", "digest"})
-                        .texts(names)
+                        .words({"cell", "setting", "seed"})
+                        .words(design.columns())
+                        .words({"state", "reason", "digest"})
+                        .words(names)
                         .line();
   std::vector<std::string> texts;
   for (std::size_t cell = 0; cell < design.cells(); ++cell) {
     if (cell % design.seeds() == 0) texts = design.texts(design.setting_of(cell));
     Row row;
-    row.count(cell).count(design.setting_of(cell)).count(design.seed_of(cell)).texts(texts);
-    row.text(to_string(results.state(cell))).text(results.reason(cell)).text(results.digest(cell));
+    row.count(cell).count(design.setting_of(cell)).count(design.seed_of(cell)).words(texts);
+    row.word(to_string(results.state(cell))).word(results.reason(cell)).word(results.digest(cell));
     for (const std::string& name : names) row.number(numbers.value(cell, name));
     csv += row.line();
   }
@@ -72,18 +72,18 @@ std::string settings_csv(const Results& results) {
   std::vector<std::vector<SettingNumber>> numbers;
   for (const std::string& name : names) numbers.push_back(setting_numbers(results, name));
   Row head;
-  head.text("setting").texts(design.columns());
-  head.texts({"finished", "met", "failed", "met_share", "met_share_low", "met_share_high"});
+  head.word("setting").words(design.columns());
+  head.words({"finished", "met", "failed", "met_share", "met_share_low", "met_share_high"});
   for (const std::string& name : names) {
     for (const char* what : {"count", "mean", "deviation", "median", "mean_low", "mean_high"}) {
-      head.text(fmt::format("{}:{}", name, what));
+      head.word(fmt::format("{}:{}", name, what));
     }
   }
   std::string csv = head.line();
   for (std::size_t setting = 0; setting < design.settings(); ++setting) {
     const SettingCount count = count_setting(results, setting);
     Row row;
-    row.count(setting).texts(design.texts(setting));
+    row.count(setting).words(design.texts(setting));
     row.count(count.finished).count(count.met).count(count.failed);
     if (count.finished > 0) {
       const Interval share =
@@ -92,7 +92,7 @@ std::string settings_csv(const Results& results) {
       row.number(static_cast<double>(count.met) / static_cast<double>(count.finished));
       row.number(share.low).number(share.high);
     } else {
-      row.texts({"", "", ""});
+      row.words({"", "", ""});
     }
     for (const std::vector<SettingNumber>& number : numbers) {
       std::vector<double> values = number[setting].values;
@@ -118,7 +118,7 @@ std::string costs_csv(const Results& results) {
                .number(cost.wall_s)
                .number(cost.cpu_s)
                .number(cost.peak_MB)
-               .text(cost.host)
+               .word(cost.host)
                .line();
   }
   return csv;

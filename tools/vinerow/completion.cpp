@@ -18,9 +18,10 @@ struct CompletedOption {
 };
 
 struct CompletedCommand {
-  std::string name, words;
+  std::string name, words;  ///< of an action the name is "study run"
   std::vector<CompletedOption> options;
   std::vector<std::string> choices;  ///< of its arguments
+  std::vector<std::string> actions;  ///< "run", "resume" of "study": its first argument
 };
 
 /// "bash", "zsh" of "TEXT:{bash,zsh}", where the parser says which values there are.
@@ -53,6 +54,17 @@ std::vector<CompletedOption> options_of(const CLI::App& app) {
   return options;
 }
 
+CompletedCommand command_of(const CLI::App& command, const std::string& name,
+                            const std::vector<CompletedOption>& common) {
+  CompletedCommand one{name, command.get_description(), options_of(command), {}, {}};
+  one.options.insert(one.options.end(), common.begin(), common.end());
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_positional()) one.choices = choices_of(*option);
+  }
+  return one;
+}
+
+/// Commands, and behind each its actions.
 std::vector<CompletedCommand> commands_of(const CLI::App& app) {
   std::vector<CompletedCommand> commands;
   // Those of the program itself may stand behind a command too.
@@ -61,14 +73,21 @@ std::vector<CompletedCommand> commands_of(const CLI::App& app) {
     if (option.takes_value) common.push_back(std::move(option));
   }
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
-    CompletedCommand one{command->get_name(), command->get_description(), options_of(*command), {}};
-    one.options.insert(one.options.end(), common.begin(), common.end());
-    for (const CLI::Option* option : command->get_options()) {
-      if (option->get_positional()) one.choices = choices_of(*option);
+    const std::string name = command->get_name();
+    CompletedCommand one = command_of(*command, name, common);
+    std::vector<CompletedCommand> actions;
+    for (const CLI::App* action : command->get_subcommands(nullptr)) {
+      one.actions.push_back(action->get_name());
+      actions.push_back(command_of(*action, name + " " + action->get_name(), common));
     }
     commands.push_back(std::move(one));
+    for (CompletedCommand& action : actions) commands.push_back(std::move(action));
   }
   return commands;
+}
+
+bool is_action(const CompletedCommand& command) {
+  return command.name.find(' ') != std::string::npos;
 }
 
 std::string names_of(const std::vector<CompletedOption>& options) {
@@ -106,12 +125,14 @@ std::string zsh_words(const std::string& text) {
 }  // namespace
 
 std::string bash_completion(const CLI::App& app) {
-  std::string commands, options_by_command, values;
+  std::string commands, with_actions, options_by_command, values;
   for (const CompletedCommand& command : commands_of(app)) {
-    commands += command.name + " ";
-    options_by_command += fmt::format("    {}) options={} words={} ;;\n", command.name,
-                                      shell_quoted(names_of(command.options)),
-                                      shell_quoted(join(command.choices, " ")));
+    if (!is_action(command)) commands += command.name + " ";
+    if (!command.actions.empty()) with_actions += command.name + " ";
+    const auto& words = command.actions.empty() ? command.choices : command.actions;
+    options_by_command +=
+        fmt::format("    '{}') options={} words={} ;;\n", command.name,
+                    shell_quoted(names_of(command.options)), shell_quoted(join(words, " ")));
     for (const CompletedOption& option : command.options) {
       if (!option.takes_value) continue;
       for (const std::string& name : option.names) {
@@ -131,6 +152,11 @@ _vinerow() {{
     COMPREPLY=($(compgen -W {} -- "$current"))
     return
   fi
+  if [[ {} == *" $command "* ]]; then
+    for ((i++; i < COMP_CWORD; i++)); do
+      if [[ "${{COMP_WORDS[i]}}" != -* ]]; then command+=" ${{COMP_WORDS[i]}}"; break; fi
+    done
+  fi
   case "$command" in
 {}    *) return ;;
   esac
@@ -148,16 +174,19 @@ _vinerow() {{
 }}
 complete -F _vinerow vinerow
 )script",
-                     shell_quoted(commands + names_of(options_of(app))), options_by_command,
-                     values);
+                     shell_quoted(commands + names_of(options_of(app))),
+                     shell_quoted(" " + with_actions), options_by_command, values);
 }
 
 std::string zsh_completion(const CLI::App& app) {
-  std::string commands, cases;
+  std::string commands, with_actions, cases;
   for (const CompletedCommand& command : commands_of(app)) {
-    commands +=
-        fmt::format("    {}\n", shell_quoted(fmt::format("{}:{}", command.name, command.words)));
-    cases += fmt::format("    {})\n      _arguments", command.name);
+    if (!command.actions.empty()) with_actions += command.name + " ";
+    if (!is_action(command)) {
+      commands +=
+          fmt::format("    {}\n", shell_quoted(fmt::format("{}:{}", command.name, command.words)));
+    }
+    cases += fmt::format("    {})\n      _arguments", shell_quoted(command.name));
     for (const CompletedOption& option : command.options) {
       for (const std::string& name : option.names) {
         std::string spec = fmt::format("*{}[{}]", name, zsh_words(option.words));
@@ -169,9 +198,9 @@ std::string zsh_completion(const CLI::App& app) {
         cases += " \\\n        " + shell_quoted(spec);
       }
     }
-    const std::string argument = command.choices.empty()
-                                     ? "*:file:_files"
-                                     : fmt::format("*:value:({})", join(command.choices, " "));
+    const auto& words = command.actions.empty() ? command.choices : command.actions;
+    const std::string argument =
+        words.empty() ? "*:file:_files" : fmt::format("*:value:({})", join(words, " "));
     cases += " \\\n        " + shell_quoted(argument) + " ;;\n";
   }
   return fmt::format(R"script(#compdef vinerow
@@ -187,12 +216,17 @@ _vinerow() {{
   local command="$words[2]"
   shift words
   (( CURRENT-- ))
+  if [[ {} == *" $command "* ]] && (( CURRENT > 2 )); then
+    command="$command $words[2]"
+    shift words
+    (( CURRENT-- ))
+  fi
   case "$command" in
 {}  esac
 }}
 compdef _vinerow vinerow
 )script",
-                     commands, cases);
+                     commands, shell_quoted(" " + with_actions), cases);
 }
 
 std::string fish_completion(const CLI::App& app) {
@@ -200,9 +234,21 @@ std::string fish_completion(const CLI::App& app) {
       "# Completion of vinerow for fish, made by 'vinerow completion fish'.\n"
       "complete -c vinerow -n __fish_use_subcommand -f\n";
   for (const CompletedCommand& command : commands_of(app)) {
-    script += fmt::format("complete -c vinerow -n __fish_use_subcommand -a {} -d {}\n",
-                          command.name, fish_quoted(command.words));
-    const std::string here = fish_quoted("__fish_seen_subcommand_from " + command.name);
+    std::string here = "__fish_seen_subcommand_from " + command.name;
+    const std::size_t space = command.name.find(' ');
+    if (!is_action(command)) {
+      script += fmt::format("complete -c vinerow -n __fish_use_subcommand -a {} -d {}\n",
+                            command.name, fish_quoted(command.words));
+    } else {
+      here = fmt::format("__fish_seen_subcommand_from {}; and __fish_seen_subcommand_from {}",
+                         command.name.substr(0, space), command.name.substr(space + 1));
+    }
+    if (!command.actions.empty()) {
+      here += "; and not __fish_seen_subcommand_from " + join(command.actions, " ");
+      script += fmt::format("complete -c vinerow -n {} -f -a {}\n", fish_quoted(here),
+                            fish_quoted(join(command.actions, " ")));
+    }
+    here = fish_quoted(here);
     if (!command.choices.empty()) {
       script += fmt::format("complete -c vinerow -n {} -f -a {}\n", here,
                             fish_quoted(join(command.choices, " ")));

@@ -65,7 +65,7 @@ RunStatus status_of(const Results& results) {
   return count(CellState::kNotMet) > 0 ? RunStatus::kCriterionFailed : RunStatus::kAllMet;
 }
 
-Colour colour_of(CellState state) {
+Colour state_colour(CellState state) {
   if (state == CellState::kMet) return Colour::kGood;
   if (state == CellState::kWaiting || state == CellState::kNotNeeded) return Colour::kPlain;
   return Colour::kBad;
@@ -76,7 +76,7 @@ void print_counts(const OpenStudy& open, const Results& results) {
   fmt::print("study    {}: {} settings x {} seeds = {} cells\n", open.study.name,
              open.design.settings(), open.design.seeds(), open.design.cells());
   for (const auto& [state, count] : results.counts()) {
-    fmt::print("{} {:7}\n", coloured(fmt::format("{:13}", to_string(state)), colour_of(state)),
+    fmt::print("{} {:7}\n", coloured(fmt::format("{:13}", to_string(state)), state_colour(state)),
                count);
     if (state == CellState::kMet || !study::is_finished(state)) continue;
     constexpr std::size_t kShown = 3;

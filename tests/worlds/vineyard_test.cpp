@@ -34,6 +34,22 @@ TEST(Vineyard, DefaultIsParcelF) {
   for (const Alley& alley : map.alleys) EXPECT_NEAR(alley.width_m, 2.5, 1e-9);
 }
 
+/// The centre of an arc that hardly bends is so far off that its points would fall together.
+TEST(Vineyard, RowsThatHardlyBendKeepTheirLength) {
+  for (const double bend_deg : {1e-308, -1e-12, 1e-7, 1e-4}) {
+    ParameterSet parameters = test::world_parameters("vineyard");
+    parameters.set("row_count", std::int64_t{3}).set("row_length_m", 60.0);
+    parameters.set("row_bearing_deg", 0.0).set("row_bend_deg", bend_deg);
+    parameters.set("leaf_cards_per_m", 10.0);
+    const auto world = test::make_world("vineyard", parameters);
+    for (const PlantRow& row : world->rows->rows) {
+      const Eigen::Vector2d chord = (row.line_W.back() - row.line_W.front()).head<2>();
+      EXPECT_NEAR(chord.norm(), 60.0, 1e-5) << bend_deg;
+      EXPECT_NEAR(chord.x(), 0.0, 1e-5) << bend_deg;
+    }
+  }
+}
+
 TEST(Vineyard, BentRowsAreArcsAboutOneCentre) {
   for (const double bend_deg : {40.0, -40.0}) {
     ParameterSet parameters = test::world_parameters("vineyard");

@@ -58,6 +58,9 @@ RowCurve lay_arc(const Eigen::Vector2d& centre, const Eigen::Vector2d& along, do
 }
 
 std::vector<RowCurve> lay_rows(const VineyardParams& params) {
+  // An arc whose middle lies no farther from its chord (length * bend / 8) is straight. The centre
+  // of a flatter one is so far off that its points lose their digits.
+  constexpr double kStraight_m = 1e-6;
   const Eigen::Vector2d along = bearing_direction(params.row_bearing_rad);
   const Eigen::Vector2d across(-along.y(), along.x());
   const Eigen::Vector2d& centre = params.centre_W;
@@ -66,7 +69,7 @@ std::vector<RowCurve> lay_rows(const VineyardParams& params) {
   for (int i = 0; i < params.row_count; ++i) {
     const double offset_m =
         (static_cast<double>(i) - 0.5 * static_cast<double>(params.row_count - 1)) * params.pitch_m;
-    if (params.row_bend_rad != 0.0) {
+    if (std::abs(params.row_bend_rad) * length_m / 8.0 > kStraight_m) {
       rows.push_back(lay_arc(centre, along, offset_m, length_m, params.row_bend_rad));
       continue;
     }

@@ -99,9 +99,9 @@ std::string settings_table(const OpenStudy& open, const Results& results,
   }
   std::string words = "<p>Mean over the seeds ± half of its 95 % interval. ";
   if (rows.size() < open.design.settings()) {
-    words += fmt::format("The first {} of {}; ", rows.size(), open.design.settings());
+    words += fmt::format("The first {} of {}. ", rows.size(), open.design.settings());
   }
-  return words + "all numbers are in <a href=\"settings.csv\">settings.csv</a>.</p>\n" +
+  return words + "All numbers are in <a href=\"settings.csv\">settings.csv</a>.</p>\n" +
          table(heads, rows);
 }
 

@@ -22,6 +22,7 @@ namespace {
 /// are numbers.
 struct Column {
   std::string name;
+  std::string unit;  ///< of the parameter's key, where one factor sets one
   std::vector<std::string> texts;
   std::vector<double> numbers;  ///< by text; empty where one is none
   std::vector<std::size_t> of;  ///< [setting] place among texts
@@ -32,6 +33,18 @@ std::optional<double> parse_number(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// "m" of a factor called lookahead that sets rover.controller.lookahead_m and nothing else.
+std::string unit_of_column(const Design& design, const std::string& name) {
+  std::string path = name;
+  for (const io::Factor& factor : design.study().factors) {
+    const auto& values = factor.levels.front().values;
+    if (factor.name == name && factor.columns.size() == 1 && values.size() == 1) {
+      path = values.front().path;
+    }
+  }
+  return tools::report::unit_of(path.substr(path.rfind('.') + 1));
 }
 
 std::vector<Column> columns_of(const Design& design) {
@@ -47,6 +60,7 @@ std::vector<Column> columns_of(const Design& design) {
   }
   for (std::size_t k = 0; k < columns.size(); ++k) {
     columns[k].name = design.columns()[k];
+    columns[k].unit = unit_of_column(design, columns[k].name);
     for (const std::string& text : columns[k].texts) {
       const std::optional<double> number = parse_number(text);
       if (number) columns[k].numbers.push_back(*number);
@@ -67,6 +81,12 @@ Quantity quantity_of(const std::string& name) {
   if (dot != std::string::npos) quantity.label += ", " + name.substr(0, dot);
   quantity.unit = tools::report::unit_of(last);
   if (name == "run.met" || last.ends_with("_share")) quantity.least = 0.0, quantity.most = 1.0;
+  return quantity;
+}
+
+Quantity quantity_of(const Column& column) {
+  Quantity quantity = quantity_of(column.name);
+  quantity.unit = column.unit;
   return quantity;
 }
 
@@ -101,7 +121,7 @@ std::string map_over_two(const Results& results, const std::string& name, const 
                          const Column& y, const std::vector<SettingNumber>& settings) {
   HeatMap map;
   map.texts = {title_of(name), caption_of(results.design())};
-  map.x = quantity_of(x.name), map.y = quantity_of(y.name), map.value = quantity_of(name);
+  map.x = quantity_of(x), map.y = quantity_of(y), map.value = quantity_of(name);
   map.x_levels = x.texts, map.y_levels = y.texts;
   map.tiles.resize(x.texts.size() * y.texts.size());
   for (std::size_t setting = 0; setting < settings.size(); ++setting) {
@@ -119,7 +139,7 @@ std::string lines_over(const Results& results, const std::string& name, const Co
                        const Column* group, const std::vector<SettingNumber>& settings) {
   BandPlot plot;
   plot.texts = {title_of(name), caption_of(results.design())};
-  plot.x = quantity_of(x.name), plot.y = quantity_of(name);
+  plot.x = quantity_of(x), plot.y = quantity_of(name);
   plot.spread_label = "95 % interval of the mean";
   plot.groups.resize(group ? group->texts.size() : 1);
   for (std::size_t k = 0; group && k < group->texts.size(); ++k) {
@@ -145,7 +165,7 @@ std::string boxes_over(const std::string& name, const Column& x,
                        const std::vector<SettingNumber>& settings) {
   BoxPlot plot;
   plot.texts = {title_of(name), fmt::format("All runs of each level. {}", kClick)};
-  plot.x = quantity_of(x.name), plot.y = quantity_of(name);
+  plot.x = quantity_of(x), plot.y = quantity_of(name);
   for (const std::string& text : x.texts) plot.levels.push_back({text, {}});
   for (std::size_t setting = 0; setting < settings.size(); ++setting) {
     const SettingNumber& number = settings[setting];
@@ -175,9 +195,11 @@ std::string number_figures(const Results& results, const std::string& name) {
                                                    results.design().settings();
   if (is_table) {
     std::string figures = map_over_two(results, name, columns[1], columns[0], settings);
-    const bool groups_fit = columns[0].texts.size() <= kMostGroups;
-    if (!columns[1].numbers.empty() && groups_fit) {
-      figures += lines_over(results, name, columns[1], &columns[0], settings);
+    // Lines over the one that is a number, by preference the second.
+    for (const std::size_t over : {1, 0}) {
+      const Column& group = columns[1 - over];
+      if (columns[over].numbers.empty() || group.texts.size() > kMostGroups) continue;
+      return figures + lines_over(results, name, columns[over], &group, settings);
     }
     return figures;
   }
@@ -235,7 +257,7 @@ std::string parallel_figure(const Results& results, const std::vector<std::strin
   plot.lines.resize(results.design().settings());
   for (const Column& column : columns) {
     ParallelAxis axis;
-    axis.quantity = quantity_of(column.name);
+    axis.quantity = quantity_of(column);
     if (column.numbers.empty()) axis.levels = column.texts;
     plot.axes.push_back(std::move(axis));
     for (std::size_t setting = 0; setting < plot.lines.size(); ++setting) {

@@ -184,12 +184,12 @@ class Study(unittest.TestCase):
                 time.sleep(0.2)
                 children = pathlib.Path(f"/proc/{driver.pid}/task/{driver.pid}/children").read_text().split()
                 worker = int(children[0]) if children else None
-            os.kill(worker, signal.SIGSEGV)
+            os.kill(worker, signal.SIGKILL)
             while pathlib.Path(f"/proc/{worker}").exists():
                 time.sleep(0.01)
         self.assertEqual(driver.wait(), 3)
         self.assertEqual([row["state"] for row in self.rows("killed")], ["crashed"] * 2)
-        self.assertIn("signal 11", self.rows("killed")[0]["reason"])
+        self.assertIn("signal 9 (Killed)", self.rows("killed")[0]["reason"])
 
     def test_ctrl_c_keeps_what_is_finished(self):
         file = self.write(self.TWO.replace("seeds: 3", "seeds: 200"), duration_s=60)

@@ -125,15 +125,18 @@ class Study(unittest.TestCase):
         self.assertEqual(self.bytes_of("a"), self.bytes_of("b"))
 
     def test_cells_by_another_driver(self):
-        file = self.write(self.TWO)
+        # Each in a process of its own, whereas a driver's worker keeps its world; worlds, steps and seeds differ.
+        file = self.write("factors:\n  lookahead: {key: rover.controller.lookahead_m, values: [0.5, 1.0]}\n"
+                          "  rows: {zip: {world.row_length_m: [70, 80, 80], physics.step_s: [0.005, 0.005, 0.0025]}}\nseeds: 2\n")
         numbers = self.study("list", file, "--state", "waiting").split()
         self.assertEqual(numbers, [str(n) for n in range(12)])
         for number in numbers:
             self.assertIn(f"cell {number}: met", self.study("cell", file, number))
         self.assertEqual(self.study("list", file, "--state", "waiting"), "")
         self.study("table", file)
-        self.study("run", file, out="driver")
+        self.study("run", file, "--jobs", 1, out="driver")
         self.assertEqual(self.bytes_of(), self.bytes_of("driver"))
+        self.assertEqual(len({row["digest"] for row in self.rows()}), 12)
         with sqlite3.connect(self.folder / "driver" / "study.sqlite") as index:
             listed = index.execute('SELECT cell, "factor.lookahead", seed, state, digest FROM cells ORDER BY cell').fetchall()
             numbers = dict(index.execute('SELECT cell, "rover.average_deviation_m" FROM numbers').fetchall())

@@ -4,6 +4,13 @@
 
 namespace vinerow::study {
 
+std::optional<double> number_in(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
 Numbers::Numbers(const Results& results) : results_(results) {
   const Design& design = results.design();
   for (std::size_t k = 0; k < design.columns().size(); ++k) factors_[design.columns()[k]] = k;
@@ -14,9 +21,7 @@ Numbers::Numbers(const Results& results) : results_(results) {
 
 double Numbers::factor(std::size_t cell, std::size_t column) const {
   const std::string text = results_.design().texts(results_.design().setting_of(cell))[column];
-  double value = kNoNumber;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : kNoNumber;
+  return number_in(text).value_or(kNoNumber);
 }
 
 double Numbers::value(std::size_t cell, const std::string& name) {

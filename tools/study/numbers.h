@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "tools/study/results.h"
 
 namespace vinerow::study {
+
+/// The number that a text is, as a whole.
+std::optional<double> number_in(const std::string& text);
 
 class Numbers {
  public:

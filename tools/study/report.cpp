@@ -12,6 +12,7 @@
 #include "tools/study/plots/plot_style.h"
 #include "tools/study/report_plots.h"
 #include "tools/study/setting_numbers.h"
+#include "tools/study/shell_word.h"
 #include "tools/study/tables.h"
 #include "tools/vinerow/report/html.h"
 #include "tools/vinerow/report/page_style.h"
@@ -29,9 +30,7 @@ constexpr std::size_t kMostDrawn = 8;
 
 /// The command that repeats a cell, up to the cell's number; as a shell takes it.
 std::string repeat_command(const OpenStudy& open) {
-  std::string file = "'";
-  for (const char c : open.study.file.string()) file += c == '\'' ? "'\\''" : std::string(1, c);
-  return "vinerow study repeat " + file + "'";
+  return "vinerow study repeat " + shell_quoted(open.study.file.string());
 }
 
 /// What happened to all cells, what failed first.

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
+#include "tools/study/numbers.h"
 #include "tools/study/plots/band_plot.h"
 #include "tools/study/plots/box_plot.h"
 #include "tools/study/plots/heat_map.h"
@@ -27,13 +27,6 @@ struct Column {
   std::vector<double> numbers;  ///< by text; empty where one is none
   std::vector<std::size_t> of;  ///< [setting] place among texts
 };
-
-std::optional<double> parse_number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// "m" of a factor called lookahead that sets rover.controller.lookahead_m and nothing else.
 std::string unit_of_column(const Design& design, const std::string& name) {
@@ -62,7 +55,7 @@ std::vector<Column> columns_of(const Design& design) {
     columns[k].name = design.columns()[k];
     columns[k].unit = unit_of_column(design, columns[k].name);
     for (const std::string& text : columns[k].texts) {
-      const std::optional<double> number = parse_number(text);
+      const std::optional<double> number = number_in(text);
       if (number) columns[k].numbers.push_back(*number);
     }
     if (columns[k].numbers.size() < columns[k].texts.size()) columns[k].numbers.clear();
@@ -226,10 +219,8 @@ std::string success_figure(const Results& results) {
     row.label = setting_text(design, setting);
     row.cell = first_cell(design, setting);
     if (count.finished > 0) {
-      const Interval interval =
-          wilson_interval(static_cast<std::int64_t>(count.met),
-                          static_cast<std::int64_t>(count.finished), kConfidence);
-      row.value = static_cast<double>(count.met) / static_cast<double>(count.finished);
+      const Interval interval = count.met_interval();
+      row.value = count.met_share();
       row.low = interval.low, row.high = interval.high;
       row.note = fmt::format("{} of {} runs", count.met, count.finished);
     }

@@ -1,6 +1,7 @@
 #include "tools/study/setting_numbers.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include "tools/study/numbers.h"
 
@@ -27,6 +28,11 @@ std::vector<SettingNumber> setting_numbers(const Results& results, const std::st
     setting.interval = t_interval(setting.values, kConfidence);
   }
   return all;
+}
+
+Interval SettingCount::met_interval() const {
+  return wilson_interval(static_cast<std::int64_t>(met), static_cast<std::int64_t>(finished),
+                         kConfidence);
 }
 
 SettingCount count_setting(const Results& results, std::size_t setting) {

@@ -27,6 +27,11 @@ std::vector<SettingNumber> setting_numbers(const Results& results, const std::st
 /// How many cells of a setting are finished, met their criteria, failed to run to their end.
 struct SettingCount {
   std::size_t finished = 0, met = 0, failed = 0;
+
+  /// Of the finished cells. @pre finished > 0
+  double met_share() const { return static_cast<double>(met) / static_cast<double>(finished); }
+  /// Wilson's, 95 %.
+  Interval met_interval() const;
 };
 SettingCount count_setting(const Results& results, std::size_t setting);
 

@@ -86,10 +86,8 @@ std::string settings_csv(const Results& results) {
     row.count(setting).words(design.texts(setting));
     row.count(count.finished).count(count.met).count(count.failed);
     if (count.finished > 0) {
-      const Interval share =
-          wilson_interval(static_cast<std::int64_t>(count.met),
-                          static_cast<std::int64_t>(count.finished), kConfidence);
-      row.number(static_cast<double>(count.met) / static_cast<double>(count.finished));
+      const Interval share = count.met_interval();
+      row.number(count.met_share());
       row.number(share.low).number(share.high);
     } else {
       row.words({"", "", ""});

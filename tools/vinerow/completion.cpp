@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/suggest.h"
+#include "tools/study/shell_word.h"
 
 namespace vinerow::tools {
 namespace {
@@ -96,13 +97,6 @@ std::string names_of(const std::vector<CompletedOption>& options) {
     for (const std::string& name : option.names) names += (names.empty() ? "" : " ") + name;
   }
   return names;
-}
-
-/// Between single quotes of a POSIX shell.
-std::string shell_quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 std::string fish_quoted(const std::string& text) {

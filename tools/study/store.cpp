@@ -119,8 +119,8 @@ void Index::check(const Design& design, const Identity& identity) {
                                                                 : nullptr;
   if (!changed) return;
   throw ConfigError(
-      fmt::format("'{}': {} has changed since; --fresh begins anew and takes over the "
-                  "cells that the change does not touch",
+      fmt::format("'{}': {} has changed since; 'vinerow study run --fresh' begins anew and takes "
+                  "over the cells that the change does not touch",
                   file, changed));
 }
 

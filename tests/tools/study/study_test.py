@@ -288,7 +288,7 @@ class Study(unittest.TestCase):
         file.write_text(text)
         self.study("run", file)
         file.write_text(text.replace("[1, 2]", "[1, 2, 3]"))
-        self.assertIn("the study's list of cells has changed since; --fresh", self.study("run", file, status=2))
+        self.assertIn("the study's list of cells has changed since; 'vinerow study run --fresh' begins anew", self.study("run", file, status=2))
         self.assertIn("run      1 cells", self.study("run", file, "--fresh"))
         with scenario.open("a") as more:
             more.write("# edited\n")

@@ -9,6 +9,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import signal
 import sqlite3
@@ -314,6 +315,18 @@ class Study(unittest.TestCase):
                              capture_output=True, text=True)
         self.assertEqual(run.returncode, 3, run.stderr)
         self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+
+    def test_the_examples_of_the_page(self):
+        rows = re.findall(r"^\| [^|]+ \| `(\{.*\})` \|$", (ROOT / "docs" / "studies.md").read_text(), re.MULTILINE)
+        self.assertEqual(len(rows), 6)
+        for row in rows:
+            scenario = "trmpc_stress" if "plane." in row else "orchard_rover" if "world.wind" not in row else "vineyard_rover"
+            file = self.folder / "example.yaml"
+            file.write_text(f"vinerow_study: 1\nscenario: {SCENARIO.parent / scenario}.yaml\nset: {{criteria: []}}\nfactors: {{f: {row}}}\n")
+            # The first cell is never reached: a study is checked before it, and ends at once where nothing can be stored.
+            run = subprocess.run([VINEROW, "study", "run", file, "--out", "/proc/nowhere", "--quiet"], capture_output=True, text=True)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn("/proc/nowhere", run.stderr, row)
 
     def test_schema(self):
         import jsonschema

@@ -1,11 +1,13 @@
 #include "tools/study/store.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/output_folder.h"
+#include "tools/study/cost_meter.h"
 
 namespace vinerow::study {
 
@@ -25,7 +27,13 @@ std::optional<CellResult> CellFiles::find(const std::string& identity) const {
 void CellFiles::put(const std::string& identity, const CellResult& result) const {
   const fs::path file = file_of(identity);
   io::make_folder_of(file);
-  write_whole_file(file, cell_json(result));
+  // Others may write the same cell at this moment: each under a name of its own, whoever comes last
+  // replaces an equal file.
+  const fs::path mine = fmt::format("{}.{}.{}", file.string(), host_name(), getpid());
+  write_whole_file(mine, cell_json(result));
+  std::error_code error;
+  fs::rename(mine, file, error);
+  if (error) throw_cannot_write(fmt::format("'{}'", file.string()), error.value());
 }
 
 void CellFiles::remove(const std::string& identity) const {

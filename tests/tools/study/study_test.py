@@ -125,6 +125,18 @@ class Study(unittest.TestCase):
         self.assertEqual(first.wait(), 0)
         self.assertEqual(self.bytes_of("a"), self.bytes_of("b"))
 
+    def test_many_write_the_same_cell(self):
+        file = self.write("", duration_s=0.1)
+        shared = self.folder / "shared"
+        for _ in range(10):
+            shutil.rmtree(shared, ignore_errors=True)
+            writers = [subprocess.Popen([VINEROW, "study", "cell", file, "0", "--out", self.folder / "out", "--cells", shared],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(8)]
+            for writer in writers:
+                _, error = writer.communicate()
+                self.assertEqual((writer.returncode, error), (0, ""))
+            self.assertEqual([file.suffix for file in shared.glob("*/*")], [".json"])
+
     def test_cells_by_another_driver(self):
         # Each in a process of its own, whereas a driver's worker keeps its world; worlds, steps and seeds differ.
         file = self.write("factors:\n  lookahead: {key: rover.controller.lookahead_m, values: [0.5, 1.0]}\n"

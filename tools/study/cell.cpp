@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -60,6 +61,11 @@ CellResult result_of(const RunResult& run) {
   cell.values["run.met"] = cell.state == CellState::kMet ? 1.0 : 0.0;
   cell.values["run.finished"] = run.finished ? 1.0 : 0.0;
   cell.values["run.simulated_s"] = run.simulated_s;
+  if (run.phases.empty()) return cell;
+  cell.values["run.phases"] = static_cast<double>(run.phases.size());
+  cell.values["run.phases_succeeded"] = static_cast<double>(std::count_if(
+      run.phases.begin(), run.phases.end(),
+      [](const PhaseReport& phase) { return phase.state == PhaseState::kSucceeded; }));
   return cell;
 }
 

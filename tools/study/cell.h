@@ -47,7 +47,8 @@ struct CellResult {
   std::string reason;  ///< one sentence, where the state is not kMet
   std::string digest;  ///< of the run
   /// "<vehicle>.<metric>", "<phase>.<number of its job>", "planning.<vehicle>.<number>",
-  /// "run.met", "run.finished" (0 or 1), "run.simulated_s"
+  /// "run.met", "run.finished" (0 or 1), "run.simulated_s"; of a mission "run.phases",
+  /// "run.phases_succeeded"
   std::map<std::string, double> values;
   CellCost cost;
 };

@@ -1,20 +1,19 @@
 #include "tools/study/drive.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <deque>
-#include <iostream>
+#include <memory>
 #include <optional>
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
 #include "engine/io/output_folder.h"
 #include "engine/sim/folder_lock.h"
-#include "tools/study/cost_meter.h"
+#include "tools/study/cell_worker.h"
+#include "tools/study/slurm_runner.h"
 #include "tools/study/stop_judge.h"
 #include "tools/study/store.h"
 #include "tools/study/worker_pool.h"
@@ -24,46 +23,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The result of a cell whose worker could not tell it.
-CellResult result_of_end(const EndedCell& ended) {
-  CellResult result;
-  result.state = ended.how == EndedCell::How::kOutOfTime     ? CellState::kOutOfTime
-                 : ended.how == EndedCell::How::kOutOfMemory ? CellState::kOutOfMemory
-                                                             : CellState::kCrashed;
-  result.reason = ended.words;
-  result.cost.wall_s = ended.wall_s;
-  result.cost.host = host_name();
-  return result;
-}
-
 bool is_worth_a_retry(CellState state) {
   return state == CellState::kCrashed || state == CellState::kOutOfTime ||
          state == CellState::kOutOfMemory;
-}
-
-std::vector<std::string> worker_command(const OpenStudy& open, const StudyFolder& folder) {
-  return {"vinerow",
-          "study",
-          "cell",
-          open.study.file.string(),
-          "--serve",
-          "--out",
-          folder.out.string(),
-          "--cells",
-          folder.cells.string()};
-}
-
-/// Whether a run of this state leaves its files.
-bool leaves_files(io::KeepRuns keep, CellState state) {
-  const bool has_run = has_numbers(state) || state == CellState::kBrokenOff;
-  if (keep == io::KeepRuns::kFailed) return has_run && state != CellState::kMet;
-  return keep != io::KeepRuns::kNothing && has_run;
-}
-
-/// Where a cell's files stay. Cells may be counted otherwise after a change of the study.
-std::filesystem::path kept_folder(const StudyFolder& folder, std::size_t cell,
-                                  const std::string& identity) {
-  return folder.kept() / fmt::format("{:06}-{}", cell, identity.substr(0, 8));
 }
 
 /// Decides which cell is next, and takes what comes back.
@@ -81,14 +43,18 @@ class Driver {
 
   DriveResult run() {
     take_over();
-    WorkerPool pool(worker_command(open_, options_.folder), options_.jobs, open_.study.budget);
+    const std::unique_ptr<CellRunner> runner = make_runner();
     Clock::time_point committed = start_;
-    tell();
-    while (give_all(pool)) {
+    tell(*runner);
+    while (give_all(*runner)) {
       constexpr double kLook_s = 0.2;  // after Ctrl-C
-      const std::vector<EndedCell> ended = pool.wait(kLook_s);
-      give_all(pool);  // workers first: they wait
+      const std::vector<EndedCell> ended = runner->wait(kLook_s);
+      give_all(*runner);  // workers first: they wait
       for (const EndedCell& cell : ended) take(cell);
+      if (runner->is_detached()) {
+        detached_ = true;
+        break;
+      }
       if (options_.interrupted && options_.interrupted()) {
         interrupted_ = true;
         break;
@@ -97,15 +63,23 @@ class Driver {
         index_.commit();
         committed = Clock::now();
       }
-      tell();
+      tell(*runner);
     }
-    if (!interrupted_) leave_out_what_is_not_needed();
+    if (!interrupted_ && !detached_) leave_out_what_is_not_needed();
     index_.commit();
-    tell();
-    return {std::move(results_), run_, taken_, interrupted_, wall_s()};
+    tell(*runner);
+    return {std::move(results_), run_, taken_, interrupted_, detached_, wall_s(), runner->status()};
   }
 
  private:
+  std::unique_ptr<CellRunner> make_runner() const {
+    if (options_.slurm) {
+      return std::make_unique<SlurmRunner>(open_, options_.folder, *options_.slurm);
+    }
+    return std::make_unique<WorkerPool>(worker_command(open_, options_.folder), options_.jobs,
+                                        open_.study.budget);
+  }
+
   double wall_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   /// Whether the cell is finished, with the files that it should leave.
@@ -113,7 +87,7 @@ class Driver {
     const CellState state = results_.state(cell);
     if (!is_finished(state) || (options_.retry && is_worth_a_retry(state))) return false;
     return !leaves_files(open_.study.keep, state) ||
-           std::filesystem::exists(kept_folder(options_.folder, cell, open_.identity.of(cell)));
+           std::filesystem::exists(options_.folder.kept(cell, open_.identity.of(cell)));
   }
 
   void take_over() {
@@ -152,12 +126,12 @@ class Driver {
   }
 
   /// Gives cells to idle workers. @returns whether any of them works
-  bool give_all(WorkerPool& pool) {
-    while (pool.has_idle() && !ready_.empty()) {
-      pool.give(ready_.front(), open_.identity.of(ready_.front()));
+  bool give_all(CellRunner& runner) {
+    while (runner.has_room() && !ready_.empty()) {
+      runner.give(ready_.front(), open_.identity.of(ready_.front()));
       ready_.pop_front();
     }
-    return pool.is_busy();
+    return runner.is_busy();
   }
 
   void take(const EndedCell& ended) {
@@ -203,9 +177,9 @@ class Driver {
     if (!has_numbers(results_.state(cell))) ++failed_;
   }
 
-  void tell() const {
+  void tell(const CellRunner& runner) const {
     if (options_.progress) {
-      options_.progress({taken_ + run_, failed_, wanted_, run_, wall_s()});
+      options_.progress({taken_ + run_, failed_, wanted_, run_, wall_s(), runner.status()});
     }
   }
 
@@ -219,43 +193,15 @@ class Driver {
   std::deque<std::size_t> ready_;
   Clock::time_point start_ = Clock::now();
   std::size_t run_ = 0, taken_ = 0, failed_ = 0, wanted_ = 0;
-  bool interrupted_ = false;
+  bool interrupted_ = false, detached_ = false;
 };
-
-/// Runs a cell and stores its result, and the run's files where they are to stay.
-CellResult run_and_store(const OpenStudy& open, const StudyFolder& folder, std::size_t cell,
-                         const std::shared_ptr<RunShelf>& shelf) {
-  const std::string identity = open.identity.of(cell);
-  const io::KeepRuns keep = open.study.keep;
-  const std::filesystem::path kept = kept_folder(folder, cell, identity);
-  std::filesystem::path work;
-  if (keep != io::KeepRuns::kNothing) {
-    work = folder.kept() / fmt::format(".{}.{}", kept.filename().string(), getpid());
-    io::make_folder(work);
-  }
-  CostMeter meter;
-  CellResult result =
-      run_cell(open.source, open.design.overrides(cell), open.registry, shelf, keep, work);
-  result.cost = meter.cost();
-  if (!work.empty()) {
-    std::error_code error;
-    std::filesystem::remove_all(kept, error);
-    if (leaves_files(keep, result.state)) {
-      std::filesystem::rename(work, kept, error);
-    } else {
-      std::filesystem::remove_all(work, error);
-    }
-  }
-  // Last: a cell that is there is complete.
-  CellFiles(folder.cells).put(identity, result);
-  return result;
-}
 
 }  // namespace
 
 DriveResult drive(const OpenStudy& open, const DriveOptions& options) {
   io::make_folder(options.folder.out);
   const FolderLock lock(options.folder.out);
+  remove_leftovers(options.folder);
   return Driver(open, options).run();
 }
 
@@ -271,46 +217,6 @@ Results look(const OpenStudy& open, const StudyFolder& folder) {
     if (const auto found = cells.find(open.identity.of(cell))) results.put(cell, *found);
   }
   return results;
-}
-
-void serve(const OpenStudy& open, const StudyFolder& folder) {
-  // Whatever a part prints must not stand between the answers.
-  const int answers = dup(STDOUT_FILENO);
-  dup2(STDERR_FILENO, STDOUT_FILENO);
-  const auto shelf = std::make_shared<RunShelf>();
-  std::size_t cell = 0;
-  std::string identity;
-  while (std::cin >> cell >> identity) {
-    std::string answer = "stored";
-    try {
-      if (cell >= open.design.cells() || open.identity.of(cell) != identity) {
-        throw ConfigError(
-            fmt::format("'{}', its scenario or the program has changed while the "
-                        "study ran",
-                        open.study.file.string()));
-      }
-      run_and_store(open, folder, cell, shelf);
-    } catch (const std::exception& error) {
-      answer = error.what();
-      std::replace(answer.begin(), answer.end(), '\n', ' ');
-    }
-    answer += '\n';
-    if (write(answers, answer.data(), answer.size()) < 0) return;
-  }
-}
-
-CellResult run_one(const OpenStudy& open, const StudyFolder& folder, std::size_t cell) {
-  const CellFiles cells(folder.cells);
-  const std::string identity = open.identity.of(cell);
-  if (const auto found = cells.find(identity)) return *found;
-  WorkerPool pool(worker_command(open, folder), 1, open.study.budget);
-  pool.give(cell, identity);
-  std::vector<EndedCell> ended;
-  while (ended.empty()) ended = pool.wait(1.0);
-  if (ended.front().how == EndedCell::How::kNotStored) throw WriteError(ended.front().words);
-  if (ended.front().how != EndedCell::How::kStored)
-    cells.put(identity, result_of_end(ended.front()));
-  return cells.find(identity).value();
 }
 
 }  // namespace vinerow::study

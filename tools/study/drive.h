@@ -1,23 +1,17 @@
 #pragma once
-/// Runs the cells of a study that are not finished yet, on this machine.
+/// Runs the cells of a study that are not finished yet.
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "tools/study/open_study.h"
 #include "tools/study/results.h"
+#include "tools/study/slurm_runner.h"
+#include "tools/study/study_folder.h"
 
 namespace vinerow::study {
-
-/// Where a study lies.
-struct StudyFolder {
-  std::filesystem::path out;    ///< index, tables, kept runs
-  std::filesystem::path cells;  ///< of finished cells; may be shared by studies
-  std::filesystem::path index() const { return out / "study.sqlite"; }
-  std::filesystem::path kept() const { return out / "kept"; }
-};
 
 struct StudyProgress {
   std::size_t finished = 0;  ///< before and by this call
@@ -25,13 +19,15 @@ struct StudyProgress {
   std::size_t total = 0;     ///< cells, as far as they are needed
   std::size_t run = 0;       ///< by this call
   double wall_s = 0.0;       ///< of this call
+  std::string runner;        ///< what the runner says of itself; may be empty
 };
 
 struct DriveOptions {
   StudyFolder folder;
-  int jobs = 1;
-  bool fresh = false;  ///< begin a new index
-  bool retry = false;  ///< run cells again that crashed or went over their budget
+  int jobs = 1;                       ///< cells at a time on this machine
+  std::optional<SlurmOptions> slurm;  ///< set: the cells run there
+  bool fresh = false;                 ///< begin a new index
+  bool retry = false;                 ///< run cells again that crashed or went over their budget
   std::function<void(const StudyProgress&)> progress;
   std::function<bool()> interrupted;
 };
@@ -41,7 +37,9 @@ struct DriveResult {
   std::size_t run = 0;    ///< cells that this call ran
   std::size_t taken = 0;  ///< cells that were finished before
   bool interrupted = false;
+  bool detached = false;  ///< the cells go on without this process
   double wall_s = 0.0;
+  std::string runner;  ///< what the runner said at last
 };
 
 /// Takes finished cells over, runs the others, keeps the index. Whatever ends it, what is finished
@@ -52,13 +50,5 @@ DriveResult drive(const OpenStudy& open, const DriveOptions& options);
 
 /// What is finished, from the index and the cells' files, without writing anything.
 Results look(const OpenStudy& open, const StudyFolder& folder);
-
-/// Answers a driver: reads "cell identity" lines, runs each and stores its result. Ends with the
-/// input.
-void serve(const OpenStudy& open, const StudyFolder& folder);
-
-/// Runs one cell in a process of its own, under the budget, and stores its result unless it is
-/// there. @returns the result
-CellResult run_one(const OpenStudy& open, const StudyFolder& folder, std::size_t cell);
 
 }  // namespace vinerow::study

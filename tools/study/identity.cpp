@@ -153,6 +153,12 @@ Identity::Identity(const Design& design, const io::ScenarioSource& source,
   design_digest_ = list.hex();
 }
 
+std::string Identity::whole() const {
+  Hasher hasher;
+  for (const std::string* part : {&common_, &design_digest_}) hasher.add(*part);
+  return hasher.hex();
+}
+
 std::string Identity::of(std::size_t cell) const {
   Hasher hasher;
   hasher.add(common_);

@@ -40,6 +40,8 @@ class Identity {
   const std::string& program() const { return program_; }
   /// Digest of the list of cells: factors, levels, seeds and their order.
   const std::string& design() const { return design_digest_; }
+  /// Of all of it: equal digests, equal cells under equal numbers.
+  std::string whole() const;
 
  private:
   const Design& design_;

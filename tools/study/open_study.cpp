@@ -82,6 +82,7 @@ std::vector<UsedName> used_names(const io::Study& study) {
 bool is_known_later(const std::string& name, const io::Scenario& scenario) {
   const std::string owner = name.substr(0, name.find('.'));
   if (owner == "planning") return true;
+  if (name == "run.phases" || name == "run.phases_succeeded") return !scenario.phases.empty();
   return std::any_of(scenario.phases.begin(), scenario.phases.end(),
                      [&](const auto& phase) { return phase.job && phase.name == owner; });
 }

@@ -17,6 +17,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/whole_file.h"
+#include "tools/study/last_line.h"
 
 namespace vinerow::study {
 namespace {
@@ -30,19 +31,15 @@ double resident_MB(pid_t process) {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// The last line that is not blank of what a process wrote to its error stream.
-std::string last_line_of(std::FILE* errors) {
+/// All that a process wrote to its error stream.
+std::string text_of(std::FILE* errors) {
+  std::string text;
   std::rewind(errors);
-  std::string last, line;
-  for (int c = 0; (c = std::fgetc(errors)) != EOF;) {
-    if (c == '\n') {
-      if (!line.empty()) last = std::move(line);
-      line.clear();
-    } else if (line.size() < 300) {
-      line += static_cast<char>(c);
-    }
+  char bytes[4096];
+  for (std::size_t count = 0; (count = std::fread(bytes, 1, sizeof bytes, errors)) > 0;) {
+    text.append(bytes, count);
   }
-  return line.empty() ? last : line;
+  return text;
 }
 
 }  // namespace
@@ -68,7 +65,7 @@ WorkerPool::~WorkerPool() {
   for (const auto& worker : workers_) stop(*worker);
 }
 
-bool WorkerPool::has_idle() const {
+bool WorkerPool::has_room() const {
   return std::any_of(workers_.begin(), workers_.end(), [](const auto& w) { return !w->cell; });
 }
 
@@ -147,7 +144,7 @@ void WorkerPool::read_answer(Worker& worker, std::vector<EndedCell>& ended) {
     close(worker.to);
     close(worker.from);
     worker.process = -1;
-    const std::string last = last_line_of(worker.errors.get());
+    const std::string last = last_line_of(text_of(worker.errors.get()));
     const std::string how =
         WIFSIGNALED(status)
             ? fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))

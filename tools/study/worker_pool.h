@@ -11,39 +11,24 @@
 #include <vector>
 
 #include "engine/io/study.h"
+#include "tools/study/cell_runner.h"
 
 namespace vinerow::study {
 
-/// How a cell left its worker.
-struct EndedCell {
-  enum class How {
-    kStored,     ///< its result is in its file
-    kCrashed,    ///< the process ended
-    kOutOfTime,  ///< the budget's
-    kOutOfMemory,
-    kNotStored  ///< the worker could not store the result, or the study has changed
-  };
-  std::size_t cell = 0;
-  How how = How::kStored;
-  std::string words;    ///< why, where it is not kStored
-  double wall_s = 0.0;  ///< since it was given
-};
-
-class WorkerPool {
+class WorkerPool final : public CellRunner {
  public:
   /// @param command  of a worker: `vinerow study cell FILE --serve ...` @param count  >= 1
   WorkerPool(std::vector<std::string> command, int count, const io::CellBudget& budget);
   /// Ends all workers at once.
-  ~WorkerPool();
+  ~WorkerPool() override;
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  bool has_idle() const;
-  bool is_busy() const;
-  /// Starts a worker where none has been started. @pre has_idle() @throws WriteError
-  void give(std::size_t cell, const std::string& identity);
-  /// Cells that left since the last call; waits for the first, at most so long.
-  std::vector<EndedCell> wait(double longest_s);
+  bool has_room() const override;
+  bool is_busy() const override;
+  /// Starts a worker where none has been started.
+  void give(std::size_t cell, const std::string& identity) override;
+  std::vector<EndedCell> wait(double longest_s) override;
 
  private:
   struct Worker;

@@ -7,9 +7,11 @@
 #include "engine/core/whole_file.h"
 #include "engine/io/output_folder.h"
 #include "engine/sim/run.h"
+#include "tools/study/cell_worker.h"
 #include "tools/study/drive.h"
 #include "tools/study/plots/plot_style.h"
 #include "tools/study/report.h"
+#include "tools/study/submitted_job.h"
 #include "tools/study/tables.h"
 #include "tools/vinerow/colour.h"
 #include "tools/vinerow/commands.h"
@@ -28,8 +30,12 @@ struct StudyArguments {
   std::filesystem::path file, out, cells;
   int jobs = 0;
   bool fresh = false, retry = false, quiet = false, serve = false;
-  std::size_t cell = 0;
-  std::string state;
+  std::string runner = "local";
+  study::SlurmOptions slurm;
+  std::vector<std::size_t> numbers;  ///< of cells
+  std::filesystem::path chunks;
+  std::size_t task = 0;
+  std::string expected, state;
 
   study::StudyFolder folder(const OpenStudy& open) const {
     study::StudyFolder folder;
@@ -89,6 +95,13 @@ void print_counts(const OpenStudy& open, const Results& results) {
   }
 }
 
+/// Exit status of a cell: that of `vinerow run`.
+int exit_status_of(CellState state) {
+  if (state == CellState::kMet) return 0;
+  if (state == CellState::kNotMet) return 1;
+  return state == CellState::kInvalid ? 2 : 3;
+}
+
 void check_cell(const OpenStudy& open, std::size_t cell) {
   if (cell < open.design.cells()) return;
   throw ConfigError(
@@ -122,6 +135,7 @@ void show_progress(ProgressLine& line, const study::StudyProgress& progress) {
   std::string detail =
       fmt::format("{} of {} cells, {} failed", progress.finished, progress.total, progress.failed);
   if (rate > 0.0) detail += fmt::format(", {:.3g} cells/s, {:.0f} s left", rate, left / rate);
+  if (!progress.runner.empty()) detail += "; " + progress.runner;
   const double total = static_cast<double>(std::max<std::size_t>(progress.total, 1));
   line.show("running", static_cast<double>(progress.finished) / total, detail);
 }
@@ -141,6 +155,7 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
   options.jobs = arguments.jobs > 0
                      ? arguments.jobs
                      : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (arguments.runner == "slurm") options.slurm = arguments.slurm;
   options.fresh = arguments.fresh;
   options.retry = arguments.retry;
   ProgressLine line(arguments.quiet);
@@ -152,6 +167,12 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
   print_counts(open, result.results);
   fmt::print("run      {} cells in {:.1f} s, {} were finished before\n", result.run, result.wall_s,
              result.taken);
+  if (result.detached) {
+    fmt::print("detached {}\n'vinerow study resume {} --runner slurm' collects the results\n",
+               result.runner, arguments.file.string());
+    exit_status = 0;
+    return;
+  }
   write_tables(result.results, options.folder);
   write_report(open, result.results, options.folder);
   if (result.interrupted) {
@@ -160,6 +181,53 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
                arguments.file.string());
   }
   exit_status = static_cast<int>(status_of(result.results));
+}
+
+void add_slurm_options(CLI::App& action, StudyArguments& arguments) {
+  CLI::Option* runner =
+      action.add_option("--runner", arguments.runner, "who runs the cells: local, slurm (local)")
+          ->check(CLI::IsMember({"local", "slurm"}));
+  study::SlurmOptions& slurm = arguments.slurm;
+  action
+      .add_option("--chunk", slurm.chunk, "cells of a task of Slurm (as many that there are 200)")
+      ->check(CLI::PositiveNumber)
+      ->needs(runner);
+  action
+      .add_option("--sbatch", slurm.sbatch,
+                  "an option of sbatch, e.g. --sbatch=--partition=long; may be given again")
+      ->allow_extra_args(false)
+      ->needs(runner);
+  action
+      .add_option("--patience", slurm.patience_s,
+                  "seconds without any running task until the study gives up (it waits)")
+      ->check(CLI::PositiveNumber)
+      ->needs(runner);
+  action.add_flag("--detach", slurm.detach, "end once the tasks are submitted")->needs(runner);
+}
+
+/// Cells that a driver of its own names: by their numbers, or as a task of an array.
+void run_named_cells(const StudyArguments& arguments, const OpenStudy& open, int& exit_status) {
+  const study::StudyFolder folder = arguments.folder(open);
+  const bool is_task = !arguments.chunks.empty();
+  if (!arguments.expected.empty() && arguments.expected != open.identity.whole()) {
+    throw ConfigError(
+        fmt::format("'{}', a file it names or the program is not what it was when the job was "
+                    "submitted",
+                    open.study.file.string()));
+  }
+  const std::vector<std::size_t> cells =
+      is_task ? study::read_chunk(arguments.chunks, arguments.task) : arguments.numbers;
+  for (const std::size_t cell : cells) check_cell(open, cell);
+  int worst = 0;
+  study::run_cells(open, folder, cells, std::max(arguments.jobs, 1),
+                   [&worst](std::size_t cell, const study::CellResult& result) {
+                     fmt::print("cell {}: {}{}{}\n", cell, to_string(result.state),
+                                result.reason.empty() ? "" : ": ", result.reason);
+                     std::fflush(stdout);
+                     worst = std::max(worst, exit_status_of(result.state));
+                   });
+  // For a task it is enough that all results are stored.
+  exit_status = is_task ? 0 : worst;
 }
 
 }  // namespace
@@ -182,9 +250,18 @@ void add_study_command(CLI::App& app, int& exit_status) {
     action->add_flag("--retry", arguments->retry,
                      "run cells again that crashed or went over their budget");
     action->add_flag("--quiet", arguments->quiet, "no progress");
+    add_slurm_options(*action, *arguments);
     action->callback(
         [arguments, resumes, &exit_status] { run_study(*arguments, resumes, exit_status); });
   }
+  add_action(*study, "check", "check the study and what it names; run nothing", arguments)
+      ->callback([arguments, &exit_status] {
+        const OpenStudy open(arguments->file);
+        check_study(open);
+        fmt::print("study    {}: {} settings x {} seeds = {} cells\n", open.study.name,
+                   open.design.settings(), open.design.seeds(), open.design.cells());
+        exit_status = 0;
+      });
   add_action(*study, "status", "tell how many cells are finished, failed, waiting", arguments)
       ->callback([arguments, &exit_status] {
         const OpenStudy open(arguments->file);
@@ -234,38 +311,39 @@ void add_study_command(CLI::App& app, int& exit_status) {
     }
     exit_status = 0;
   });
-  CLI::App* cell = add_action(*study, "cell", "run one cell and store its result", arguments);
-  CLI::Option* number = cell->add_option("number", arguments->cell, "of the cell, from 0");
+  CLI::App* cell =
+      add_action(*study, "cell", "run one cell or several and store their results", arguments);
+  CLI::Option* numbers =
+      cell->add_option("number", arguments->numbers, "of cells, from 0")->expected(1, -1);
+  cell->add_option("--jobs", arguments->jobs, "cells at a time (1)")->check(CLI::PositiveNumber);
   cell->add_flag("--serve", arguments->serve, "run cells that a driver names")->group("");
-  cell->callback([arguments, number, &exit_status] {
+  CLI::Option* chunks =
+      cell->add_option("--chunks", arguments->chunks, "file with the cells of tasks")->group("");
+  cell->add_option("--task", arguments->task, "line of that file, from 0")->group("");
+  cell->add_option("--expect", arguments->expected, "digest of the study")->group("");
+  cell->callback([arguments, numbers, chunks, &exit_status] {
     const OpenStudy open(arguments->file);
-    const study::StudyFolder folder = arguments->folder(open);
     exit_status = 0;
-    if (arguments->serve) return serve(open, folder);
-    if (number->count() == 0) throw ConfigError("the number of the cell must be given");
-    check_cell(open, arguments->cell);
-    const study::CellResult result = run_one(open, folder, arguments->cell);
-    fmt::print("cell {}: {}{}{}\n", arguments->cell, to_string(result.state),
-               result.reason.empty() ? "" : ": ", result.reason);
-    exit_status = result.state == CellState::kMet       ? 0
-                  : result.state == CellState::kNotMet  ? 1
-                  : result.state == CellState::kInvalid ? 2
-                                                        : 3;
+    if (arguments->serve) return serve(open, arguments->folder(open));
+    if (numbers->count() == 0 && chunks->count() == 0) {
+      throw ConfigError("the number of the cell must be given");
+    }
+    run_named_cells(*arguments, open, exit_status);
   });
   CLI::App* repeat = add_action(
       *study, "repeat",
       "run one cell as 'vinerow run' does, with log, pictures and report in <out>/repeat/<cell>",
       arguments);
-  repeat->add_option("number", arguments->cell, "of the cell, from 0")->required();
+  repeat->add_option("number", arguments->numbers, "of the cell, from 0")->required()->expected(1);
   repeat->add_flag("--quiet", arguments->quiet, "no progress");
   repeat->callback([arguments, &exit_status] {
     const OpenStudy open(arguments->file);
-    check_cell(open, arguments->cell);
+    const std::size_t number = arguments->numbers.front();
+    check_cell(open, number);
     RunChoice choice;
-    choice.out = arguments->folder(open).out / "repeat" / std::to_string(arguments->cell);
+    choice.out = arguments->folder(open).out / "repeat" / std::to_string(number);
     choice.quiet = arguments->quiet;
-    const io::Scenario scenario =
-        open.source.load(open.registry, open.design.overrides(arguments->cell));
+    const io::Scenario scenario = open.source.load(open.registry, open.design.overrides(number));
     exit_status = static_cast<int>(run_and_tell(scenario, open.registry, choice));
   });
 }

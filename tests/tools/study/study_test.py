@@ -4,7 +4,6 @@
     study_test.py VINEROW
 """
 
-import csv
 import json
 import math
 import os
@@ -19,38 +18,14 @@ import tempfile
 import time
 import unittest
 
+import study_case
+from study_case import NOISY, ROOT, SCENARIO
+
 VINEROW = pathlib.Path(sys.argv[1]).resolve()
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-SCENARIO = ROOT / "assets" / "scenarios" / "orchard_rover.yaml"
-NOISY = "rover.sensors: {gps: {type: gps, rate_Hz: 40, error: uniform, accuracy_m: 0.05}}, rover.estimator: {type: gps_pose, heading: truth}"
 
 
-class Study(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
-
-    def write(self, text, name="s.yaml", duration_s=3, set_more=""):
-        scenario = f"vinerow_study: 1\nscenario: {SCENARIO}\n"
-        values = f"set: {{duration_s: {duration_s}, criteria: [], {NOISY}{set_more}}}\n"
-        (self.folder / name).write_text(scenario + ("" if "set: {" in text else values) + text)
-        return self.folder / name
-
-    def study(self, action, file, *more, status=0, out="out"):
-        run = subprocess.run([VINEROW, "study", action, file, "--out", self.folder / out, *map(str, more)],
-                             capture_output=True, text=True, cwd=self.folder)
-        self.assertEqual(run.returncode, status, run.stdout + run.stderr)
-        return run.stderr if status == 2 else run.stdout + run.stderr
-
-    def rows(self, out="out", table="cells.csv"):
-        with open(self.folder / out / table, newline="") as file:
-            return list(csv.DictReader(file))
-
-    def bytes_of(self, out="out", table="cells.csv"):
-        return (self.folder / out / table).read_bytes()
-
-    TWO = ("factors:\n  lookahead: {key: rover.controller.lookahead_m, values: [0.5, 1.0]}\n"
-           "  pitch: {key: rover.planner.waypoint_pitch_m, values: [0.33, 0.66]}\nseeds: 3\n")
+class Study(study_case.StudyCase):
+    vinerow = VINEROW
 
     def test_a_cell_is_what_run_gives(self):
         file = self.write(self.TWO)
@@ -340,6 +315,44 @@ class Study(unittest.TestCase):
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertIn("/proc/nowhere", run.stderr, row)
 
+    def example(self, begin, end):
+        """From one line of the page to another."""
+        page = (ROOT / "docs" / "studies.md").read_text()
+        return page[page.index(begin):page.index(end, page.index(begin))]
+
+    def by_another(self, words, **more):
+        """Runs something in the test's folder where `vinerow` is the program that is tested. Its table is that of `study run`."""
+        path = f"{VINEROW.parent}:{os.environ['PATH']}"
+        run = subprocess.run(words, cwd=self.folder, env={**os.environ, "PATH": path, **more}, capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.study("run", self.folder / "my_study.yaml", out="driver")
+        self.assertEqual((self.folder / "runs" / "my_study" / "cells.csv").read_bytes(), self.bytes_of("driver"))
+        self.assertEqual({row["state"] for row in self.rows("driver")}, {"met"})
+
+    @unittest.skipUnless(shutil.which("parallel"), "GNU parallel is absent")
+    def test_gnu_parallel(self):
+        self.write(self.TWO, name="my_study.yaml")
+        lines = self.example("    vinerow study list my_study.yaml --state", "\n[Snakemake]")
+        self.by_another(["bash", "-e", "-c", lines.replace("-N 10", "-N 5")])
+
+    @unittest.skipUnless(shutil.which("snakemake"), "snakemake is absent")
+    def test_snakemake(self):
+        self.write(self.TWO, name="my_study.yaml")
+        (self.folder / "Snakefile").write_text(self.example("CELLS = [", "```"))
+        self.by_another(["snakemake", "--cores", "2"], XDG_CACHE_HOME=str(self.folder / "cache"), HOME=str(self.folder))
+
+    def test_kubernetes_recipe(self):
+        # There is no cluster of it here: what a pod runs is run as the Job would, an index after the other.
+        import yaml
+        job = yaml.safe_load(self.example("apiVersion: batch/v1", "```"))
+        self.write(self.TWO, name="my_study.yaml")
+        command = job["spec"]["template"]["spec"]["containers"][0]["command"]
+        for index in range(12):
+            path = f"{VINEROW.parent}:{os.environ['PATH']}"
+            subprocess.run(command, cwd=self.folder, env={**os.environ, "PATH": path, "JOB_COMPLETION_INDEX": str(index)}, check=True,
+                           capture_output=True)
+        self.by_another(["vinerow", "study", "table", "my_study.yaml"])
+
     def test_schema(self):
         import jsonschema
         schema = json.loads(subprocess.run([VINEROW, "schema", "study"], capture_output=True, text=True, check=True).stdout)
@@ -359,7 +372,7 @@ class Study(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if subprocess.run([sys.executable, "-c", "import scipy, jsonschema"], capture_output=True).returncode != 0:
-        print("skipped: python3-scipy or python3-jsonschema is absent")
+    if subprocess.run([sys.executable, "-c", "import scipy, jsonschema, yaml"], capture_output=True).returncode != 0:
+        print("skipped: scipy, jsonschema or yaml is absent")
         sys.exit(77)
     unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

@@ -19,31 +19,19 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 from resultlib.expressions import NotRun, TableError, calls_of, evaluate  # noqa: E402
 from resultlib.page import Page, asset_number, write_page  # noqa: E402
-from resultlib.runner import comparison_numbers, digest, files_named_by, study_numbers  # noqa: E402
+from resultlib.programs import comparison_numbers, rows_of_study  # noqa: E402
+from resultlib.studies import Studies  # noqa: E402
 from resultlib.table import entry_of, load_table, runs_of  # noqa: E402
 
 VINEROW, *STUDY = sys.argv[1:]
 
 # What the papers number: counted in their texts. Paper A has no table.
 ITEMS = {"A": {"figure": 21}, "B": {"figure": 22, "table": 3}, "C": {"figure": 11, "table": 3}}
-# Beside its metrics a summary holds these (engine/sim/summary.cpp; those of phases only where there are any).
-OF_THE_RUN = {"status", "exit_status", "simulated_s", "real_time_factor", "phase_count", "phases_succeeded"}
 TABLE = load_table()
 
 
 def call(*command: str) -> str:
     return subprocess.run([str(c) for c in command], capture_output=True, text=True, check=True).stdout
-
-
-def paths_of_runs() -> dict[str, set[str]]:
-    """Run -> paths that are asked of it."""
-    paths: dict[str, set[str]] = {}
-    for entry in TABLE.entries:
-        for expression in entry.expressions():
-            for name, arguments in calls_of(expression):
-                if name != "asset":
-                    paths.setdefault(arguments[0], set()).add(arguments[1])
-    return paths
 
 
 class Completeness(unittest.TestCase):
@@ -70,40 +58,21 @@ class Completeness(unittest.TestCase):
 
 
 class Names(unittest.TestCase):
-    def test_scenarios_exist_and_take_their_overrides(self):
-        first_of_group = {run.group: run for run in reversed(TABLE.runs.values())}
-        for run in first_of_group.values():
-            if run.scenario and run.what == "cooperative_parcel_f" and not run.scenario.exists():
-                continue  # told as not run
-            if run.scenario:
-                self.assertTrue(run.scenario.exists(), run.scenario)
-                sets = [word for text in run.sets for word in ("--set", text)]
-                command = [VINEROW, "validate", "--files-only", str(run.scenario), *sets]
-                done = subprocess.run(command, capture_output=True, text=True)
-                self.assertEqual(done.returncode, 0, f"{run.name}: {done.stdout}{done.stderr}")
-
-    def test_metrics_exist(self):
-        told = re.findall(r"writes: (.*)", call(VINEROW, "list", "metric"))
-        names = {entry.partition(":")[0].strip() for line in told for entry in line.split(",")}  # "finished: 0 or 1"
-        of_observers = {name.removeprefix("estimate_") for name in names}
-        patterns = [re.sub(r"<\w+>", r"\\w+", name) for name in names if "<" in name and "..." not in name]
-        for name, paths in paths_of_runs().items():
-            run = TABLE.runs[name]
-            if run.kind != "scenario" or not run.scenario.exists():
-                continue
-            texts = b"\n".join(files_named_by(run.scenario).values()).decode()
-            for path in paths:
-                vehicle, _, metric = path.partition(".")
-                if vehicle in ("planning", "phases") or path in OF_THE_RUN:
-                    continue
-                self.assertRegex(texts, rf"(?m)^  {vehicle}:", f"{name}: {path}: no such vehicle")
-                observers = [o for o in re.findall(r"(?m)^      (\w+): \{type:", texts) if metric.startswith(o + "_")]
-                known = metric in names or any(re.fullmatch(p, metric) for p in patterns)
-                known = known or any(metric.removeprefix(o + "_") in of_observers for o in observers)
-                self.assertTrue(known, f"{name}: {path}: no such metric")
+    def test_studies_take_their_values_and_have_their_numbers(self):
+        with tempfile.TemporaryDirectory() as folder:
+            studies = Studies(VINEROW, 1, TABLE.asked())
+            files = studies.files([run for run in TABLE.runs.values() if run.has_cells], pathlib.Path(folder))
+            self.assertGreater(len(files), 30)
+            for file, runs in files.items():
+                told = subprocess.run([VINEROW, "study", "check", file], capture_output=True, text=True)
+                self.assertEqual(told.returncode, 0, f"{runs[0].name}: {told.stdout}{told.stderr}")
+                kept = re.findall(r"[\w.]+", file.read_text().partition("metrics:")[2])
+                for run in runs:
+                    self.assertLessEqual(set(TABLE.asked()[run.name]), set(kept), run.name)
 
     def test_planners_tell_their_numbers(self):
-        for name, paths in paths_of_runs().items():
+        # What planners count is known when they have planned: the study's check lets it pass.
+        for name, paths in TABLE.asked().items():
             run, paths = TABLE.runs[name], {p for p in paths if p.startswith("planning.")}
             if not paths or run.kind != "scenario":
                 continue
@@ -122,7 +91,7 @@ class Names(unittest.TestCase):
             "  spacing        -0.2 m of 2.5 m\n  row ends       0.1 m off in the mean, 0.3 m at worst\n"
             "  volume         -2.5 % of 9 m3; of the canopy seen -9.5 %\n")
         self.assertEqual((errors["rows_found"], errors["rows"], errors["seen_volume_percent"]), (3.0, 4.0, -9.5))
-        for name, paths in paths_of_runs().items():
+        for name, paths in TABLE.asked().items():
             if TABLE.runs[name].kind != "map":
                 continue
             for path in paths:
@@ -136,11 +105,11 @@ class Names(unittest.TestCase):
                     node = node["properties"][key]
 
     @unittest.skipUnless(STUDY, "localisation_study is not built")
-    def test_studies_print_their_rows(self):
-        for name, paths in paths_of_runs().items():
+    def test_programs_print_their_rows(self):
+        for name, paths in TABLE.asked().items():
             run = TABLE.runs[name]
-            if run.kind == "study":
-                rows = study_numbers(call(STUDY[0], "1", *run.arguments[1:]))
+            if run.kind == "program":
+                rows = rows_of_study(call(STUDY[0], "1", *run.arguments[1:]))
                 for path in paths:
                     row, number = path.rsplit("/", 1)
                     self.assertIn(row, rows, f"{name}: {path}")
@@ -148,7 +117,7 @@ class Names(unittest.TestCase):
 
     def test_benchmarks_exist(self):
         source = (ROOT / "tests/benchmarks/localisation_phases_bench.cpp").read_text()
-        for name, paths in paths_of_runs().items():
+        for name, paths in TABLE.asked().items():
             if TABLE.runs[name].kind == "benchmark":
                 for path in paths:
                     benchmark, counter = path.split(".")
@@ -212,7 +181,7 @@ class Entries(unittest.TestCase):
             with self.assertRaisesRegex(TableError, reason):
                 entry_of(good | change)
         with self.assertRaisesRegex(TableError, "run r: wants one of scenario"):
-            runs_of("r", {"scenario": "a", "study": "b"})
+            runs_of("r", {"scenario": "a", "map": "b"})
 
     def test_axes_and_columns_are_filled_in(self):
         runs = runs_of("r", {"scenario": "s_{n}", "set": ["v.c={x: {n}}"], "axes": {"n": [1, 2]}})
@@ -221,12 +190,6 @@ class Entries(unittest.TestCase):
         row = entry_of({"paper": "A", "item": "i", "title": "t", "verdict": "reproduced", "why": "w", "table": {
             "head": ["h", "1", "2"], "rows": [{"label": "L", "cell": "$row/$column"}]}}).rows[0]
         self.assertEqual(row, ["L", "L/1", "L/2"])
-
-    def test_a_scenario_names_its_files(self):
-        files = files_named_by(ROOT / "assets/scenarios/localisation_sensors_4.yaml")
-        self.assertEqual({f.name for f in files}, {"localisation_sensors_4.yaml", "localisation_m100.yaml",
-                                                   "quadrotor_m100.yaml", "vn200_ins.yaml", "hc_sr04.yaml"})
-        self.assertNotEqual(digest(b"ab", b"c"), digest(b"a", b"bc"))
 
 
 class Comparison(unittest.TestCase):

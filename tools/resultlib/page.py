@@ -121,9 +121,11 @@ def command_of(run: Run) -> str:
     seeds = f", seeds 1 to {run.seeds}" if run.seeds > 1 else ""
     if run.kind == "scenario":
         return f"`vinerow run assets/scenarios/{run.what}.yaml{sets}`{seeds}"
+    if run.kind == "study":
+        return f"`vinerow study run assets/studies/{run.what}.yaml`"
     if run.kind == "map":
         return f"`assets/scenarios/{run.what}.yaml` by `vinerow run`, `cloud`, `map` ([mapping.md](mapping.md))"
-    if run.kind == "study":
+    if run.kind == "program":
         return f"`build/release/bin/{run.what} {' '.join(run.arguments)}`"
     return f"`build/release/bin/vinerow_bench --benchmark_filter='{run.what}'`"
 

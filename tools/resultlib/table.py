@@ -17,17 +17,27 @@ NUMBER = re.compile(r"\{([^{}|]+)\|([^{}|]+)\}")
 
 @dataclass(frozen=True)
 class Run:
-    """One way to make numbers: kind is scenario, map, study or benchmark."""
+    """One way to make numbers: kind is scenario, study, map, program or benchmark."""
 
     name: str
     kind: str
-    what: str  # scenario, program or filter
+    what: str  # scenario, study, program or filter
     sets: tuple[str, ...] = ()
     arguments: tuple[str, ...] = ()
     seeds: int = 1
     quick: bool = False
     group: str = ""  # name of the table's run that axes made this one of
     shown: tuple[str, ...] = ()  # the sets as told to readers, with the axes' names
+    levels: tuple[tuple[str, str], ...] = ()  # of the axes; of a study its factors
+
+    @property
+    def has_cells(self) -> bool:
+        """Whether it is a setting of a study, its own or a shipped one."""
+        return self.kind in ("scenario", "study")
+
+    @property
+    def study(self) -> Path:
+        return ROOT / "assets" / "studies" / f"{self.what}.yaml"
 
     @property
     def scenario(self) -> Path | None:
@@ -65,13 +75,23 @@ class Table:
     entries: list[Entry]
     papers: dict[str, str]  # letter -> what it is
 
+    def asked(self) -> dict[str, list[str]]:
+        """Run -> the numbers that are asked of it, in order."""
+        paths: dict[str, dict[str, None]] = {}
+        for entry in self.entries:
+            for text in entry.expressions():
+                for name, arguments in calls_of(text):
+                    if name != "asset":
+                        paths.setdefault(arguments[0], {})[arguments[1]] = None
+        return {run: list(names) for run, names in paths.items()}
+
 
 def runs_of(name: str, given: dict) -> list[Run]:
     """All combinations of the axes, named name/value/value."""
-    kinds = [kind for kind in ("scenario", "map", "study", "benchmark") if kind in given]
+    kinds = [kind for kind in ("scenario", "study", "map", "program", "benchmark") if kind in given]
     beside = {"set", "arguments", "seeds", "quick", "axes"}
     if len(kinds) != 1 or not set(given) <= beside | {*kinds}:
-        raise TableError(f"run {name}: wants one of scenario, map, study, benchmark, and beside it only "
+        raise TableError(f"run {name}: wants one of scenario, study, map, program, benchmark, and beside it only "
                          f"{', '.join(sorted(beside))}")
     axes = given.get("axes", {})
     template = tuple(given.get("set", []))
@@ -85,7 +105,8 @@ def runs_of(name: str, given: dict) -> list[Run]:
             texts = tuple(text.replace("{" + axis + "}", str(value)) for text in texts)
         runs.append(
             Run("/".join([name, *map(str, values)]), kinds[0], texts[0], texts[1:], tuple(given.get("arguments", [])),
-                given.get("seeds", 1), given.get("quick", False), name, shown))
+                given.get("seeds", 1), given.get("quick", False), name, shown,
+                tuple(zip(axes, map(str, values)))))
     return runs
 
 

@@ -80,17 +80,25 @@ const ParameterTable<UltrasoundParams>& ultrasound_table() {
   return table;
 }
 
-/// When a sensor fires: at phase, phase + cycle, phase + 2 cycle ... of its ticks.
+/// When a sensor fires: phase, phase + cycle, phase + 2 cycle ... after its first tick. Its ticks
+/// need not fall on multiples of the period: vehicles tick one after the other, and from when their
+/// phase of a mission begins.
 struct Turn {
   Duration cycle;
   Duration phase;
+  Duration period;
+  std::int64_t ticks = 0;
 
-  bool is_at(Time now) const { return cycle.ns == 0 || now.ns % cycle.ns == phase.ns; }
+  /// Whether it fires at this tick; to be asked once at each.
+  bool is_now() {
+    const std::int64_t since_first_ns = ticks++ * period.ns;
+    return cycle.ns == 0 || since_first_ns % cycle.ns == phase.ns;
+  }
 };
 
 Turn make_turn(const UltrasoundParams& params, Duration period) {
   const double cycle_s = params.cycle_s, phase_s = params.phase_s;
-  const Turn turn{duration_from_s(cycle_s), duration_from_s(phase_s)};
+  const Turn turn{duration_from_s(cycle_s), duration_from_s(phase_s), period};
   const auto check_ticks = [&](const char* name, Duration value, double value_s) {
     if (value.ns % period.ns == 0) return;
     throw ConfigError(fmt::format("{} = {} s, must be a multiple of the sensor's period of {} s",
@@ -138,7 +146,7 @@ class Ultrasound final : public MountedSensor<RangeSample> {
   void step(Time now) override {
     // The same count is drawn at every tick, whatever is seen.
     const Fate fate = draw_fate();
-    if (!turn_.is_at(now)) {
+    if (!turn_.is_now()) {
       readings_.push_nothing();
       return;
     }

@@ -209,6 +209,20 @@ TEST(Ultrasound, FourRangersFireInTurn) {
   }
 }
 
+TEST(Ultrasound, TurnsCountFromTheFirstTick) {
+  // A vehicle whose phase of a mission begins 2.5 ms beside the multiples of the sensor's period.
+  const ShapeScene scene = wall(1.0);
+  for (int k = 0; k < 4; ++k) {
+    Bench bench("ultrasound", {{"cycle_s", 0.2}, {"phase_s", 0.05 * k}}, scene);
+    bench.begin_at(Time{296'452'500'000});
+    for (int i = 0; i < 40; ++i) {
+      const std::uint64_t before = bench.truth().sequence();
+      bench.step_only();
+      EXPECT_EQ(bench.truth().sequence() - before, i % 4 == k ? 1u : 0u);
+    }
+  }
+}
+
 TEST(Ultrasound, OutagesAndDropoutsLeaveTheTruth) {
   const ShapeScene scene = wall(1.0);
   const ParameterSet parameters = test::with_outage(

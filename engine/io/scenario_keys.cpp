@@ -79,7 +79,7 @@ const ParameterTable<ScenarioValues>& scenario_table() {
 const ParameterTable<PhysicsParams>& physics_table() {
   using P = PhysicsParams;
   static const ParameterTable<P> table =
-      ParameterTable<P>().number("step_s", "s", &P::step_s, above(0.0, 0.1),
+      ParameterTable<P>().number("step_s", "s", &P::step_s, between(1e-5, 0.1),
                                  "physics step; every part's period is a multiple");
   return table;
 }

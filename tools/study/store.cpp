@@ -175,11 +175,18 @@ void Index::demand_columns(const CellResult& result) {
   }
 }
 
+/// Preparing one takes longer than running it.
+Statement& Index::statement(const std::string& sql) {
+  std::unique_ptr<Statement>& known = statements_[sql];
+  if (!known) known = std::make_unique<Statement>(*database_, sql);
+  return *known;
+}
+
 void Index::put(std::size_t cell, const CellResult& result) {
   begin();
   demand_columns(result);
   const auto number = static_cast<std::int64_t>(cell);
-  Statement(*database_, "UPDATE cells SET state = ?, reason = ?, digest = ? WHERE cell = ?")
+  statement("UPDATE cells SET state = ?, reason = ?, digest = ? WHERE cell = ?")
       .bind(0, std::string_view(to_string(result.state)))
       .bind(1, result.reason)
       .bind(2, result.digest)
@@ -190,13 +197,13 @@ void Index::put(std::size_t cell, const CellResult& result) {
     names += ", " + sql_name(name);
     marks += ", ?";
   }
-  Statement insert(*database_,
-                   fmt::format("INSERT OR REPLACE INTO numbers ({}) VALUES ({})", names, marks));
+  Statement& insert =
+      statement(fmt::format("INSERT OR REPLACE INTO numbers ({}) VALUES ({})", names, marks));
   insert.bind(0, number);
   int place = 1;
   for (const auto& [name, value] : result.values) insert.bind(place++, value);
   insert.run();
-  Statement(*database_, "INSERT OR REPLACE INTO costs VALUES (?, ?, ?, ?, ?)")
+  statement("INSERT OR REPLACE INTO costs VALUES (?, ?, ?, ?, ?)")
       .bind(0, number)
       .bind(1, result.cost.wall_s)
       .bind(2, result.cost.cpu_s)

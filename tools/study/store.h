@@ -57,9 +57,11 @@ class Index {
   std::string meta(const std::string& key);
   void begin();
   void demand_columns(const CellResult& result);
+  Statement& statement(const std::string& sql);
 
   std::filesystem::path file_;
   std::unique_ptr<Database> database_;
+  std::map<std::string, std::unique_ptr<Statement>> statements_;  ///< prepared, by their text
   bool in_transaction_ = false;
   std::map<std::string, int> columns_;  ///< of `numbers`, from 0 after the cell
 };

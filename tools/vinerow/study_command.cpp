@@ -186,23 +186,29 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
 void add_slurm_options(CLI::App& action, StudyArguments& arguments) {
   CLI::Option* runner =
       action.add_option("--runner", arguments.runner, "who runs the cells: local, slurm (local)")
+          ->group("On a cluster (Slurm)")
           ->check(CLI::IsMember({"local", "slurm"}));
   study::SlurmOptions& slurm = arguments.slurm;
   action
       .add_option("--chunk", slurm.chunk, "cells of a task of Slurm (as many that there are 200)")
       ->check(CLI::PositiveNumber)
+      ->group("On a cluster (Slurm)")
       ->needs(runner);
   action
       .add_option("--sbatch", slurm.sbatch,
                   "an option of sbatch, e.g. --sbatch=--partition=long; may be given again")
       ->allow_extra_args(false)
+      ->group("On a cluster (Slurm)")
       ->needs(runner);
   action
       .add_option("--patience", slurm.patience_s,
                   "seconds without any running task until the study gives up (it waits)")
       ->check(CLI::PositiveNumber)
+      ->group("On a cluster (Slurm)")
       ->needs(runner);
-  action.add_flag("--detach", slurm.detach, "end once the tasks are submitted")->needs(runner);
+  action.add_flag("--detach", slurm.detach, "end once the tasks are submitted")
+      ->group("On a cluster (Slurm)")
+      ->needs(runner);
 }
 
 /// Cells that a driver of its own names: by their numbers, or as a task of an array.

@@ -138,8 +138,11 @@ TEST(ScenarioFault, RateThatDoesNotDivideNamesBothNumbers) {
   // well.
   EXPECT_THAT(fault_of(with_line(2, "physics: {step_s: 0.002}")),
               HasSubstr("vehicles.rover.controller.rate_Hz = 40 Hz, its period of 0.025 s"));
-  EXPECT_EQ(fault_of(with_line(2, "physics: {step_s: 0.0000000015}")),
-            "scenario:2: physics.step_s = 1.5e-09 s, must be a whole number of nanoseconds");
+  EXPECT_EQ(fault_of(with_line(2, "physics: {step_s: 0.0010000005}")),
+            "scenario:2: physics.step_s = 0.0010000005 s, must be a whole number of nanoseconds");
+  // Two million steps for half a second: nobody means it.
+  EXPECT_THAT(fault_of(with_line(2, "physics: {step_s: 0.00000025}")),
+              HasSubstr("physics.step_s = 2.5e-07 s, must be >= 1e-05 s and <= 0.1 s"));
 }
 
 TEST(ScenarioFault, UnknownPartTypeNamesTheNearestOrItsKind) {

@@ -22,16 +22,7 @@ VINEROW = pathlib.Path(sys.argv[1]).resolve()
 
 class SlurmStudy(study_case.StudyCase):
     vinerow = VINEROW
-
-    @classmethod
-    def setUpClass(cls):
-        cls.place = pathlib.Path(tempfile.mkdtemp(prefix="slurm"))
-        cls.slurm = local_slurm.LocalSlurm(cls.place / "cluster", most_tasks=31)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.slurm.stop()
-        shutil.rmtree(cls.place)
+    slurm = None  # set before the tests
 
     def on_slurm(self, action, file, *more, **how):
         return self.study(action, file, "--runner", "slurm", *more, environment=self.slurm.environment, **how)
@@ -185,4 +176,14 @@ if __name__ == "__main__":
     if why:
         print(f"skipped: {why}")
         sys.exit(77)
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
+    place = pathlib.Path(tempfile.mkdtemp(prefix="slurm"))
+    try:
+        SlurmStudy.slurm = local_slurm.LocalSlurm(place / "cluster", most_tasks=31)
+    except RuntimeError as error:
+        print(f"skipped: Slurm does not start on this machine: {error}")
+        sys.exit(77)
+    try:
+        unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
+    finally:
+        SlurmStudy.slurm.stop()
+        shutil.rmtree(place)

@@ -315,6 +315,17 @@ class Study(study_case.StudyCase):
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertIn("/proc/nowhere", run.stderr, row)
 
+    def test_shipped_studies(self):
+        page = (ROOT / "docs" / "studies.md").read_text()
+        files = sorted((ROOT / "assets" / "studies").glob("*.yaml"))
+        self.assertGreaterEqual(len(files), 5)
+        for file in files:
+            told = self.study("check", file)
+            cells = int(told.split("= ")[1].split()[0])
+            self.assertRegex(page, rf"\| `{file.stem}` \| .* \| {cells} \|", "the page says how many cells it has")
+        # One that a user could type: paper B's, whose tables docs/results.md holds (tools/results --quick makes them anew).
+        self.assertLessEqual(len((ROOT / "assets" / "studies" / "orchard_lookahead.yaml").read_text().splitlines()), 30)
+
     def example(self, begin, end):
         """From one line of the page to another."""
         page = (ROOT / "docs" / "studies.md").read_text()

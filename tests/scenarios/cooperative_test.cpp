@@ -84,13 +84,16 @@ TEST_F(CooperativeMission, AMapWithARowMissingIsNotWorkedOn) {
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kBlocked);
 }
 
-TEST_F(CooperativeMission, ABlockedRoverIsStuckAndFailsAlone) {
+TEST_F(CooperativeMission, ABlockedRoverStopsAndFailsAlone) {
   const RunResult result = run(
       {"world.obstacles=[{name: pallet, alley: 1, distance_m: 20, lateral_m: 0, size_m: [1.2, 0.8, "
        "0.6]}]"});
   EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kFailed);
-  EXPECT_THAT(phase(result, "spray").reason, HasSubstr("rover is stuck at "));
+  EXPECT_THAT(phase(result, "spray").reason, StartsWith("rover had not finished after 400 s"));
+  EXPECT_EQ(result.metrics.at("rover").at("contact_count"), 0.0)
+      << "its rangers see what the map does not have";
+  EXPECT_EQ(result.metrics.at("rover").at("alleys_driven"), 1.0);
   EXPECT_EQ(phase(result, "scout").state, PhaseState::kSucceeded)
       << "the quadrotor flies over it and home";
 }

@@ -103,7 +103,7 @@ class Study(study_case.StudyCase):
     def test_many_write_the_same_cell(self):
         file = self.write("", duration_s=0.1)
         shared = self.folder / "shared"
-        for _ in range(10):
+        for _ in range(4):
             shutil.rmtree(shared, ignore_errors=True)
             writers = [subprocess.Popen([VINEROW, "study", "cell", file, "0", "--out", self.folder / "out", "--cells", shared],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(8)]

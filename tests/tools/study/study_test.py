@@ -152,11 +152,11 @@ class Study(study_case.StudyCase):
         self.assertIn("invalid", (self.folder / "out" / "study.html").read_text())
 
     def test_a_budget_ends_a_cell_and_no_other(self):
-        file = self.write("factors: {long: {key: duration_s, values: [1, 100000]}}\nbudget: {time_s: 4}\n"
+        file = self.write("factors: {long: {key: duration_s, values: [0.1, 100000]}}\nbudget: {time_s: 8}\n"
                           "set: {criteria: [], stop_when_finished: false}\n")
         self.study("run", file, status=3)
         self.assertEqual([row["state"] for row in self.rows()], ["met", "out of time"])
-        self.assertIn("budget.time_s = 4 s", self.rows()[1]["reason"])
+        self.assertIn("budget.time_s = 8 s", self.rows()[1]["reason"])
         # Known now, and so not run again, unless asked for.
         self.assertIn("run      0 cells", self.study("resume", file, status=3))
         self.assertIn("run      1 cells", self.study("resume", file, "--retry", status=3))

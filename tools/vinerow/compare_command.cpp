@@ -8,6 +8,7 @@
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/compare/compare_maps.h"
 #include "tools/vinerow/compare/compare_runs.h"
+#include "tools/vinerow/number_checks.h"
 
 namespace vinerow::tools {
 namespace {
@@ -101,7 +102,7 @@ void add_compare_command(CLI::App& app, int& exit_status) {
       ->add_option("--reach", arguments->reach_m,
                    "of maps: rows no farther apart than this, m, are the same (default: half the "
                    "distance between rows)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command->callback([arguments, &exit_status] {
     const FolderKind kind = kind_of_folder(arguments->folders.front());
     for (const std::filesystem::path& folder : arguments->folders) {

@@ -9,6 +9,7 @@
 #include "engine/sim/coverage_log.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/coverage_picture.h"
+#include "tools/vinerow/number_checks.h"
 
 namespace vinerow::tools {
 namespace {
@@ -75,8 +76,7 @@ void add_coverage_command(CLI::App& app, int& exit_status) {
       "--polygon", arguments->polygon,
       "parcel instead of the scenario's: x y of each corner in m, east and north of "
       "the origin");
-  command->add_option("--cell", arguments->cell_m, "size of the cells, m")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--cell", arguments->cell_m, "size of the cells, m")->check(positive());
   command->add_option("--plugin", arguments->plugins, "load a plug-in that brought the run's parts")
       ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.h"
+#include "tools/vinerow/number_checks.h"
 
 namespace vinerow::tools {
 namespace {
@@ -57,9 +58,9 @@ void add_picture_arguments(CLI::App& command, PictureArguments& arguments) {
                   "kind=chase,vehicle=rover,distance_m=4 (may be given several times)")
       ->allow_extra_args(false);
   command.add_option("--from", arguments.from_s, "no frame before this simulated time, s")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command.add_option("--to", arguments.to_s, "no frame after this simulated time, s")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   command.add_option("--width", arguments.width, "pixels")->check(CLI::Range(16, 8192));
   command.add_option("--height", arguments.height, "pixels")->check(CLI::Range(16, 8192));
   command.add_option("--plugin", arguments.plugins, "load a plug-in that brought the run's parts")

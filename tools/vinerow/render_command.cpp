@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
 #include "tools/vinerow/commands.h"
+#include "tools/vinerow/number_checks.h"
 #include "tools/vinerow/picture_arguments.h"
 
 namespace vinerow::tools {
@@ -26,7 +27,7 @@ void add_render_command(CLI::App& app, int& exit_status) {
                    "a frame at this simulated time, s (may be given several times)")
       ->allow_extra_args(false);
   command->add_option("--every", arguments->every_s, "a frame every so many simulated seconds")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command->add_flag("--digest", arguments->digest,
                     "print the MD5 of each frame's pixels before its name");
   command->callback([arguments, &exit_status] {

@@ -16,6 +16,7 @@
 #include "tools/vinerow/colour.h"
 #include "tools/vinerow/commands.h"
 #include "tools/vinerow/interrupt.h"
+#include "tools/vinerow/number_checks.h"
 #include "tools/vinerow/progress_line.h"
 #include "tools/vinerow/report/plot_files.h"
 
@@ -155,7 +156,12 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
   options.jobs = arguments.jobs > 0
                      ? arguments.jobs
                      : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  if (arguments.runner == "slurm") options.slurm = arguments.slurm;
+  const study::SlurmOptions& slurm = arguments.slurm;
+  if (arguments.runner == "slurm") {
+    options.slurm = slurm;
+  } else if (!slurm.sbatch.empty() || slurm.chunk > 0 || slurm.patience_s > 0.0 || slurm.detach) {
+    throw ConfigError("--sbatch, --chunk, --patience and --detach are of '--runner slurm'");
+  }
   options.fresh = arguments.fresh;
   options.retry = arguments.retry;
   ProgressLine line(arguments.quiet);
@@ -184,31 +190,26 @@ void run_study(const StudyArguments& arguments, bool must_be_there, int& exit_st
 }
 
 void add_slurm_options(CLI::App& action, StudyArguments& arguments) {
-  CLI::Option* runner =
-      action.add_option("--runner", arguments.runner, "who runs the cells: local, slurm (local)")
-          ->group("On a cluster (Slurm)")
-          ->check(CLI::IsMember({"local", "slurm"}));
+  action.add_option("--runner", arguments.runner, "who runs the cells: local, slurm (local)")
+      ->group("On a cluster (Slurm)")
+      ->check(CLI::IsMember({"local", "slurm"}));
   study::SlurmOptions& slurm = arguments.slurm;
   action
       .add_option("--chunk", slurm.chunk, "cells of a task of Slurm (as many that there are 200)")
-      ->check(CLI::PositiveNumber)
-      ->group("On a cluster (Slurm)")
-      ->needs(runner);
+      ->check(positive())
+      ->group("On a cluster (Slurm)");
   action
       .add_option("--sbatch", slurm.sbatch,
                   "an option of sbatch, e.g. --sbatch=--partition=long; may be given again")
       ->allow_extra_args(false)
-      ->group("On a cluster (Slurm)")
-      ->needs(runner);
+      ->group("On a cluster (Slurm)");
   action
       .add_option("--patience", slurm.patience_s,
                   "seconds without any running task until the study gives up (it waits)")
-      ->check(CLI::PositiveNumber)
-      ->group("On a cluster (Slurm)")
-      ->needs(runner);
+      ->check(positive())
+      ->group("On a cluster (Slurm)");
   action.add_flag("--detach", slurm.detach, "end once the tasks are submitted")
-      ->group("On a cluster (Slurm)")
-      ->needs(runner);
+      ->group("On a cluster (Slurm)");
 }
 
 /// Cells that a driver of its own names: by their numbers, or as a task of an array.
@@ -248,7 +249,7 @@ void add_study_command(CLI::App& app, int& exit_status) {
         resumes ? add_action(*study, "resume", "go on with a study that was begun", arguments)
                 : add_action(*study, "run", "run the cells that are not finished", arguments);
     action->add_option("--jobs", arguments->jobs, "cells at a time (default: one for each core)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     if (!resumes) {
       action->add_flag("--fresh", arguments->fresh,
                        "begin a new index; cells that nothing has changed are taken over");
@@ -321,7 +322,7 @@ void add_study_command(CLI::App& app, int& exit_status) {
       add_action(*study, "cell", "run one cell or several and store their results", arguments);
   CLI::Option* numbers =
       cell->add_option("number", arguments->numbers, "of cells, from 0")->expected(1, -1);
-  cell->add_option("--jobs", arguments->jobs, "cells at a time (1)")->check(CLI::PositiveNumber);
+  cell->add_option("--jobs", arguments->jobs, "cells at a time (1)")->check(positive());
   cell->add_flag("--serve", arguments->serve, "run cells that a driver names")->group("");
   CLI::Option* chunks =
       cell->add_option("--chunks", arguments->chunks, "file with the cells of tasks")->group("");

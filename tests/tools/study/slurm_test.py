@@ -76,6 +76,18 @@ class SlurmStudy(study_case.StudyCase):
         self.assertIn("12 were finished before", self.on_slurm("resume", file))
         self.nothing_is_left()
 
+    def test_tasks_that_wait_are_found_again(self):
+        file = self.write(self.TWO)
+        self.on_slurm("run", file, "--chunk", 5, "--detach", "--sbatch=--hold")
+        before = self.slurm.jobs()
+        driver = self.start(file, "--chunk", 5)
+        time.sleep(4)
+        self.assertEqual(self.slurm.jobs(), before, "the same cells were submitted again")
+        subprocess.run(["scontrol", "release", *before], env=self.slurm.environment, check=True)
+        told, error = driver.communicate()
+        self.assertEqual(driver.returncode, 0, error)
+        self.assertRegex(told, r"run +12 cells")
+
     def test_ctrl_c_ends_the_tasks(self):
         file = self.write(self.TWO.replace("seeds: 3", "seeds: 100"), duration_s=60)
         driver = self.start(file, "--chunk", 5)

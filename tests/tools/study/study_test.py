@@ -263,6 +263,9 @@ class Study(study_case.StudyCase):
         self.assertIn("s.yaml:4: derived.x: no cell has a number 'nothing'", fault("derived: {x: nothing + 1}"))
         self.assertIn("make 1e+09 cells", fault("seeds: 1000\nfactors: {a: {key: gravity_mps2, from: 1, to: 2, count: 1000}, "
                                                 "b: {key: rover.controller.lookahead_m, from: 1, to: 2, count: 1000}}"))
+        two = self.write(self.TWO)
+        self.assertIn("are of '--runner slurm'", self.study("run", two, "--chunk", 3, status=2, out="bad"))
+        self.assertIn("--jobs: must be > 0, is '0'", self.study("run", two, "--jobs", 0, status=2, out="bad"))
         self.assertIn("there is nothing to resume", self.study("resume", self.write(""), status=2, out="none"))
         self.assertIn("there is no cell 1, the study's are 0 to 0", self.study("cell", self.write(""), 1, status=2))
         self.assertFalse((self.folder / "bad").exists(), "a refused study writes nothing")
@@ -314,6 +317,59 @@ class Study(study_case.StudyCase):
             run = subprocess.run([VINEROW, "study", "run", file, "--out", "/proc/nowhere", "--quiet"], capture_output=True, text=True)
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertIn("/proc/nowhere", run.stderr, row)
+
+    def with_commands(self, **scripts):
+        """An environment whose first programs are these scripts."""
+        folder = self.folder / "commands"
+        folder.mkdir(exist_ok=True)
+        for name, text in scripts.items():
+            (folder / name).write_text(f"#!/bin/sh\n{text}\n")
+            (folder / name).chmod(0o755)
+        return {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
+
+    def test_what_slurm_has_forgotten_is_asked_of_its_accounting(self):
+        # Answers as those of Slurm 22.05 with slurmdbd; slurm_test.py has a real one, without accounting.
+        said = self.folder / "said"
+        environment = self.with_commands(sbatch=f'echo "$@" >> {said}; echo 7', squeue="true", scancel="true", scontrol="false",
+                                         sacct=f'echo "$@" >> {said}; echo TIMEOUT')
+        file = self.write("budget: {time_s: 70}\n")
+        self.study("run", file, "--runner", "slurm", "--sbatch=--partition=long", "--quiet", environment=environment, status=3)
+        self.assertEqual([row["state"] for row in self.rows()], ["out of time"])
+        self.assertEqual(self.rows()[0]["reason"], "Slurm's task 7_0 ended as TIMEOUT")
+        words = said.read_text().splitlines()
+        self.assertEqual(sum("--parsable " in line for line in words), 3, "a cell is tried three times")
+        # 70 s for the cell and 300 s for the start of its task, in whole minutes; the user's options come last.
+        self.assertRegex(words[0], r"^--parsable --requeue --array=0-0 .* --time=7 --partition=long /.*/job\.sh$")
+        self.assertIn("--jobs=7_0 --format=State", words[1])
+
+    def test_what_slurm_takes_later(self):
+        # Two tasks to an array; the second array is refused once, while the first is still known to run.
+        refused, submitted = self.folder / "refused", self.folder / "submitted"
+        environment = self.with_commands(
+            sbatch=f"""if [ -e {submitted} ] && [ ! -e {refused} ]; then
+    touch {refused}; echo 'sbatch: error: QOSMaxSubmitJobPerUserLimit' >&2; exit 1
+fi
+touch {submitted}
+for script; do :; done
+for word; do case $word in --array=0-*) last=${{word#--array=0-}};; esac; done
+for k in $(seq 0 $last); do SLURM_ARRAY_TASK_ID=$k sh $script >/dev/null 2>&1; done
+echo 8""", squeue="true", scancel="true", sacct="echo COMPLETED", scontrol="echo 'MaxArraySize            = 2'")
+        file = self.write("seeds: 4\n")
+        told = self.study("run", file, "--runner", "slurm", "--chunk", 1, environment=environment)
+        self.assertTrue(refused.exists())
+        self.assertRegex(told, r"met +4\n")
+
+    def test_what_killed_runs_left_is_removed(self):
+        file = self.write("keep: summary\n")
+        kept = self.folder / "out" / "kept"
+        dead = subprocess.Popen(["true"])
+        dead.wait()
+        host = os.uname().nodename
+        left, working = kept / f".000001-12345678.{host}.{dead.pid}", kept / f".000002-12345678.{host}.{os.getpid()}"
+        for folder in (left, working):
+            folder.mkdir(parents=True)
+        self.study("run", file)
+        self.assertEqual((left.exists(), working.exists()), (False, True))
 
     def test_shipped_studies(self):
         page = (ROOT / "docs" / "studies.md").read_text()

@@ -82,7 +82,7 @@ class SlurmStudy(study_case.StudyCase):
         before = self.slurm.jobs()
         driver = self.start(file, "--chunk", 5)
         time.sleep(4)
-        self.assertEqual(self.slurm.jobs(), before, "the same cells were submitted again")
+        self.assertEqual((self.slurm.jobs(), self.stored()), (before, 0), "the same cells were submitted again")
         subprocess.run(["scontrol", "release", *before], env=self.slurm.environment, check=True)
         told, error = driver.communicate()
         self.assertEqual(driver.returncode, 0, error)

@@ -11,7 +11,7 @@
 #include "controllers/dwa/obstacle_memory.h"
 #include "controllers/dwa/plan_ahead.h"
 #include "controllers/dwa/recovery.h"
-#include "controllers/parts/stop_profile.h"
+#include "controllers/parts/ground_drive/stop_profile.h"
 #include "engine/api/messages/commands.h"
 
 namespace vinerow {

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/parts/axle_angles.h"
-#include "controllers/parts/pose2.h"
+#include "controllers/parts/ground_drive/axle_angles.h"
+#include "controllers/parts/paths/pose2.h"
 #include "engine/api/vehicle_kinds.h"
 
 namespace vinerow {

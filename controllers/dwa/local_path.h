@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "controllers/parts/pose2.h"
+#include "controllers/parts/paths/pose2.h"
 
 namespace vinerow {
 

@@ -20,8 +20,8 @@
 #include <span>
 #include <vector>
 
-#include "controllers/parts/distance_field.h"
-#include "controllers/parts/pose2.h"
+#include "controllers/parts/paths/distance_field.h"
+#include "controllers/parts/paths/pose2.h"
 #include "engine/api/messages/sensors.h"
 #include "engine/api/stepped_parts.h"
 #include "engine/math/angles.h"

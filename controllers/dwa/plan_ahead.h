@@ -3,7 +3,7 @@
 
 #include "controllers/dwa/local_path.h"
 #include "controllers/dwa/vehicle_room.h"
-#include "controllers/parts/path.h"
+#include "controllers/parts/paths/path_curve.h"
 #include "engine/api/forward.h"
 
 namespace vinerow {

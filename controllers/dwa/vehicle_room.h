@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "controllers/dwa/point_field.h"
-#include "controllers/parts/distance_field.h"
-#include "controllers/parts/pose2.h"
+#include "controllers/parts/paths/distance_field.h"
+#include "controllers/parts/paths/pose2.h"
 
 namespace vinerow {
 

@@ -1,7 +1,7 @@
 #include "controllers/fixed_wing_lqr/fixed_wing_lqr.h"
 
-#include "controllers/parts/aircraft_ports.h"
-#include "controllers/parts/aircraft_weights.h"
+#include "controllers/parts/aircraft/aircraft_ports.h"
+#include "controllers/parts/aircraft/aircraft_weights.h"
 #include "engine/api/parameter_table.h"
 
 namespace vinerow {

@@ -7,7 +7,7 @@
 /// Source of the structure: Beard, McLain, "Small unmanned aircraft", 2012, ch. 6 (successive loop
 /// closure); here without rudder. Gains are chosen for an aircraft of about 1 kg and 12 m/s.
 
-#include "controllers/parts/aircraft_ports.h"
+#include "controllers/parts/aircraft/aircraft_ports.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {

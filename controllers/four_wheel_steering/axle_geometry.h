@@ -14,7 +14,7 @@
 
 #include <Eigen/Core>
 
-#include "controllers/parts/axle_angles.h"
+#include "controllers/parts/ground_drive/axle_angles.h"
 
 namespace vinerow {
 

@@ -8,7 +8,7 @@
 #include "controllers/four_wheel_steering/steered_vehicle.h"
 #include "controllers/four_wheel_steering/steering_law.h"
 #include "controllers/four_wheel_steering/wheel_speeds.h"
-#include "controllers/parts/path_watch.h"
+#include "controllers/parts/paths/path_watch.h"
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/parameters.h"
 

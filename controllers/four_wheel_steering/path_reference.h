@@ -13,7 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include "controllers/parts/path.h"
+#include "controllers/parts/paths/path_curve.h"
 #include "engine/api/forward.h"
 
 namespace vinerow {

@@ -20,7 +20,7 @@
 #include <Eigen/Core>
 
 #include "controllers/four_wheel_steering/axle_geometry.h"
-#include "controllers/parts/qp.h"
+#include "controllers/parts/solvers/qp.h"
 
 namespace vinerow {
 

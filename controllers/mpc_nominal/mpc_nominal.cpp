@@ -1,6 +1,6 @@
 #include "controllers/mpc_nominal/mpc_nominal.h"
 
-#include "controllers/parts/aircraft_mpc.h"
+#include "controllers/parts/aircraft/aircraft_mpc.h"
 #include "engine/api/parameter_table.h"
 
 namespace vinerow {

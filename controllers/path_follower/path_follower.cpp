@@ -6,9 +6,9 @@
 #include <cmath>
 #include <optional>
 
-#include "controllers/parts/drive_ports.h"
-#include "controllers/parts/path_watch.h"
-#include "controllers/parts/plan_speed.h"
+#include "controllers/parts/ground_drive/drive_ports.h"
+#include "controllers/parts/ground_drive/plan_speed.h"
+#include "controllers/parts/paths/path_watch.h"
 #include "controllers/path_follower/path_follower_law.h"
 #include "controllers/path_follower/slip_estimate.h"
 #include "engine/api/may_fail.h"

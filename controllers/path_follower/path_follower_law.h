@@ -23,8 +23,8 @@
 #include <limits>
 #include <vector>
 
-#include "controllers/parts/path.h"
-#include "controllers/parts/stop_profile.h"
+#include "controllers/parts/ground_drive/stop_profile.h"
+#include "controllers/parts/paths/path_curve.h"
 #include "controllers/path_follower/speed_profile.h"
 #include "engine/api/messages/commands.h"
 

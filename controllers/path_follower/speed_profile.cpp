@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/parts/path_corners.h"
+#include "controllers/parts/paths/path_corners.h"
 
 namespace vinerow {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "controllers/parts/path.h"
+#include "controllers/parts/paths/path_curve.h"
 
 namespace vinerow {
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <optional>
 
-#include "controllers/parts/drive_ports.h"
-#include "controllers/parts/path_watch.h"
-#include "controllers/parts/plan_speed.h"
+#include "controllers/parts/ground_drive/drive_ports.h"
+#include "controllers/parts/ground_drive/plan_speed.h"
+#include "controllers/parts/paths/path_watch.h"
 #include "controllers/pure_pursuit/pure_pursuit_law.h"
 #include "engine/api/may_fail.h"
 #include "engine/api/parameter_table.h"

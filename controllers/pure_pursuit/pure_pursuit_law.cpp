@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "controllers/parts/path_corners.h"
+#include "controllers/parts/paths/path_corners.h"
 #include "engine/api/messages/path.h"
 #include "engine/math/angles.h"
 

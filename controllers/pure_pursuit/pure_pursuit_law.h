@@ -26,7 +26,7 @@
 #include <optional>
 #include <vector>
 
-#include "controllers/parts/pose2.h"
+#include "controllers/parts/paths/pose2.h"
 #include "engine/api/forward.h"
 #include "engine/api/messages/commands.h"
 #include "engine/math/angles.h"

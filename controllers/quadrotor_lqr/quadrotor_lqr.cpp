@@ -1,6 +1,6 @@
 #include "controllers/quadrotor_lqr/quadrotor_lqr.h"
 
-#include "controllers/parts/flight_ports.h"
+#include "controllers/parts/rotorcraft/flight_ports.h"
 #include "controllers/quadrotor_lqr/quadrotor_lqr_law.h"
 #include "engine/api/parameter_table.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/parts/discretise.h"
-#include "controllers/parts/riccati.h"
+#include "controllers/parts/solvers/discretise.h"
+#include "controllers/parts/solvers/riccati.h"
 #include "engine/core/error.h"
 
 namespace vinerow {

@@ -19,10 +19,10 @@
 #include <string>
 #include <vector>
 
-#include "controllers/parts/flight_disturbance.h"
-#include "controllers/parts/flight_limits.h"
-#include "controllers/parts/hover_frame.h"
-#include "controllers/parts/rotor_prediction.h"
+#include "controllers/parts/rotorcraft/flight_disturbance.h"
+#include "controllers/parts/rotorcraft/flight_limits.h"
+#include "controllers/parts/rotorcraft/hover_frame.h"
+#include "controllers/parts/rotorcraft/rotor_prediction.h"
 
 namespace vinerow {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "controllers/parts/hover_frame.h"
+#include "controllers/parts/rotorcraft/hover_frame.h"
 
 namespace vinerow {
 

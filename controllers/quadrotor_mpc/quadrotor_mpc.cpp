@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "controllers/parts/flight_ports.h"
+#include "controllers/parts/rotorcraft/flight_ports.h"
 #include "controllers/quadrotor_mpc/limit_watch.h"
 #include "controllers/quadrotor_mpc/quadrotor_mpc_law.h"
 #include "engine/api/messages/event.h"

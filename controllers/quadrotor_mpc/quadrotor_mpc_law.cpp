@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "controllers/parts/discretise.h"
+#include "controllers/parts/solvers/discretise.h"
 
 namespace vinerow {
 namespace {

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "controllers/parts/flight_disturbance.h"
-#include "controllers/parts/hover_frame.h"
-#include "controllers/parts/linear_mpc.h"
-#include "controllers/parts/rotor_prediction.h"
+#include "controllers/parts/rotorcraft/flight_disturbance.h"
+#include "controllers/parts/rotorcraft/hover_frame.h"
+#include "controllers/parts/rotorcraft/rotor_prediction.h"
+#include "controllers/parts/solvers/linear_mpc.h"
 #include "controllers/quadrotor_mpc/flight_targets.h"
 #include "controllers/quadrotor_mpc/quadrotor_mpc_params.h"
 

@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "controllers/parts/rotorcraft.h"
+#include "controllers/parts/rotorcraft/rotorcraft.h"
 #include "engine/api/messages/flight.h"
 
 namespace vinerow {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/parts/flight_limits.h"
-#include "controllers/parts/flight_ports.h"
+#include "controllers/parts/rotorcraft/flight_limits.h"
+#include "controllers/parts/rotorcraft/flight_ports.h"
 #include "controllers/quadrotor_pid/attitude_law.h"
 #include "controllers/quadrotor_pid/position_law.h"
 #include "controllers/quadrotor_pid/rate_law.h"

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "controllers/parts/rotorcraft.h"
+#include "controllers/parts/rotorcraft/rotorcraft.h"
 
 namespace vinerow {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "controllers/parts/pose2.h"
+#include "controllers/parts/paths/pose2.h"
 #include "engine/api/forward.h"
 #include "engine/api/messages/path.h"
 

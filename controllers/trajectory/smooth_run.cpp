@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/parts/box_filter.h"
+#include "controllers/parts/paths/box_filter.h"
 #include "engine/math/angles.h"
 
 namespace vinerow {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "controllers/parts/box_filter.h"
+#include "controllers/parts/paths/box_filter.h"
 #include "engine/core/error.h"
 
 namespace vinerow {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "controllers/parts/plan_speed.h"
-#include "controllers/parts/stop_profile.h"
+#include "controllers/parts/ground_drive/plan_speed.h"
+#include "controllers/parts/ground_drive/stop_profile.h"
 #include "controllers/trajectory/flight_clock.h"
 #include "controllers/trajectory/simple_flights.h"
 #include "controllers/trajectory/trajectory_params.h"

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "controllers/parts/aircraft_mpc.h"
+#include "controllers/parts/aircraft/aircraft_mpc.h"
 #include "engine/api/parameter_table.h"
 
 namespace vinerow {

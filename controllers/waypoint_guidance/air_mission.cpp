@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/parts/wind_triangle.h"
+#include "controllers/parts/aircraft/wind_triangle.h"
 
 namespace vinerow {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "controllers/parts/leg_frame.h"
+#include "controllers/parts/paths/leg_frame.h"
 #include "controllers/waypoint_guidance/heading_generator.h"
 #include "engine/api/forward.h"
 #include "engine/api/messages/path.h"

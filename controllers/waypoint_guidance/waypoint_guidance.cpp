@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "controllers/parts/wind_estimate.h"
-#include "controllers/parts/wind_triangle.h"
+#include "controllers/parts/aircraft/wind_estimate.h"
+#include "controllers/parts/aircraft/wind_triangle.h"
 #include "controllers/waypoint_guidance/air_mission.h"
 #include "controllers/waypoint_guidance/waypoint_guidance_params.h"
 #include "engine/api/may_fail.h"

@@ -305,8 +305,9 @@ template <HasFields T>
 const MessageType& message_type() {
   static const MessageType type = [] {
     const T fresh{};
-    std::string text = std::string(T::kType) + " " + std::to_string(sizeof(T)) + " aligned to " +
-                       std::to_string(alignof(T)) + "\n";
+    std::string text(T::kType);
+    text.append(" ").append(std::to_string(sizeof(T))).append(" aligned to ");
+    text.append(std::to_string(alignof(T))).append("\n");
     T::fields(fresh, LayoutField{text, &fresh});
     return MessageType{T::kType, hash64(text), frame_of<T>()};
   }();

@@ -1,5 +1,5 @@
 #pragma once
-/// The list of parts a scenario can name. Filled explicitly by register.cpp of each folder and by
+/// The list of parts a scenario can name. Filled explicitly by register_*.cpp of each folder and by
 /// plug-ins.
 
 #include <functional>

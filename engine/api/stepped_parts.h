@@ -17,12 +17,12 @@
 #include <vector>
 
 #include "engine/api/forward.h"
-#include "engine/api/geo_origin.h"
 #include "engine/api/messages/path.h"
 #include "engine/api/part.h"
 #include "engine/api/scene_query.h"
 #include "engine/api/vehicle.h"
 #include "engine/core/result.h"
+#include "engine/math/geo_origin.h"
 
 namespace vinerow {
 

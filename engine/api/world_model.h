@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "engine/api/forward.h"
-#include "engine/api/geo_origin.h"
 #include "engine/api/height_field.h"
 #include "engine/api/mesh.h"
 #include "engine/api/scenery.h"
 #include "engine/api/soil.h"
 #include "engine/api/wind.h"
 #include "engine/core/indirect.h"
+#include "engine/math/geo_origin.h"
 
 namespace vinerow {
 

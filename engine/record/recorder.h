@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/api/signal.h"
-#include "engine/record/scene.h"
+#include "engine/record/scene_message.h"
 
 namespace vinerow::record {
 

@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/api/geo_origin.h"
 #include "engine/api/parameter_table_fwd.h"
+#include "engine/math/geo_origin.h"
 
 namespace vinerow {
 

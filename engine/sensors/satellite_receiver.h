@@ -3,7 +3,7 @@
 
 #include "engine/api/messages/sensors.h"
 #include "engine/api/world_model.h"
-#include "engine/io/geo.h"
+#include "engine/math/geo.h"
 #include "engine/sensors/mounted_sensor.h"
 
 namespace vinerow {

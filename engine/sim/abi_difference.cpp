@@ -40,8 +40,8 @@ std::string explain(const std::string& name, const std::string& value, const std
   }
   if (name == "alignment") {
     return fmt::format(
-        "was compiled with {}-byte alignment (-mavx or -march=native?), this vinerow uses {}", value,
-        own);
+        "was compiled with {}-byte alignment (-mavx or -march=native?), this vinerow uses {}",
+        value, own);
   }
   if (name == "ndebug") {
     return value == "1" ? "was compiled with NDEBUG, this vinerow without it"
@@ -52,8 +52,8 @@ std::string explain(const std::string& name, const std::string& value, const std
                        own);
   }
   if (name == "gxx_abi") {
-    return fmt::format("was compiled for C++ ABI {} (another compiler?), this vinerow for {}", value,
-                       own);
+    return fmt::format("was compiled for C++ ABI {} (another compiler?), this vinerow for {}",
+                       value, own);
   }
   return fmt::format("holds {} in {}, this vinerow in {} (other compiler flags?)", name,
                      describe_layout(value), describe_layout(own));

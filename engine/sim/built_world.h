@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "engine/api/registry.h"
-#include "engine/io/scenario.h"
 #include "engine/physics/static_scene.h"
+#include "engine/scenario/scenario.h"
 
 namespace vinerow {
 

@@ -3,7 +3,7 @@
 
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 
 namespace vinerow {
 

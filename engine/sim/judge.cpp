@@ -8,8 +8,8 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/known_names.h"
-#include "engine/sim/metrics/register.h"
+#include "engine/metrics/register_metrics.h"
+#include "engine/scenario/known_names.h"
 
 namespace vinerow {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 #include "engine/sim/phase_report.h"
 
 namespace vinerow {

@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/scenario_phases.h"
+#include "engine/scenario/scenario_phases.h"
 #include "engine/sim/judge.h"
 
 namespace vinerow {

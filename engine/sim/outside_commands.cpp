@@ -35,8 +35,7 @@ SignalBase& OutsideCommands::find(const SignalBase& value) const {
   SignalBase* signal = bus_.find(name);
   if (std::find(signals_.begin(), signals_.end(), name) != signals_.end()) {
     if (std::string_view(signal->type()) == value.type()) return *signal;
-    throw ConfigError(
-        fmt::format("signal '{}' is {}, not {}", name, signal->type(), value.type()));
+    throw ConfigError(fmt::format("signal '{}' is {}, not {}", name, signal->type(), value.type()));
   }
   const std::string taken = signals_.empty() ? "none" : join(signals_);
   if (signal && !signal->writer().empty()) {
@@ -51,13 +50,13 @@ void OutsideCommands::add(OutsideCommand command, Time now) {
   const SignalBase& value = *command.value;
   static_cast<void>(find(value));
   if (command.stamp < now) {
-    throw ConfigError(fmt::format(
-        "a command for '{}' at {:.9g} s comes too late: the next instant is {:.9g} s", value.name(),
-        command.stamp.s(), now.s()));
+    throw ConfigError(
+        fmt::format("a command for '{}' at {:.9g} s comes too late: the next instant is {:.9g} s",
+                    value.name(), command.stamp.s(), now.s()));
   }
   if (command.value->has_nan()) {
-    throw ConfigError(fmt::format("a command for '{}' at {:.9g} s holds NaN", value.name(),
-                                  command.stamp.s()));
+    throw ConfigError(
+        fmt::format("a command for '{}' at {:.9g} s holds NaN", value.name(), command.stamp.s()));
   }
   const auto earlier = [](const OutsideCommand& a, const OutsideCommand& b) {
     return std::tie(a.stamp.ns, a.value->name()) < std::tie(b.stamp.ns, b.value->name());

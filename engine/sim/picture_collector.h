@@ -9,7 +9,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/api/product.h"
 #include "engine/api/signal.h"
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 
 namespace vinerow {
 

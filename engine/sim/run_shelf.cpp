@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/io/scenario_seed.h"
+#include "engine/scenario/scenario_seed.h"
 
 namespace vinerow {
 

@@ -4,7 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/scenario_seed.h"
+#include "engine/scenario/scenario_seed.h"
 #include "engine/sim/run_shelf.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"

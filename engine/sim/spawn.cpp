@@ -27,11 +27,12 @@ Heading find_on_alley(const io::SpawnConfig& spawn, const WorldModel& world,
                       const std::string& vehicle) {
   const auto& alleys = world.rows->alleys;
   if (alleys.empty()) {
-    throw ConfigError(fmt::format(
-        "{}: vehicles.{}.spawn.alley = {}, but world '{}' has {} row{} and so no alley between two: "
-        "give it more rows or the vehicle a spawn of {{x_m, y_m}}",
-        spawn.where.text(), vehicle, *spawn.alley, world.name, world.rows->rows.size(),
-        world.rows->rows.size() == 1 ? "" : "s"));
+    throw ConfigError(
+        fmt::format("{}: vehicles.{}.spawn.alley = {}, but world '{}' has {} row{} and so no alley "
+                    "between two: "
+                    "give it more rows or the vehicle a spawn of {{x_m, y_m}}",
+                    spawn.where.text(), vehicle, *spawn.alley, world.name, world.rows->rows.size(),
+                    world.rows->rows.size() == 1 ? "" : "s"));
   }
   if (*spawn.alley < 0 || *spawn.alley >= static_cast<int>(alleys.size())) {
     throw ConfigError(

@@ -6,8 +6,8 @@
 
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
-#include "engine/io/scenario.h"
 #include "engine/math/pose.h"
+#include "engine/scenario/scenario.h"
 
 namespace vinerow {
 

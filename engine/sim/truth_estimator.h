@@ -1,6 +1,7 @@
 #pragma once
 /// The estimator of a vehicle that has none: its estimate is the truth.
 
+#include "engine/api/registry.h"
 #include "engine/api/stepped_parts.h"
 
 namespace vinerow {
@@ -17,5 +18,8 @@ class TruthEstimator final : public Estimator {
   SignalReader<Odometry> truth_;
   SignalWriter<Odometry> estimate_;
 };
+
+/// Adds it as `truth`, for scenarios that ask for it by name.
+void register_truth_estimator(Registry& registry);
 
 }  // namespace vinerow

@@ -6,7 +6,7 @@
 #include "engine/api/forward.h"
 #include "engine/api/wind.h"
 #include "engine/core/time.h"
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 
 namespace vinerow {
 

@@ -4,8 +4,8 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include "tests/worlds/mapping/cloud/synthetic_parcel.h"
-#include "worlds/mapping/cloud/make_cloud_map.h"
+#include "tests/worlds/mapping/photogrammetry/synthetic_parcel.h"
+#include "worlds/mapping/pipeline/make_cloud_map.h"
 
 namespace vinerow::worlds::cloud_map_bench {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "controllers/four_wheel_steering/four_wheel_steering.h"
 #include "controllers/four_wheel_steering/wheel_speed_qp.h"
-#include "controllers/parts/path.h"
-#include "controllers/parts/path_pieces.h"
+#include "controllers/parts/paths/path_curve.h"
+#include "controllers/parts/paths/path_pieces.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::four_wheel_steering_bench {

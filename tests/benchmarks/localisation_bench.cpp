@@ -7,13 +7,13 @@
 
 #include <numeric>
 
-#include "controllers/estimation/navigation_measurements.h"
-#include "controllers/estimation/row_ground.h"
+#include "controllers/estimation/inertial/navigation_measurements.h"
+#include "controllers/estimation/row_localisation/row_ground.h"
 #include "engine/math/angles.h"
 #include "tests/benchmarks/localisation_flight.h"
 #include "tests/benchmarks/localisation_timing.h"
-#include "tests/controllers/estimation/imu_course.h"
-#include "tests/controllers/estimation/map_localisation_lab.h"
+#include "tests/controllers/estimation/inertial/imu_course.h"
+#include "tests/controllers/estimation/row_localisation/map_localisation_lab.h"
 #include "tests/controllers/support/row_mesh_map.h"
 #include "tests/support/heap.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "tests/controllers/estimation/localisation_lab.h"
+#include "tests/controllers/estimation/row_localisation/localisation_lab.h"
 
 namespace vinerow::bench {
 

@@ -12,7 +12,7 @@
 #include "engine/math/angles.h"
 #include "tests/benchmarks/localisation_flight.h"
 #include "tests/benchmarks/localisation_timing.h"
-#include "tests/controllers/estimation/map_localisation_lab.h"
+#include "tests/controllers/estimation/row_localisation/map_localisation_lab.h"
 
 namespace vinerow::bench::localisation_phases_bench {
 namespace {

@@ -12,9 +12,9 @@
 #include <ctime>
 #include <vector>
 
-#include "controllers/parts/discretise.h"
-#include "controllers/parts/linear_mpc.h"
-#include "controllers/parts/riccati.h"
+#include "controllers/parts/solvers/discretise.h"
+#include "controllers/parts/solvers/linear_mpc.h"
+#include "controllers/parts/solvers/riccati.h"
 #include "engine/core/random.h"
 
 namespace vinerow::mpc_bench {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "engine/core/random.h"
-#include "engine/io/cloud_output.h"
-#include "engine/io/point_cloud.h"
-#include "engine/io/point_cloud_writer.h"
-#include "worlds/mapping/cloud/reading/read_cloud.h"
+#include "engine/io/clouds/cloud_output.h"
+#include "engine/io/clouds/point_cloud.h"
+#include "engine/io/clouds/point_cloud_writer.h"
+#include "worlds/mapping/reading/read_cloud.h"
 
 namespace vinerow::point_cloud_bench {
 namespace {

@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-#include "controllers/parts/qp.h"
+#include "controllers/parts/solvers/qp.h"
 #include "engine/core/random.h"
 
 namespace vinerow::qp_bench {

@@ -3,9 +3,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "controllers/planning/rrt_quartile.h"
+#include "controllers/planning/search/rrt_quartile.h"
 #include "engine/math/angles.h"
-#include "tests/controllers/planning/hand_grids.h"
+#include "tests/controllers/planning/search/hand_grids.h"
 
 namespace vinerow::quartile_bench {
 namespace {

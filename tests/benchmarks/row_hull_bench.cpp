@@ -3,8 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "tests/worlds/mapping/cloud/synthetic_canopy.h"
-#include "worlds/mapping/cloud/hulls/row_hull.h"
+#include "tests/worlds/mapping/hulls/synthetic_canopy.h"
+#include "worlds/mapping/hulls/row_hull.h"
 
 namespace vinerow::row_hull_bench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "engine/sim/run.h"
+#include "engine/run/run.h"
 #include "tests/support/paths.h"
 #include "tools/parts/register_all.h"
 

@@ -9,7 +9,7 @@
 
 #include "engine/api/world_model.h"
 #include "engine/math/angles.h"
-#include "tests/controllers/parts/random_sets.h"
+#include "tests/controllers/parts/solvers/random_sets.h"
 #include "tests/controllers/support/aircraft_loop.h"
 #include "tests/support/no_alloc.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "controllers/register.h"
+#include "controllers/register_controllers.h"
 #include "engine/api/registry.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "controllers/register.h"
+#include "controllers/register_controllers.h"
 #include "engine/api/may_fail.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"

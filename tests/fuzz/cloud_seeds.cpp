@@ -8,7 +8,7 @@
 #include <iterator>
 #include <limits>
 
-#include "engine/io/point_cloud_writer.h"
+#include "engine/io/clouds/point_cloud_writer.h"
 
 namespace vinerow::fuzz {
 namespace {

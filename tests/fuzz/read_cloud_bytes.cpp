@@ -5,12 +5,12 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/io/block_file.h"
-#include "engine/io/point_cloud.h"
-#include "engine/io/point_cloud_las.h"
-#include "engine/io/point_cloud_pcd.h"
-#include "engine/io/point_cloud_ply.h"
-#include "engine/io/point_cloud_xyz.h"
+#include "engine/io/clouds/point_cloud.h"
+#include "engine/io/clouds/point_cloud_las.h"
+#include "engine/io/clouds/point_cloud_pcd.h"
+#include "engine/io/clouds/point_cloud_ply.h"
+#include "engine/io/clouds/point_cloud_xyz.h"
+#include "engine/io/files/block_file.h"
 
 namespace vinerow::fuzz {
 namespace {

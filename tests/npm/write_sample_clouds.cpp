@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "engine/io/point_cloud_writer.h"
+#include "engine/io/clouds/point_cloud_writer.h"
 
 int main(int argc, char** argv) {
   using namespace vinerow::io;

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "engine/io/mesh_scene_writer.h"
+#include "engine/io/meshes/mesh_scene_writer.h"
 
 namespace {
 

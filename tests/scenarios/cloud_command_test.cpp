@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/api/world_model.h"
-#include "engine/io/point_cloud.h"
-#include "engine/io/point_cloud_crs.h"
+#include "engine/io/clouds/point_cloud.h"
+#include "engine/io/clouds/point_cloud_crs.h"
 #include "tests/scenarios/command.h"
-#include "worlds/mapping/cloud/sampling/cloud_truth.h"
+#include "worlds/mapping/photogrammetry/cloud_truth.h"
 
 namespace vinerow::test::cloud_command_test {
 namespace {

@@ -6,7 +6,7 @@
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/small_vineyard_map.h"
 #include "vinerow/testing.h"
-#include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/folder/map_folder.h"
 
 namespace vinerow::cloud_map_mission_test {
 namespace {

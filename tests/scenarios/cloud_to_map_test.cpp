@@ -8,8 +8,8 @@
 
 #include "engine/api/world_model.h"
 #include "tests/scenarios/command.h"
-#include "worlds/mapping/cloud/folder/map_folder.h"
-#include "worlds/mapping/cloud/sampling/cloud_truth.h"
+#include "worlds/mapping/folder/map_folder.h"
+#include "worlds/mapping/photogrammetry/cloud_truth.h"
 
 namespace vinerow::cloud_to_map_test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "engine/sim/run.h"
+#include "engine/run/run.h"
 #include "tests/scenarios/command.h"
 #include "tests/support/folder_test.h"
 #include "tools/parts/register_all.h"

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "engine/api/messages/sensors.h"
-#include "engine/sim/run.h"
+#include "engine/run/run.h"
 #include "engine/sim/simulation.h"
 #include "tests/scenarios/command.h"
 #include "tools/parts/register_all.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/ros_map.h"
+#include "engine/io/grids/ros_map.h"
 #include "engine/render/png.h"
 #include "tests/scenarios/command.h"
 

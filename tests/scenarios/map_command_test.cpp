@@ -12,8 +12,8 @@
 #include "engine/render/png.h"
 #include "tests/scenarios/small_vineyard_map.h"
 #include "tests/support/paths.h"
-#include "worlds/mapping/cloud/folder/map_folder.h"
-#include "worlds/mapping/cloud/sampling/cloud_truth.h"
+#include "worlds/mapping/folder/map_folder.h"
+#include "worlds/mapping/photogrammetry/cloud_truth.h"
 
 namespace vinerow::map_command_test {
 namespace {

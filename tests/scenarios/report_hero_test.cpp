@@ -4,10 +4,10 @@
 
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
+#include "engine/playback/frame_words.h"
 #include "engine/render/scene.h"
-#include "engine/sim/frame_words.h"
 #include "tests/scenarios/command.h"
-#include "tools/vinerow/report/pictures.h"
+#include "tools/report/page_pictures.h"
 
 namespace vinerow::report_hero_test {
 namespace {

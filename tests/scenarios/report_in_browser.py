@@ -18,7 +18,7 @@ import zlib
 
 WIDTH, HEIGHT = 1280, 900
 TELEPHONES = (390, 500)
-# The soft green of a verdict that is met (tools/vinerow/report/page_style.cpp).
+# The soft green of a verdict that is met (tools/report/page_style.cpp).
 GREEN = (0xE6, 0xF1, 0xE2)
 ERRORS = re.compile(r"CONSOLE.*(Uncaught|SyntaxError|TypeError|ReferenceError|Failed to load|net::ERR|Refused)")
 

@@ -10,7 +10,7 @@
 
 #include "engine/api/messages/sensors.h"
 #include "engine/core/error.h"
-#include "engine/io/scenario_seed.h"
+#include "engine/scenario/scenario_seed.h"
 #include "engine/sim/vehicle_runtime.h"
 #include "tests/scenarios/session_support.h"
 #include "tools/parts/register_all.h"

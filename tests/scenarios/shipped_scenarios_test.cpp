@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/sim/metrics/register.h"
+#include "engine/metrics/register_metrics.h"
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"
 #include "tests/scenarios/command.h"

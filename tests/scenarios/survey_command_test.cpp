@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "engine/api/height_field.h"
-#include "engine/io/height_raster.h"
-#include "engine/io/mission_file.h"
+#include "engine/io/geo/height_raster.h"
+#include "engine/io/missions/mission_file.h"
 #include "engine/math/angles.h"
 #include "engine/render/png.h"
 #include "tests/scenarios/command.h"

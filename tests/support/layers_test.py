@@ -8,49 +8,112 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 CORE, MATH, API = "engine/core", "engine/math", "engine/api"
-PHYSICS, IO, SENSORS = "engine/physics", "engine/io", "engine/sensors"
-RENDER, RECORD, SIM = "engine/render", "engine/record", "engine/sim"
-ENGINE = [CORE, MATH, API, PHYSICS, IO, SENSORS, RENDER, RECORD, SIM]
+BASE = [CORE, MATH, API]
+PHYSICS, IO, SCENARIO, SENSORS = "engine/physics", "engine/io", "engine/scenario", "engine/sensors"
+RENDER, RECORD, METRICS = "engine/render", "engine/record", "engine/metrics"
+SIM, PLAYBACK, RUN = "engine/sim", "engine/playback", "engine/run"
+FILES, GEO, CLOUDS = "engine/io/files", "engine/io/geo", "engine/io/clouds"
+VEHICLE_PARTS, WORLD_PARTS = "vehicles/parts", "worlds/parts"
+SOLVERS, PATHS = "controllers/parts/solvers", "controllers/parts/paths"
+CONTROLLER_PARTS = ["controllers/parts"]
+ESTIMATION_PARTS = "controllers/estimation/parts"
+SEARCH, ROUTES, SURVEY = "controllers/planning/search", "controllers/planning/routes", "controllers/planning/survey"
+MAPPING = "worlds/mapping"
+MODEL, READING, ROWS = f"{MAPPING}/model", f"{MAPPING}/reading", f"{MAPPING}/rows"
+HULLS, GRID, FOLDER, PIPELINE = f"{MAPPING}/hulls", f"{MAPPING}/grid", f"{MAPPING}/folder", f"{MAPPING}/pipeline"
 
+# What the rooms may include. The entry of the longest path that holds a file counts; a folder in a list stands for all below it.
+# The rooms of a folder without an entry of their own may include each other only where that folder's list says so.
 ALLOWED = {
     CORE: [],
     MATH: [CORE],
     API: [CORE, MATH],
-    PHYSICS: [CORE, MATH, API],
-    IO: [CORE, MATH, API],
-    SENSORS: [CORE, MATH, API, IO],
-    RENDER: [CORE, MATH, API],
-    RECORD: [CORE, MATH, API],
-    SIM: ENGINE,
-    "vehicles": [CORE, MATH, API, PHYSICS, IO],
-    "worlds": [CORE, MATH, API, PHYSICS, IO],
-    "controllers": [CORE, MATH, API],
-    "tools": ENGINE + ["vehicles", "worlds", "controllers", "vinerow"],
-    "tests": ENGINE + ["vehicles", "worlds", "controllers", "tools", "vinerow"],
+    PHYSICS: BASE,
+    FILES: BASE,
+    GEO: BASE + [FILES],
+    CLOUDS: BASE + [FILES, GEO],
+    "engine/io/meshes": BASE + [FILES, CLOUDS],
+    "engine/io/missions": BASE + [FILES, GEO],
+    "engine/io/grids": BASE + [FILES],
+    "engine/io/robots": BASE,
+    SCENARIO: BASE + [FILES],
+    SENSORS: BASE,
+    RENDER: BASE,
+    RECORD: BASE,
+    METRICS: BASE,
+    SIM: BASE + [PHYSICS, IO, SCENARIO, SENSORS, METRICS],
+    PLAYBACK: BASE + [PHYSICS, IO, SCENARIO, RENDER, RECORD, METRICS, SIM],
+    RUN: BASE + [IO, SCENARIO, RECORD, SIM, PLAYBACK],
+    # One folder for each vehicle, which knows the shared parts and no other vehicle.
+    "vehicles": BASE + [PHYSICS, IO, VEHICLE_PARTS],
+    VEHICLE_PARTS: BASE + [PHYSICS],
+    "vehicles/payloads": BASE + [VEHICLE_PARTS],
+    # One folder for each world.
+    "worlds": BASE + [PHYSICS, IO, WORLD_PARTS, MAPPING],
+    WORLD_PARTS: BASE + [IO, MODEL],
+    MODEL: BASE,
+    READING: BASE + [IO, MODEL],
+    ROWS: BASE + [MODEL],
+    HULLS: BASE + [MODEL, ROWS],
+    GRID: BASE + [MODEL],
+    FOLDER: BASE + [IO, MODEL, READING, GRID],
+    PIPELINE: BASE + [MODEL, ROWS, HULLS, GRID],
+    f"{MAPPING}/photogrammetry": BASE + [IO, MODEL, FOLDER],
+    f"{MAPPING}/from_truth": BASE + [IO, MODEL, FOLDER, GRID],
+    f"{MAPPING}/jobs": BASE + [MAPPING],
+    # One folder for each controller.
+    "controllers": BASE + CONTROLLER_PARTS,
+    SOLVERS: [CORE, MATH],
+    PATHS: BASE,
+    "controllers/parts/ground_drive": BASE + [PATHS],
+    "controllers/parts/rotorcraft": BASE + [PATHS, SOLVERS],
+    "controllers/parts/aircraft": BASE + [PATHS, SOLVERS],
+    ESTIMATION_PARTS: BASE + CONTROLLER_PARTS,
+    "controllers/estimation/inertial": BASE + [ESTIMATION_PARTS],
+    "controllers/estimation/odometry": BASE + CONTROLLER_PARTS + [ESTIMATION_PARTS],
+    "controllers/estimation/row_localisation": BASE + [ESTIMATION_PARTS],
+    SEARCH: BASE + [PATHS],
+    SURVEY: BASE + [PATHS, GEO, "engine/io/missions"],  # parcels and missions of ground stations
+    ROUTES: BASE + [PATHS, SEARCH, SURVEY, "engine/io/missions"],
+    "controllers/planning/flight": BASE + [PATHS, SEARCH, ROUTES, SURVEY],
+    # Tools: rooms may know whatever lies below them, in this order.
+    "tools": ["engine", "vehicles", "worlds", "controllers", "tools", "vinerow"],
+    "tools/parts": ["engine", "vehicles", "worlds", "controllers"],
+    "tools/terminal": BASE,
+    "tools/export": BASE + [FILES, RECORD],
+    "tools/compare": BASE + ["tools/terminal"],
+    "tools/pictures": ["engine", "worlds", "controllers"],
+    "tools/replay": ["engine"],
+    "tools/report": ["engine", MODEL, "tools/export", "tools/pictures", "tools/replay"],
+    "tools/study/plots": ["tools/export", "tools/pictures", "tools/report"],
+    "tools/study": ["engine", "tools/parts", "tools/report", "tools/study/plots"],
+    "tests": ["engine", "vehicles", "worlds", "controllers", "tools", "tests", "vinerow"],
 }
 
-# What a folder inside these may know beyond that.
-ALLOWED_INSIDE = {
-    "controllers/planning": [IO],  # missions and areas of ground stations
-}
+# These sources list everything of their folder.
+REGISTERS = re.compile(r"(vehicles|worlds|controllers)/register_\w+\.(h|cpp)")
+
+# The stages from points to a map work on points alone: they run on real clouds, without a world.
+WITHOUT_WORLD = [MODEL, READING, ROWS, HULLS, GRID, FOLDER, PIPELINE]
+WORLD_HEADERS = ["engine/api/world_model.h", "engine/api/scene_query.h"]
 
 # An outside library is included in one folder only: pattern of the header -> folders.
 OUTSIDE = {
     r"bt[A-Z]|Bullet": [PHYSICS],
     r"embree": [PHYSICS],
-    r"assimp/": [IO],
+    r"assimp/": ["engine/io/meshes"],
     r"gdal|ogr_|cpl_": [IO],
-    r"GeographicLib/": [IO],
-    r"yaml-cpp/": [IO],
-    r"urdf": [IO],
-    r"tinyxml2": [IO],
+    r"GeographicLib/": [MATH, IO],
+    r"yaml-cpp/": [FILES],
+    r"urdf": ["engine/io/robots"],
+    r"tinyxml2": ["engine/io/robots", "engine/io/meshes"],
     r"GL/": [RENDER],
     r"png\.h": [RENDER, "tests"],
     r"ft2build|freetype": [RENDER],
     r"zstd|lz4": [RECORD],
-    r"ompl/": ["controllers/planning"],
+    r"ompl/": [SEARCH],
     r"CLI/": ["tools"],
-    r"boost/random": [IO],
+    r"boost/random": [SCENARIO],
     r"sqlite3": ["tools/study"],
     r"muParser": ["tools/study"],
     r"boost/math": ["tools/study"],
@@ -60,8 +123,25 @@ INCLUDE = re.compile(r'^\s*#include\s+(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 
 
 def folder_of(path: str) -> str:
-    parts = path.split("/")
-    return "/".join(parts[:2]) if parts[0] == "engine" else parts[0]
+    return path.rsplit("/", 1)[0]
+
+
+def holds(room: str, path: str) -> bool:
+    return path == room or path.startswith(room + "/")
+
+
+def room_of(path: str) -> str:
+    """The entry of ALLOWED that counts for a file."""
+    rooms = [room for room in ALLOWED if holds(room, path)]
+    return max(rooms, key=len) if rooms else ""
+
+
+def may_include(name: str, ours: str) -> bool:
+    room = room_of(name)
+    if REGISTERS.fullmatch(name) or any(holds(other, ours) for other in ALLOWED.get(room, [])):
+        return True
+    # A room that is one folder for each thing: each may include its own.
+    return room == room_of(ours) and (room != name.split("/")[0] or folder_of(name) == folder_of(ours))
 
 
 def faults_of(file: pathlib.Path) -> list[str]:
@@ -70,26 +150,31 @@ def faults_of(file: pathlib.Path) -> list[str]:
     faults = []
     for ours, outside in INCLUDE.findall(file.read_text(encoding="utf-8")):
         if ours:
-            there = folder_of(ours)
-            inside = ALLOWED_INSIDE.get("/".join(name.split("/")[:2]), [])
-            if there != here and there not in ALLOWED[here] + inside:
-                faults.append(f"{name} includes {ours}: {here} must not know {there}")
-            # Vehicles, worlds and controllers share their parts, not each other's folders.
-            if here == there and here in ("vehicles", "worlds", "controllers"):
-                mine, theirs = name.split("/")[1], ours.split("/")[1]
-                shared = ("parts", "planning", "estimation", "guidance", "mapping")
-                registers = mine.startswith("register")
-                if "/" in ours[len(there) + 1:] and theirs != mine and theirs not in shared and not registers:
-                    faults.append(f"{name} includes {ours}: {mine} must not know {theirs}")
+            if not may_include(name, ours):
+                faults.append(f"{name} includes {ours}: {here} must not know {folder_of(ours)}")
+            if ours in WORLD_HEADERS and room_of(name) in WITHOUT_WORLD:
+                faults.append(f"{name} includes {ours}: {room_of(name)} works without a world")
         else:
             for pattern, folders in OUTSIDE.items():
-                if re.match(pattern, outside) and not any(name.startswith(f + "/") for f in folders):
+                if re.match(pattern, outside) and not any(holds(f, name) for f in folders):
                     faults.append(f"{name} includes <{outside}>: only {', '.join(folders)} may")
     return faults
 
 
+def circles() -> list[str]:
+    """Rooms that ALLOWED lets include each other."""
+    def reach(room, seen):
+        for other in ALLOWED:
+            if other not in seen and any(holds(allowed, other) for allowed in ALLOWED[room]):
+                seen.add(other)
+                reach(other, seen)
+        return seen
+    return [f"{room} may include itself by way of others" for room in ALLOWED
+            if room not in ("tools", "tests", f"{MAPPING}/jobs") and room in reach(room, set())]
+
+
 def main() -> int:
-    faults = []
+    faults = circles()
     count = 0
     for top in ("engine", "vehicles", "worlds", "controllers", "tools", "tests"):
         for file in sorted((ROOT / top).rglob("*")):

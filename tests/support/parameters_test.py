@@ -14,11 +14,11 @@ MACHINERY = {
     "engine/api/parameter_table.h",
     "engine/api/parameter_table.cpp",
     # Readers of JSON that is no parameter of ours.
-    "engine/io/qgc_plan.cpp",
-    "tools/vinerow/report/report.cpp",
-    "tools/vinerow/report/run_facts.cpp",
-    "tools/vinerow/report/run_folder.cpp",
-    "tools/vinerow/report/verdict.cpp",
+    "engine/io/missions/qgc_plan.cpp",
+    "tools/report/report.cpp",
+    "tools/report/run_facts.cpp",
+    "tools/report/run_folder.cpp",
+    "tools/report/verdict.cpp",
 }
 
 MAKERS = "number|positive|integer|boolean|text|choice|path|number_list|text_list|group_list|group"

@@ -1,4 +1,4 @@
-#include "tools/vinerow/legend.h"
+#include "tools/pictures/legend.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "engine/api/messages/event.h"
 #include "engine/render/png.h"
 #include "tests/scenarios/command.h"
-#include "tools/vinerow/report/replay.h"
+#include "tools/replay/replay.h"
 
 namespace vinerow::replay_browser_test {
 namespace {

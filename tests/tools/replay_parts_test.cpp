@@ -7,12 +7,12 @@
 
 #include "engine/core/error.h"
 #include "tests/tools/replay_page.h"
-#include "tools/vinerow/report/base64.h"
-#include "tools/vinerow/report/replay_decimate.h"
-#include "tools/vinerow/report/replay_glb.h"
-#include "tools/vinerow/report/replay_ground.h"
-#include "tools/vinerow/report/replay_plans.h"
-#include "tools/vinerow/report/replay_run.h"
+#include "tools/replay/base64.h"
+#include "tools/replay/replay_decimate.h"
+#include "tools/replay/replay_glb.h"
+#include "tools/replay/replay_ground.h"
+#include "tools/replay/replay_plans.h"
+#include "tools/replay/replay_run.h"
 
 namespace vinerow::tools::replay_parts_test {
 namespace {

@@ -12,7 +12,7 @@
 #include "tests/scenarios/command.h"
 #include "tests/tools/replay_page.h"
 #include "tools/parts/register_all.h"
-#include "tools/vinerow/report/replay_run.h"
+#include "tools/replay/replay_run.h"
 
 namespace vinerow::tools::replay_run_test {
 namespace {

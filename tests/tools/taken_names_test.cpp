@@ -6,10 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "engine/io/scenario_keys.h"
-#include "engine/io/scenario_part.h"
+#include "engine/scenario/scenario_keys.h"
+#include "engine/scenario/scenario_part.h"
 #include "tests/support/paths.h"
-#include "tools/vinerow/commands.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools::taken_names_test {
 namespace {

@@ -16,7 +16,7 @@
 #include "tests/support/no_alloc.h"
 #include "tests/support/paths.h"
 #include "tests/vehicles/small_worlds.h"
-#include "vehicles/register.h"
+#include "vehicles/register_vehicles.h"
 
 namespace vinerow::vehicles::conformance_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "worlds/mesh/mesh.h"
+#include "worlds/mesh/mesh_world.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "worlds/parts/canopy.h"
 #include "worlds/parts/foliage.h"
 #include "worlds/parts/primitives.h"
-#include "worlds/parts/row_map.h"
-#include "worlds/parts/soil.h"
+#include "worlds/mapping/model/row_map.h"
+#include "worlds/parts/soil_types.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/parts/trellis.h"
 

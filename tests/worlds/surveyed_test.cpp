@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/io/geojson.h"
+#include "engine/io/geo/geojson.h"
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
 #include "tests/worlds/world_fixture.h"

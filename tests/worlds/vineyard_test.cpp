@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "engine/core/error.h"
-#include "engine/io/geo.h"
 #include "engine/math/angles.h"
+#include "engine/math/geo.h"
 #include "engine/physics/world_scene.h"
 #include "tests/worlds/world_fixture.h"
 #include "worlds/parts/mesh_store.h"

@@ -15,7 +15,7 @@
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "tests/support/paths.h"
-#include "worlds/register.h"
+#include "worlds/register_worlds.h"
 
 namespace vinerow::test {
 

@@ -1,11 +1,12 @@
 #include "tools/parts/register_all.h"
 
-#include "controllers/register.h"
-#include "engine/sensors/register.h"
-#include "engine/sim/metrics/register.h"
+#include "controllers/register_controllers.h"
+#include "engine/metrics/register_metrics.h"
+#include "engine/sensors/register_sensors.h"
 #include "engine/sim/plan_job.h"
-#include "vehicles/register.h"
-#include "worlds/register.h"
+#include "engine/sim/truth_estimator.h"
+#include "vehicles/register_vehicles.h"
+#include "worlds/register_worlds.h"
 
 namespace vinerow {
 
@@ -15,6 +16,7 @@ void register_all(Registry& registry) {
   register_sensors(registry);
   register_controllers(registry);
   register_metrics(registry);
+  register_truth_estimator(registry);
   register_plan_job(registry);
 }
 

@@ -10,8 +10,8 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/run/run.h"
 #include "engine/sim/judge.h"
-#include "engine/sim/run.h"
 
 namespace vinerow::study {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/api/registry.h"
-#include "engine/io/scenario.h"
-#include "engine/io/study.h"
+#include "engine/scenario/scenario.h"
+#include "engine/scenario/study.h"
 #include "engine/sim/run_shelf.h"
 
 namespace vinerow::study {

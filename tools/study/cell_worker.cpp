@@ -9,7 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
+#include "engine/io/files/output_folder.h"
 #include "tools/study/cost_meter.h"
 #include "tools/study/numbers.h"
 #include "tools/study/store.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/io/study.h"
+#include "engine/scenario/study.h"
 
 namespace vinerow::study {
 

@@ -10,8 +10,8 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
-#include "engine/sim/folder_lock.h"
+#include "engine/io/files/output_folder.h"
+#include "engine/run/folder_lock.h"
 #include "tools/study/cell_worker.h"
 #include "tools/study/slurm_runner.h"
 #include "tools/study/stop_judge.h"

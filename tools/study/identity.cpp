@@ -8,8 +8,8 @@
 
 #include "engine/core/files.h"
 #include "engine/core/hash.h"
-#include "engine/sim/run.h"
-#include "engine/sim/summary.h"
+#include "engine/run/run.h"
+#include "engine/run/summary.h"
 
 namespace vinerow::study {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 #include "tools/study/design.h"
 
 namespace vinerow::study {

@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/known_names.h"
+#include "engine/scenario/known_names.h"
 #include "engine/sim/plugin_loader.h"
 #include "engine/sim/run_shelf.h"
 #include "engine/sim/session.h"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "engine/api/registry.h"
-#include "engine/io/study.h"
+#include "engine/scenario/study.h"
 #include "tools/study/design.h"
 #include "tools/study/identity.h"
 

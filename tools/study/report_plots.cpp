@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "tools/report/units.h"
 #include "tools/study/numbers.h"
 #include "tools/study/plots/band_plot.h"
 #include "tools/study/plots/box_plot.h"
@@ -13,7 +14,6 @@
 #include "tools/study/plots/interval_plot.h"
 #include "tools/study/plots/parallel_plot.h"
 #include "tools/study/setting_numbers.h"
-#include "tools/vinerow/report/units.h"
 
 namespace vinerow::study {
 namespace {

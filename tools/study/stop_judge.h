@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/io/study.h"
+#include "engine/scenario/study.h"
 #include "tools/study/numbers.h"
 #include "tools/study/results.h"
 

@@ -6,7 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
+#include "engine/io/files/output_folder.h"
 #include "tools/study/cost_meter.h"
 
 namespace vinerow::study {

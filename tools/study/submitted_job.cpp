@@ -11,7 +11,7 @@
 #include "engine/core/files.h"
 #include "engine/core/hash.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
+#include "engine/io/files/output_folder.h"
 #include "tools/study/numbers.h"
 #include "tools/study/shell_word.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/io/csv.h"
+#include "engine/io/files/csv.h"
 #include "tools/study/numbers.h"
 #include "tools/study/setting_numbers.h"
 #include "tools/study/statistics.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/io/study.h"
+#include "engine/scenario/study.h"
 #include "tools/study/cell_runner.h"
 
 namespace vinerow::study {

@@ -1,6 +1,6 @@
 #include "vinerow/session.h"
 
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 #include "engine/sim/plugin_loader.h"
 #include "tools/parts/register_all.h"
 

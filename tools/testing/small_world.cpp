@@ -4,7 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 #include "engine/sim/plugin_loader.h"
 #include "tools/parts/register_all.h"
 #include "vinerow/testing.h"

@@ -4,7 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 #include "engine/sim/simulation.h"
 
 namespace vinerow::testing {

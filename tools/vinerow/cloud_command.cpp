@@ -7,16 +7,16 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "engine/io/output_folder.h"
+#include "engine/io/files/output_folder.h"
 #include "engine/physics/check_world.h"
 #include "engine/physics/world_scene.h"
-#include "engine/sim/pictures.h"
+#include "engine/playback/run_frames.h"
 #include "engine/sim/simulation.h"
 #include "tools/vinerow/cloud_poses.h"
-#include "tools/vinerow/commands.h"
+#include "tools/vinerow/subcommands.h"
 #include "tools/vinerow/table_flags.h"
-#include "worlds/mapping/cloud/sampling/write_cloud.h"
 #include "worlds/mapping/jobs/photogrammetry_job_params.h"
+#include "worlds/mapping/photogrammetry/write_cloud.h"
 
 namespace vinerow::tools {
 namespace {

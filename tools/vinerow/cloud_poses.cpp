@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <numbers>
 
-#include "controllers/planning/survey_plan.h"
+#include "controllers/planning/survey/survey_plan.h"
 #include "engine/core/error.h"
+#include "engine/playback/log_trace.h"
+#include "engine/playback/run_frames.h"
 #include "engine/record/log_reader.h"
-#include "engine/sim/log_trace.h"
 #include "engine/sim/picture_collector.h"
-#include "engine/sim/pictures.h"
 #include "engine/sim/simulation.h"
 #include "tools/vinerow/survey_task.h"
 

@@ -6,7 +6,7 @@
 
 #include "engine/api/product.h"
 #include "engine/api/registry.h"
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 
 namespace vinerow::tools {
 

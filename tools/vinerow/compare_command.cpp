@@ -4,11 +4,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/compare/compare_maps.h"
-#include "tools/vinerow/compare/compare_runs.h"
+#include "engine/io/files/output_folder.h"
+#include "tools/compare/compare_maps.h"
+#include "tools/compare/compare_runs.h"
 #include "tools/vinerow/number_checks.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {

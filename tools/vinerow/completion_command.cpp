@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "tools/vinerow/commands.h"
 #include "tools/vinerow/completion.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 

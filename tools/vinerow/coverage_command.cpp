@@ -5,11 +5,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
-#include "engine/sim/coverage_log.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/coverage_picture.h"
+#include "engine/io/files/output_folder.h"
+#include "engine/playback/coverage_log.h"
+#include "tools/pictures/coverage_picture.h"
 #include "tools/vinerow/number_checks.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {

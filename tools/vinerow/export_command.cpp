@@ -9,11 +9,11 @@
 #include "engine/core/files.h"
 #include "engine/core/suggest.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
+#include "engine/io/files/output_folder.h"
 #include "engine/record/mcap_reader.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/export/message_table.h"
-#include "tools/vinerow/export/table_files.h"
+#include "tools/export/message_table.h"
+#include "tools/export/table_files.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {

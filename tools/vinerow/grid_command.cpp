@@ -6,12 +6,12 @@
 #include "engine/api/map.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "engine/io/output_folder.h"
-#include "engine/io/ros_map.h"
+#include "engine/io/files/output_folder.h"
+#include "engine/io/grids/ros_map.h"
 #include "engine/sim/simulation.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/grid_picture.h"
-#include "worlds/mapping/map_parameters.h"
+#include "tools/pictures/grid_picture.h"
+#include "tools/vinerow/subcommands.h"
+#include "worlds/mapping/from_truth/map_parameters.h"
 
 namespace vinerow::tools {
 namespace {

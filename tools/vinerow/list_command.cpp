@@ -5,11 +5,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "tools/vinerow/colour.h"
-#include "tools/vinerow/commands.h"
+#include "tools/terminal/colour.h"
 #include "tools/vinerow/parameter_words.h"
 #include "tools/vinerow/parts_json.h"
 #include "tools/vinerow/parts_page.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {

@@ -13,10 +13,10 @@
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 #include "engine/core/whole_file.h"
-#include "engine/sim/summary.h"
-#include "tools/vinerow/colour.h"
-#include "tools/vinerow/commands.h"
+#include "engine/run/summary.h"
+#include "tools/terminal/colour.h"
 #include "tools/vinerow/help_texts.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/sim/pictures.h"
+#include "engine/playback/run_frames.h"
 
 namespace vinerow::tools {
 

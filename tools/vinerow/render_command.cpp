@@ -2,9 +2,9 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "tools/vinerow/commands.h"
 #include "tools/vinerow/number_checks.h"
 #include "tools/vinerow/picture_arguments.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 

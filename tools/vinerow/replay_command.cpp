@@ -2,9 +2,9 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/report/replay_run.h"
+#include "engine/io/files/output_folder.h"
+#include "tools/replay/replay_run.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 

@@ -3,11 +3,11 @@
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
+#include "engine/io/files/output_folder.h"
 #include "engine/sim/plugin_loader.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/report/plot_files.h"
-#include "tools/vinerow/report/report.h"
+#include "tools/report/plot_files.h"
+#include "tools/report/report.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {

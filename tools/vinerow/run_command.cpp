@@ -5,14 +5,14 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
+#include "engine/run/run.h"
 #include "engine/sim/judge.h"
-#include "engine/sim/run.h"
-#include "tools/vinerow/colour.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/interrupt.h"
-#include "tools/vinerow/map_picture_files.h"
-#include "tools/vinerow/progress_line.h"
-#include "tools/vinerow/report/report.h"
+#include "tools/pictures/map_picture_files.h"
+#include "tools/report/report.h"
+#include "tools/terminal/colour.h"
+#include "tools/terminal/interrupt.h"
+#include "tools/terminal/progress_line.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {

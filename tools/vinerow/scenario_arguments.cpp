@@ -6,7 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/sim/plugin_loader.h"
 #include "tools/parts/register_all.h"
-#include "tools/vinerow/commands.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {

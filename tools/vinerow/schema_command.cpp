@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "engine/io/study.h"
-#include "tools/vinerow/commands.h"
-#include "worlds/mapping/cloud/folder/map_json.h"
+#include "engine/scenario/study.h"
+#include "tools/vinerow/subcommands.h"
+#include "worlds/mapping/folder/map_json.h"
 
 namespace vinerow::tools {
 

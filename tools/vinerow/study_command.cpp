@@ -5,20 +5,20 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
-#include "engine/sim/run.h"
+#include "engine/io/files/output_folder.h"
+#include "engine/run/run.h"
+#include "tools/report/plot_files.h"
 #include "tools/study/cell_worker.h"
 #include "tools/study/drive.h"
 #include "tools/study/plots/plot_style.h"
-#include "tools/study/report.h"
+#include "tools/study/study_page.h"
 #include "tools/study/submitted_job.h"
 #include "tools/study/tables.h"
-#include "tools/vinerow/colour.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/interrupt.h"
+#include "tools/terminal/colour.h"
+#include "tools/terminal/interrupt.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/vinerow/number_checks.h"
-#include "tools/vinerow/progress_line.h"
-#include "tools/vinerow/report/plot_files.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {

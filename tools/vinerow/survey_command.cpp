@@ -4,17 +4,17 @@
 #include <limits>
 #include <system_error>
 
-#include "controllers/planning/survey.h"
-#include "controllers/planning/survey_mission.h"
-#include "controllers/planning/survey_plan.h"
+#include "controllers/planning/survey/survey.h"
+#include "controllers/planning/survey/survey_mission.h"
+#include "controllers/planning/survey/survey_plan.h"
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
-#include "engine/io/qgc_plan.h"
-#include "engine/io/qgc_wpl.h"
+#include "engine/io/files/output_folder.h"
+#include "engine/io/missions/qgc_plan.h"
+#include "engine/io/missions/qgc_wpl.h"
 #include "engine/math/angles.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/survey_picture.h"
+#include "tools/vinerow/subcommands.h"
+#include "tools/pictures/survey_picture.h"
 #include "tools/vinerow/survey_task.h"
 
 namespace vinerow::tools {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <memory>
 
-#include "controllers/planning/survey.h"
-#include "controllers/planning/survey_params.h"
+#include "controllers/planning/survey/survey.h"
+#include "controllers/planning/survey/survey_params.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "engine/io/geo_features.h"
-#include "engine/io/raster.h"
+#include "engine/io/geo/geo_features.h"
+#include "engine/io/geo/raster.h"
 #include "engine/math/angles.h"
 #include "engine/sim/vehicle_runtime.h"
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "controllers/planning/survey_heights.h"
-#include "controllers/planning/survey_request.h"
+#include "controllers/planning/survey/survey_heights.h"
+#include "controllers/planning/survey/survey_request.h"
 #include "engine/sim/simulation.h"
-#include "tools/vinerow/commands.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 

@@ -5,8 +5,8 @@
 
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "tools/vinerow/commands.h"
-#include "tools/vinerow/trim_report.h"
+#include "tools/pictures/trim_report.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 namespace {

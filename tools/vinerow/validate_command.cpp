@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "engine/sim/run.h"
-#include "tools/vinerow/commands.h"
+#include "engine/run/run.h"
+#include "tools/vinerow/subcommands.h"
 
 namespace vinerow::tools {
 

@@ -4,11 +4,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/whole_file.h"
-#include "engine/io/output_folder.h"
+#include "engine/io/files/output_folder.h"
 #include "engine/render/scene.h"
-#include "tools/vinerow/commands.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/vinerow/picture_arguments.h"
-#include "tools/vinerow/progress_line.h"
+#include "tools/vinerow/subcommands.h"
 #include "tools/vinerow/video_encoder.h"
 
 namespace vinerow::tools {

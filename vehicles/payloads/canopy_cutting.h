@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "vehicles/payloads/row_lines.h"
+#include "vehicles/payloads/worked_rows.h"
 
 namespace vinerow::vehicles {
 

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "engine/api/payload.h"
-#include "vehicles/payloads/row_lines.h"
+#include "vehicles/payloads/worked_rows.h"
 
 namespace vinerow::vehicles {
 

@@ -13,8 +13,8 @@
 #include "engine/api/messages/motion.h"
 #include "engine/api/plan_stretch.h"
 #include "engine/api/signal.h"
-#include "vehicles/payloads/row_lines.h"
 #include "vehicles/payloads/sprayer_params.h"
+#include "vehicles/payloads/worked_rows.h"
 
 namespace vinerow::vehicles {
 

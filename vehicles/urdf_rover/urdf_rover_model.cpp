@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/mesh_file.h"
+#include "engine/io/meshes/mesh_file.h"
 #include "engine/math/angles.h"
 #include "vehicles/parts/mesh_builder.h"
 

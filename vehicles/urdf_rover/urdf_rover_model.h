@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/api/vehicle.h"
-#include "engine/io/urdf.h"
+#include "engine/io/robots/urdf.h"
 #include "engine/physics/physics_world.h"
 
 namespace vinerow::vehicles {

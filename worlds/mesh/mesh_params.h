@@ -9,9 +9,9 @@
 
 #include "engine/api/mesh.h"
 #include "engine/api/parameter_table_fwd.h"
-#include "engine/io/mesh_file.h"
+#include "engine/io/meshes/mesh_file.h"
 #include "engine/math/pose.h"
-#include "worlds/mapping/map_parameters.h"
+#include "worlds/mapping/from_truth/map_parameters.h"
 #include "worlds/parts/common.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/parts/vine_rows.h"

@@ -5,7 +5,7 @@
 
 #include "engine/math/angles.h"
 #include "engine/math/decomposition.h"
-#include "worlds/parts/row_map.h"
+#include "worlds/mapping/model/row_map.h"
 
 namespace vinerow::worlds {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/io/sdf.h"
-#include "worlds/parts/row_curve.h"
+#include "engine/io/robots/sdf.h"
+#include "worlds/mapping/model/row_curve.h"
 
 namespace vinerow::worlds {
 

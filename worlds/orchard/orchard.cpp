@@ -10,10 +10,10 @@
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
-#include "worlds/mapping/map_parameters.h"
+#include "worlds/mapping/from_truth/map_parameters.h"
+#include "worlds/parts/alley_spawns.h"
 #include "worlds/parts/common.h"
 #include "worlds/parts/obstacles.h"
-#include "worlds/parts/row_map.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/parts/trees.h"
 

@@ -51,6 +51,10 @@ const ParameterTable<CanopyParams>& canopy_table() {
   return table;
 }
 
+CanopySize canopy_size(const CanopyParams& params) {
+  return {params.width_m, params.base_m, params.top_m};
+}
+
 CanopyShape::CanopyShape(const CanopyParams& params, double length_m, int vine_count,
                          RandomStream random)
     : length_m_(length_m) {

@@ -12,7 +12,8 @@
 #include "engine/api/mesh.h"
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/core/random.h"
-#include "worlds/parts/row_curve.h"
+#include "worlds/mapping/model/row_curve.h"
+#include "worlds/mapping/model/row_map.h"
 
 namespace vinerow::worlds {
 
@@ -30,6 +31,9 @@ struct CanopyParams {
 /// `canopy_width_m`, `canopy_base_m`, `canopy_top_m`, `canopy_variation`, `canopy_step_m`.
 /// The base must be below the top.
 const ParameterTable<CanopyParams>& canopy_table();
+
+/// What the row map says of it.
+CanopySize canopy_size(const CanopyParams& params);
 
 /// One cross-section: a super-ellipse, |2y/w|^3 + |2(z-m)/h|^3 = 1.
 struct CanopySection {

@@ -2,7 +2,7 @@
 
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
-#include "worlds/parts/soil.h"
+#include "worlds/parts/soil_types.h"
 
 namespace vinerow::worlds {
 

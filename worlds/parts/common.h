@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string>
 
-#include "engine/api/geo_origin.h"
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/wind.h"
 #include "engine/api/world_model.h"
+#include "engine/math/geo_origin.h"
 
 namespace vinerow::worlds {
 

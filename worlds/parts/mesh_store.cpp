@@ -13,8 +13,8 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
-#include "engine/io/mesh_file.h"
-#include "engine/io/mesh_writer.h"
+#include "engine/io/meshes/mesh_file.h"
+#include "engine/io/meshes/mesh_writer.h"
 
 namespace vinerow::worlds {
 namespace {

@@ -11,7 +11,7 @@
 #include "engine/math/angles.h"
 #include "engine/math/planar.h"
 #include "engine/math/polygon.h"
-#include "worlds/parts/row_map.h"
+#include "worlds/mapping/model/row_map.h"
 
 namespace vinerow::worlds {
 namespace {

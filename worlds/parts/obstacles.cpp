@@ -11,8 +11,8 @@
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "worlds/mapping/model/row_curve.h"
 #include "worlds/parts/crate.h"
-#include "worlds/parts/row_curve.h"
 
 namespace vinerow::worlds {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
-#include "engine/io/raster.h"
+#include "engine/io/geo/raster.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::worlds {

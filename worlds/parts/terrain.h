@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/api/geo_origin.h"
 #include "engine/api/height_field.h"
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/core/random.h"
-#include "worlds/parts/row_curve.h"
+#include "engine/math/geo_origin.h"
+#include "worlds/mapping/model/row_curve.h"
 
 namespace vinerow::worlds {
 

@@ -7,7 +7,7 @@
 #include "engine/api/forward.h"
 #include "engine/api/parameters.h"
 #include "worlds/parts/mesh_store.h"
-#include "worlds/parts/row_curve.h"
+#include "worlds/mapping/model/row_curve.h"
 
 namespace vinerow::worlds {
 

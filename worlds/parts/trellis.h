@@ -8,7 +8,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
-#include "worlds/parts/row_curve.h"
+#include "worlds/mapping/model/row_curve.h"
 
 namespace vinerow::worlds {
 

@@ -12,12 +12,13 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "engine/io/geo_features.h"
+#include "engine/io/geo/geo_features.h"
 #include "engine/math/angles.h"
-#include "worlds/mapping/map_parameters.h"
+#include "worlds/mapping/from_truth/map_parameters.h"
+#include "worlds/mapping/model/row_map.h"
+#include "worlds/parts/alley_spawns.h"
 #include "worlds/parts/common.h"
 #include "worlds/parts/obstacles.h"
-#include "worlds/parts/row_map.h"
 #include "worlds/parts/terrain.h"
 #include "worlds/parts/vine_rows.h"
 
@@ -226,7 +227,7 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   shape.gradient = params.slope.gradient();
   world->terrain = build_terrain(params.terrain, planting.seed, world->origin, shape, box);
   const GroundHeight ground = ground_of(*world->terrain);
-  world->rows = make_row_map(rows, ground, planting.canopy, boundary);
+  world->rows = make_row_map(rows, ground, canopy_size(planting.canopy), boundary);
   add_alley_spawn_points(*world);
 
   // A point belongs to the nearest row if it is nearer than a third of the way to the next.

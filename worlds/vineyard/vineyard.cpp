@@ -10,8 +10,9 @@
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
+#include "worlds/mapping/model/row_map.h"
+#include "worlds/parts/alley_spawns.h"
 #include "worlds/parts/mesh_store.h"
-#include "worlds/parts/row_map.h"
 #include "worlds/vineyard/vineyard_params.h"
 
 namespace vinerow::worlds {
@@ -205,7 +206,7 @@ std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters,
       parcel_boundary(rows, params.headland_m, params.pitch_m);
   world->terrain = make_ground(params, rows, boundary);
   const GroundHeight ground = ground_of(*world->terrain);
-  world->rows = make_row_map(rows, ground, planting.canopy, boundary);
+  world->rows = make_row_map(rows, ground, canopy_size(planting.canopy), boundary);
   add_alley_spawn_points(*world);
   if (params.neighbours) {
     world->scenery =

@@ -6,7 +6,7 @@
 
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/math/angles.h"
-#include "worlds/mapping/map_parameters.h"
+#include "worlds/mapping/from_truth/map_parameters.h"
 #include "worlds/parts/common.h"
 #include "worlds/parts/neighbours.h"
 #include "worlds/parts/obstacles.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "controllers/parts/path.h"
+#include "controllers/parts/paths/path_curve.h"
 #include "engine/api/map.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/event.h"

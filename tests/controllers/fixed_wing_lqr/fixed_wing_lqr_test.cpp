@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "controllers/parts/aircraft_weights.h"
+#include "controllers/parts/aircraft/aircraft_weights.h"
 #include "engine/math/angles.h"
-#include "tests/controllers/parts/random_sets.h"
+#include "tests/controllers/parts/solvers/random_sets.h"
 #include "tests/controllers/support/aircraft_loop.h"
 
 namespace vinerow::test::fixed_wing_lqr_test {

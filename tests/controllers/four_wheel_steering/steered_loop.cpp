@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "controllers/four_wheel_steering/four_wheel_steering.h"
-#include "controllers/parts/path_pieces.h"
+#include "controllers/parts/paths/path_pieces.h"
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "controllers/parts/path.h"
+#include "controllers/parts/paths/path_curve.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/event.h"
 #include "engine/api/parameters.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "controllers/parts/path_pieces.h"
+#include "controllers/parts/paths/path_pieces.h"
 #include "controllers/path_follower/path_follower.h"
 #include "controllers/path_follower/path_follower_law.h"
 #include "controllers/path_follower/slip_estimate.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "controllers/parts/path_pieces.h"
+#include "controllers/parts/paths/path_pieces.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::pure_pursuit_law_test {

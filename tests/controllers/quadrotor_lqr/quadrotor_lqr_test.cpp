@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "controllers/parts/discretise.h"
+#include "controllers/parts/solvers/discretise.h"
 #include "controllers/quadrotor_lqr/quadrotor_lqr.h"
 #include "controllers/quadrotor_lqr/quadrotor_lqr_law.h"
 #include "engine/core/error.h"

@@ -1,14 +1,14 @@
 // What flight laws share: the frame of the wanted heading, the rotors' prediction, the observer.
 
-#include "controllers/parts/hover_frame.h"
+#include "controllers/parts/rotorcraft/hover_frame.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "controllers/parts/flight_disturbance.h"
-#include "controllers/parts/rotor_prediction.h"
+#include "controllers/parts/rotorcraft/flight_disturbance.h"
+#include "controllers/parts/rotorcraft/rotor_prediction.h"
 #include "tests/controllers/support/quadrotor_sim.h"
 
 namespace vinerow::test::hover_frame_test {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/parts/flight_trim.h"
+#include "controllers/parts/aircraft/flight_trim.h"
 #include "engine/api/world_model.h"
 #include "engine/core/check.h"
 #include "engine/core/random.h"

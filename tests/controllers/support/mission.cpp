@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "controllers/register.h"
+#include "controllers/register_controllers.h"
 #include "engine/api/map.h"
 #include "engine/api/messages/commands.h"
 #include "engine/api/messages/sensors.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "controllers/parts/pose2.h"
+#include "controllers/parts/paths/pose2.h"
 #include "engine/api/forward.h"
 #include "engine/api/registry.h"
 #include "engine/api/vehicle.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "controllers/parts/differential_drive.h"
+#include "controllers/parts/ground_drive/differential_drive.h"
 #include "engine/math/angles.h"
 
 namespace vinerow::test {

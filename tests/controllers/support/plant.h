@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "controllers/parts/pose2.h"
+#include "controllers/parts/paths/pose2.h"
 #include "engine/api/vehicle.h"
 
 namespace vinerow::test {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "controllers/parts/pose2.h"
+#include "controllers/parts/paths/pose2.h"
 #include "engine/api/forward.h"
 
 namespace vinerow::test {

@@ -1,6 +1,6 @@
 // Planner `row_flight`: heights, order, lengths, refusals.
 
-#include "controllers/planning/row_flight.h"
+#include "controllers/planning/flight/row_flight.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "controllers/parts/box_filter.h"
-#include "controllers/parts/path_pieces.h"
+#include "controllers/parts/paths/box_filter.h"
+#include "controllers/parts/paths/path_pieces.h"
 #include "controllers/trajectory/landing_watch.h"
 #include "controllers/trajectory/time_law.h"
 #include "controllers/trajectory/yaw_move.h"

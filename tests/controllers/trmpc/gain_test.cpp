@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "controllers/parts/aircraft_weights.h"
-#include "controllers/parts/flight_trim.h"
-#include "controllers/parts/riccati.h"
-#include "tests/controllers/parts/wing_models.h"
+#include "controllers/parts/aircraft/aircraft_weights.h"
+#include "controllers/parts/aircraft/flight_trim.h"
+#include "controllers/parts/solvers/riccati.h"
+#include "tests/controllers/parts/aircraft/wing_models.h"
 #include "tests/controllers/support/aircraft_sim.h"
 
 namespace vinerow::test::gain_test {

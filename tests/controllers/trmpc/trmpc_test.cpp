@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "controllers/mpc_nominal/mpc_nominal.h"
-#include "tests/controllers/parts/random_sets.h"
+#include "tests/controllers/parts/solvers/random_sets.h"
 #include "tests/controllers/trmpc/wing_loop.h"
 #include "tests/support/no_alloc.h"
 

@@ -5,7 +5,7 @@
 
 #include "controllers/fixed_wing_lqr/fixed_wing_lqr.h"
 #include "controllers/mpc_nominal/mpc_nominal.h"
-#include "controllers/parts/flight_trim.h"
+#include "controllers/parts/aircraft/flight_trim.h"
 #include "controllers/trmpc/trmpc.h"
 #include "engine/core/check.h"
 #include "engine/math/angles.h"

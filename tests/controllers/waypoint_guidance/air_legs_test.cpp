@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "controllers/parts/leg_frame.h"
-#include "controllers/parts/wind_estimate.h"
-#include "controllers/parts/wind_triangle.h"
+#include "controllers/parts/aircraft/wind_estimate.h"
+#include "controllers/parts/aircraft/wind_triangle.h"
+#include "controllers/parts/paths/leg_frame.h"
 #include "controllers/waypoint_guidance/flight_legs.h"
 #include "controllers/waypoint_guidance/heading_generator.h"
 #include "controllers/waypoint_guidance/height_reference.h"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/io/scenario.h"
+#include "engine/scenario/scenario.h"
 #include "tests/engine/sensors/sensor_parts.h"
 #include "tests/support/paths.h"
 

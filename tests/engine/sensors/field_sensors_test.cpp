@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/api/messages/sensors.h"
-#include "engine/io/yaml.h"
+#include "engine/io/files/yaml.h"
 #include "engine/math/angles.h"
 #include "tests/engine/sensors/data_sheet.h"
 #include "tests/engine/sensors/sensor_rig.h"

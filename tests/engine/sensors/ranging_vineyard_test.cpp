@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "engine/api/map.h"
-#include "engine/io/geo.h"
-#include "engine/io/geojson.h"
+#include "engine/io/geo/geojson.h"
 #include "engine/math/angles.h"
+#include "engine/math/geo.h"
 #include "engine/physics/world_scene.h"
 #include "tests/engine/sensors/post_detector.h"
 #include "tests/engine/sensors/ranging_bench.h"

@@ -7,7 +7,7 @@
 
 #include "engine/api/registry.h"
 #include "engine/core/error.h"
-#include "engine/sensors/register.h"
+#include "engine/sensors/register_sensors.h"
 
 namespace vinerow::test {
 

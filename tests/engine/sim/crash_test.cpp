@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/record/log_reader.h"
-#include "engine/sim/run.h"
+#include "engine/run/run.h"
 #include "tests/engine/sim/small_run.h"
 
 namespace vinerow::crash_test {

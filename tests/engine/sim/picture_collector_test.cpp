@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/math/angles.h"
-#include "engine/sensors/register.h"
+#include "engine/sensors/register_sensors.h"
 
 namespace vinerow::picture_collector_test {
 namespace {

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/sim/metrics/register.h"
-#include "engine/sim/run.h"
+#include "engine/metrics/register_metrics.h"
+#include "engine/sim/truth_estimator.h"
+#include "engine/run/run.h"
 #include "tests/engine/sim/small_parts.h"
 #include "tests/support/folder_test.h"
 
@@ -19,6 +20,7 @@ class RunFixture : public FolderTest {
   explicit RunFixture(std::string yaml, Registry registry = small_registry())
       : FolderTest("run"), registry_(std::move(registry)), yaml_(std::move(yaml)) {
     register_metrics(registry_);
+    register_truth_estimator(registry_);
   }
 
   RunResult run(const std::vector<std::string>& sets = {}) {

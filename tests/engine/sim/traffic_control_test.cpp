@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "engine/core/error.h"
-#include "engine/sim/metrics/register.h"
+#include "engine/metrics/register_metrics.h"
+#include "engine/sim/truth_estimator.h"
 #include "engine/sim/simulation.h"
 #include "tests/engine/sim/small_parts.h"
 
@@ -150,6 +151,7 @@ Registry alley_registry() {
                             return std::make_unique<Driver>(parameters, context);
                           });
   register_metrics(registry);
+  register_truth_estimator(registry);
   return registry;
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/report/axis.h"
+#include "tools/report/html.h"
 #include "tools/study/plots/box_numbers.h"
 #include "tools/study/plots/click_script.h"
 #include "tools/study/plots/colour_bar.h"
@@ -15,8 +17,6 @@
 #include "tools/study/plots/plot_style.h"
 #include "tools/study/plots/quantity.h"
 #include "tools/study/plots/text_fit.h"
-#include "tools/vinerow/report/axis.h"
-#include "tools/vinerow/report/html.h"
 
 namespace vinerow::study::plot_parts_test {
 namespace {

@@ -12,13 +12,13 @@
 
 #include "tests/tools/study_plots/sample_plots.h"
 #include "tests/tools/study_plots/svg_reader.h"
+#include "tools/report/plot_files.h"
 #include "tools/study/plots/band_plot.h"
 #include "tools/study/plots/box_plot.h"
 #include "tools/study/plots/heat_map.h"
 #include "tools/study/plots/interval_plot.h"
 #include "tools/study/plots/parallel_plot.h"
 #include "tools/study/plots/plot_style.h"
-#include "tools/vinerow/report/plot_files.h"
 
 namespace vinerow::study::plots_test {
 namespace {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tools/report/page_style.h"
 #include "tools/study/plots/band_plot.h"
 #include "tools/study/plots/box_plot.h"
 #include "tools/study/plots/click_script.h"
@@ -14,7 +15,6 @@
 #include "tools/study/plots/interval_plot.h"
 #include "tools/study/plots/parallel_plot.h"
 #include "tools/study/plots/plot_style.h"
-#include "tools/vinerow/report/page_style.h"
 
 namespace vinerow::study::testing {
 namespace {

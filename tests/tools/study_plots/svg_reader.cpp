@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "tools/export/utf8.h"
 #include "tools/study/plots/text_fit.h"
-#include "tools/vinerow/export/utf8.h"
 
 namespace vinerow::study::testing {
 namespace {

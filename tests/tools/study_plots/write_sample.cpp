@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "tests/tools/study_plots/sample_plots.h"
+#include "tools/report/plot_files.h"
 #include "tools/study/plots/plot_style.h"
-#include "tools/vinerow/report/plot_files.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

@@ -16,7 +16,7 @@
 #include "engine/physics/world_scene.h"
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/vehicles/small_worlds.h"
-#include "vehicles/register.h"
+#include "vehicles/register_vehicles.h"
 
 namespace vinerow::vehicles::test {
 

@@ -1,6 +1,6 @@
 /// Which row is nearest, against a search by hand, and which rows lie beside a vehicle.
 
-#include "vehicles/payloads/row_lines.h"
+#include "vehicles/payloads/worked_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "engine/core/error.h"
-#include "engine/io/mesh_file.h"
+#include "engine/io/meshes/mesh_file.h"
 #include "engine/math/angles.h"
 #include "tests/support/data.h"
 #include "tests/support/paths.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "tests/worlds/mapping/map_fixture.h"
-#include "worlds/mapping/cloud/folder/map_folder.h"
+#include "worlds/mapping/folder/map_folder.h"
 
 namespace vinerow::test {
 

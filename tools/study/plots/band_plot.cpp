@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/vinerow/report/html.h"
+#include "tools/report/html.h"
 
 namespace vinerow::study {
 namespace {

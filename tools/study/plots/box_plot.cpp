@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/report/html.h"
 #include "tools/study/plots/box_numbers.h"
 #include "tools/study/plots/level_labels.h"
-#include "tools/vinerow/report/html.h"
 
 namespace vinerow::study {
 namespace {

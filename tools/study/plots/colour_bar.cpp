@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "tools/pictures/colour_scale.h"
 #include "tools/study/plots/frame.h"
 #include "tools/study/plots/text_fit.h"
-#include "tools/vinerow/colour_scale.h"
 
 namespace vinerow::study {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "tools/report/axis.h"
+#include "tools/report/svg.h"
 #include "tools/study/plots/quantity.h"
-#include "tools/vinerow/report/axis.h"
-#include "tools/vinerow/report/svg.h"
 
 namespace vinerow::study {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/report/html.h"
 #include "tools/study/plots/text_fit.h"
-#include "tools/vinerow/report/html.h"
 
 namespace vinerow::study {
 namespace {

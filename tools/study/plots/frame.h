@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "tools/vinerow/report/axis.h"
-#include "tools/vinerow/report/svg.h"
+#include "tools/report/axis.h"
+#include "tools/report/svg.h"
 
 namespace vinerow::study {
 

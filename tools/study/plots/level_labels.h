@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/vinerow/report/svg.h"
+#include "tools/report/svg.h"
 
 namespace vinerow::study {
 

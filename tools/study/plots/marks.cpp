@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tools/vinerow/report/html.h"
+#include "tools/report/html.h"
 
 namespace vinerow::study {
 namespace {

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "tools/vinerow/report/svg.h"
+#include "tools/report/svg.h"
 
 namespace vinerow::study {
 

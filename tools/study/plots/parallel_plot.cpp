@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/report/html.h"
 #include "tools/study/plots/colour_bar.h"
 #include "tools/study/plots/level_labels.h"
 #include "tools/study/plots/text_fit.h"
-#include "tools/vinerow/report/html.h"
 
 namespace vinerow::study {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "tools/vinerow/report/axis.h"
+#include "tools/report/axis.h"
 
 namespace vinerow::study {
 

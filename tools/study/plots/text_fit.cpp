@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "tools/vinerow/export/utf8.h"
+#include "tools/export/utf8.h"
 
 namespace vinerow::study {
 namespace {

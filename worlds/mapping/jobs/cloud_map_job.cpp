@@ -9,14 +9,14 @@
 #include "engine/api/parameter_table.h"
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
-#include "worlds/mapping/cloud/folder/cloud_map_type.h"
-#include "worlds/mapping/cloud/folder/map_folder.h"
-#include "worlds/mapping/cloud/folder/map_gis.h"
-#include "worlds/mapping/cloud/folder/map_points.h"
-#include "worlds/mapping/cloud/make_cloud_map.h"
-#include "worlds/mapping/cloud/map_comparison.h"
-#include "worlds/mapping/cloud/reading/cloud_source.h"
+#include "worlds/mapping/jobs/cloud_map_type.h"
+#include "worlds/mapping/folder/map_folder.h"
+#include "worlds/mapping/folder/map_gis.h"
+#include "worlds/mapping/folder/map_points.h"
 #include "worlds/mapping/jobs/cloud_map_job_params.h"
+#include "worlds/mapping/photogrammetry/map_comparison.h"
+#include "worlds/mapping/pipeline/make_cloud_map.h"
+#include "worlds/mapping/reading/cloud_source.h"
 
 namespace vinerow::worlds {
 namespace {

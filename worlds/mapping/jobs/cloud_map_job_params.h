@@ -2,8 +2,8 @@
 /// What can be said of the job `cloud_map`.
 
 #include "engine/api/parameter_table_fwd.h"
-#include "worlds/mapping/cloud/make_cloud_map.h"
-#include "worlds/mapping/cloud/reading/read_cloud.h"
+#include "worlds/mapping/pipeline/make_cloud_map.h"
+#include "worlds/mapping/reading/read_cloud.h"
 
 namespace vinerow::worlds {
 

@@ -6,9 +6,9 @@
 
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
-#include "worlds/mapping/cloud/sampling/hidden_rows.h"
-#include "worlds/mapping/cloud/sampling/write_cloud.h"
 #include "worlds/mapping/jobs/photogrammetry_job_params.h"
+#include "worlds/mapping/photogrammetry/hidden_rows.h"
+#include "worlds/mapping/photogrammetry/write_cloud.h"
 
 namespace vinerow::worlds {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 /// The job `photogrammetry`: pictures of a survey into a point cloud, as `vinerow cloud --log`
-/// makes it. What is modelled: worlds/mapping/cloud/sampling/photogrammetry.h.
+/// makes it. What is modelled: worlds/mapping/photogrammetry/photogrammetry.h.
 
 #include "engine/api/registry.h"
 

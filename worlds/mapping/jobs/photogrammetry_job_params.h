@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/api/parameter_table_fwd.h"
-#include "worlds/mapping/cloud/sampling/cloud_file.h"
-#include "worlds/mapping/cloud/sampling/photogrammetry.h"
+#include "worlds/mapping/photogrammetry/cloud_file.h"
+#include "worlds/mapping/photogrammetry/photogrammetry.h"
 
 namespace vinerow::worlds {
 

@@ -8,17 +8,17 @@
 #include <iterator>
 
 #include "engine/api/messages/sensors.h"
-#include "engine/io/point_cloud.h"
-#include "engine/io/scenario.h"
+#include "engine/io/clouds/point_cloud.h"
 #include "engine/physics/world_scene.h"
 #include "engine/record/log_reader.h"
+#include "engine/scenario/scenario.h"
 #include "engine/sim/simulation.h"
 #include "tests/worlds/mapping/jobs/job_fixture.h"
-#include "worlds/mapping/cloud/folder/cloud_map_type.h"
-#include "worlds/mapping/cloud/folder/map_folder.h"
-#include "worlds/mapping/cloud/folder/map_points.h"
-#include "worlds/mapping/cloud/parcel_cloud.h"
-#include "worlds/mapping/cloud/sampling/cloud_truth.h"
+#include "worlds/mapping/jobs/cloud_map_type.h"
+#include "worlds/mapping/folder/map_folder.h"
+#include "worlds/mapping/folder/map_points.h"
+#include "worlds/mapping/model/parcel_cloud.h"
+#include "worlds/mapping/photogrammetry/cloud_truth.h"
 
 namespace vinerow::mapping_jobs_test {
 namespace {

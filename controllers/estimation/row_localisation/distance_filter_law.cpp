@@ -1,0 +1,250 @@
+#include "controllers/estimation/row_localisation/distance_filter_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vinerow {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kLeastSpeed_mps = 0.1;  // slower than this the map's error counts as no slower
+constexpr double kLongestPeriod_s = 1.0;
+constexpr int kFixesToBelieve = 10;  // as many gated in a row are right, and the estimate is wrong
+
+}  // namespace
+
+PositionKalmanParams kalman_params_of(InertialReading reading) {
+  PositionKalmanParams params;
+  if (reading == InertialReading::kVelocity) return params;
+  params.velocity_std_mps = 0.0;
+  params.walk_m2_per_s = reading == InertialReading::kPositionFix ? 1.98 : 0.023;
+  return params;
+}
+
+DistanceFilterLaw::DistanceFilterLaw(const DistanceFilterParams& params,
+                                     const MapAccuracy& accuracy, const RowMeshIndex* map,
+                                     std::vector<RangeSensorModel> sensors)
+    : params_(params),
+      accuracy_(accuracy),
+      map_(map),
+      sensors_(std::move(sensors)),
+      sensor_states_(sensors_.size()),
+      kalman_(params.kalman) {
+  if (params_.association == EchoAssociation::kClosestSegment) slice_.reserve(8192);
+}
+
+bool DistanceFilterLaw::start(Time now, const Vector3d& p_W, const Eigen::Matrix3d& covariance_m2) {
+  if (!kalman_.start(now, p_W, covariance_m2)) {
+    ++counters_.bad_numbers;
+    return false;
+  }
+  now_ = {Vector3d::Zero(), q_WB_};
+  trace_.clear();
+  trace_.add(now, now_);
+  start_set();
+  return true;
+}
+
+void DistanceFilterLaw::start_set() {
+  // Contains a Gaussian's bound_sigma box in every direction.
+  const double scale = 3.0 * params_.bound_sigma * params_.bound_sigma;
+  set_.start(kalman_.p_W(), scale * kalman_.position_covariance());
+}
+
+void DistanceFilterLaw::predict(Time now, const Vector3d& v_W, const Eigen::Quaterniond& q_WB,
+                                double yaw_std_rad) {
+  if (!has_started()) return;
+  if (!v_W.allFinite() || !q_WB.coeffs().allFinite() || !(std::abs(q_WB.norm() - 1.0) < 1e-3) ||
+      !std::isfinite(yaw_std_rad)) {
+    ++counters_.bad_numbers;
+    // Time goes on with what was known last.
+    if (now > kalman_.time()) predict(now, v_W_, q_WB_, yaw_std_rad_);
+    return;
+  }
+  if (now < kalman_.time()) {
+    ++counters_.backwards;
+    return;
+  }
+  const double dt = (now - kalman_.time()).s();
+  const Vector3d before = kalman_.p_W();
+  kalman_.predict(now, v_W);
+  set_.predict(kalman_.p_W() - before,
+               dt * params_.bound_sigma * std::max(params_.kalman.velocity_std_mps, 0.01));
+  q_WB_ = q_WB;
+  v_W_ = v_W;
+  yaw_std_rad_ = yaw_std_rad;
+  now_.way_W += std::min(dt, params_.kalman.longest_step_s) * v_W;
+  now_.q_WB = q_WB;
+  trace_.add(now, now_);
+}
+
+bool DistanceFilterLaw::recall(Time measured, Moment& moment) {
+  if (!has_started() || measured < trace_.oldest()) {
+    ++counters_.backwards;
+    return false;
+  }
+  const Past past = trace_.at(measured);
+  moment = {std::max(0.0, (kalman_.time() - measured).s()), now_.way_W - past.way_W, past.q_WB};
+  return true;
+}
+
+Vector3d DistanceFilterLaw::position_at(const Moment& moment) const {
+  return kalman_.p_W() - moment.way_since_W - moment.age_s * kalman_.velocity_correction_W();
+}
+
+void DistanceFilterLaw::count(DatumStatus status, int& taken, int& gated) {
+  switch (status) {
+    case DatumStatus::kTaken:
+      ++taken;
+      break;
+    case DatumStatus::kGated:
+      ++gated;
+      break;
+    case DatumStatus::kBadNumber:
+      ++counters_.bad_numbers;
+      break;
+    case DatumStatus::kNotPositive:
+      ++counters_.not_positive;
+      break;
+    case DatumStatus::kBackwards:
+      ++counters_.backwards;
+      break;
+  }
+}
+
+void DistanceFilterLaw::take_inertial_position(Time measured, const Vector3d& p_W,
+                                               const Vector3d& std_m) {
+  Moment moment;
+  if (params_.reading != InertialReading::kPositionFix || !recall(measured, moment)) return;
+  int taken = 0, gated = 0;
+  count(kalman_.correct_position(p_W - position_at(moment), std_m.cwiseAbs2(), moment.age_s, 0.0),
+        taken, gated);
+}
+
+void DistanceFilterLaw::take_fix(Time measured, const Vector3d& p_W, const Vector3d& std_m,
+                                 const Vector3d& p_BA) {
+  Moment moment;
+  if (!recall(measured, moment)) return;
+  const Vector3d p_B = p_W - moment.q_WB * p_BA;
+  const Vector3d innovation = p_B - position_at(moment);
+  const Vector3d variance = params_.fix_inflation * std_m.cwiseAbs2();
+  DatumStatus status =
+      kalman_.correct_position(innovation, variance, moment.age_s, params_.fix_gate_sigma);
+  if (status != DatumStatus::kGated) fixes_gated_in_a_row_ = 0;
+  if (status == DatumStatus::kGated && ++fixes_gated_in_a_row_ >= kFixesToBelieve) {
+    fixes_gated_in_a_row_ = 0;
+    ++counters_.lost;
+    kalman_.widen(innovation.cwiseAbs2());
+    status = kalman_.correct_position(innovation, variance, moment.age_s, 0.0);
+    start_set();
+  }
+  count(status, counters_.fixes, counters_.fixes_gated);
+  if (status != DatumStatus::kTaken) return;
+  fix_nis_ = 3.0 * kalman_.last_nis();  // it tells the mean over the coordinates
+  cut_set_by_fix(p_B + moment.way_since_W, std_m);
+}
+
+void DistanceFilterLaw::take_plane(Time measured, const Vector3d& normal_W, double offset_m,
+                                   double std_m) {
+  Moment moment;
+  if (!recall(measured, moment)) return;
+  PositionKalman::Scalar datum;
+  datum.gradient = PositionKalman::gradient_of(normal_W, moment.age_s);
+  datum.innovation = offset_m - normal_W.dot(position_at(moment));
+  datum.variance = std_m * std_m;
+  datum.gate_sigma = params_.fix_gate_sigma;
+  count(kalman_.correct(datum), counters_.heights, counters_.heights_gated);
+}
+
+bool DistanceFilterLaw::take_stamp(Time measured, SensorState& sensor) {
+  if (sensor.has_read && measured <= sensor.last) {
+    ++counters_.backwards;
+    return false;
+  }
+  if (sensor.has_read) sensor.period_s = std::min((measured - sensor.last).s(), kLongestPeriod_s);
+  sensor.has_read = true;
+  sensor.last = measured;
+  return true;
+}
+
+void DistanceFilterLaw::take_ranges(Time measured, std::span<const RangeReading> readings) {
+  Moment moment;
+  if (map_ == nullptr || !recall(measured, moment)) return;
+  joint_centre_ = kalman_.p_W().head<2>();
+  joint_shape_ =
+      params_.set_scale * params_.set_scale * kalman_.position_covariance().topLeftCorner<2, 2>();
+  joint_cut_ = false;
+  for (const RangeReading& reading : readings) {
+    SensorState& sensor = sensor_states_[reading.sensor];
+    if (!take_stamp(measured, sensor)) continue;
+    if (std::isnan(reading.range_m) || reading.range_m < 0.0) {
+      ++counters_.bad_numbers;
+      continue;
+    }
+    if (!(reading.range_m < reading.max_range_m)) continue;  // nothing seen: nothing told
+    const Vector3d p_m = position_at(moment);
+    const auto echo = associate({moment.q_WB, p_m}, reading);
+    if (!echo) {
+      ++counters_.echoes_unmatched;
+      continue;
+    }
+    const DatumStatus status = fuse(*echo, reading, moment, p_m);
+    count(status, counters_.echoes, counters_.echoes_gated);
+    watch(status != DatumStatus::kTaken, sensor.period_s / static_cast<double>(sensors_.size()));
+    if (status != DatumStatus::kTaken) continue;
+    cut_set(echo_slab(*echo, p_m, reading.range_m, bounds_of(reading)), moment);
+  }
+  if (joint_cut_ && params_.fusion == DistanceFusion::kJoint) {
+    int taken = 0, gated = 0;
+    count(finish_joint(), taken, gated);
+  }
+}
+
+void DistanceFilterLaw::watch(bool refused, double weight_s) {
+  if (params_.lost_time_s <= 0.0) return;
+  const double share = std::min(1.0, weight_s / params_.lost_time_s);
+  refused_share_ += share * ((refused ? 1.0 : 0.0) - refused_share_);
+  if (refused_share_ < params_.lost_share) return;
+  refused_share_ = 0.0;
+  ++counters_.lost;
+  const double added = params_.lost_std_m * params_.lost_std_m;
+  kalman_.widen({added, added, 0.0});
+  start_set();
+}
+
+double DistanceFilterLaw::inflation_of(const SensorState& sensor) const {
+  if (params_.inflation > 0.0) return params_.inflation;
+  return correlation_inflation(accuracy_.correlation_length_m,
+                               std::max(v_W_.head<2>().norm(), kLeastSpeed_mps), sensor.period_s);
+}
+
+EchoBounds DistanceFilterLaw::bounds_of(const RangeReading& reading) const {
+  return {sensors_[reading.sensor].bound_m, params_.bound_sigma * accuracy_.surface_std_m,
+          params_.bound_sigma * yaw_std_rad_};
+}
+
+void DistanceFilterLaw::cut_set(const EchoSlab& slab, const Moment& moment) {
+  // The slab of that moment, carried along with what was dead reckoned since.
+  EchoSlab moved = slab;
+  const double way = slab.normal_W.dot(moment.way_since_W);
+  const double drift = params_.bound_sigma * params_.kalman.velocity_std_mps * moment.age_s;
+  moved.lower_m += way - drift;
+  moved.upper_m += way + drift;
+  if (set_.cut(moved) != CutStatus::kEmpty) return;
+  ++counters_.set_restarts;
+  start_set();
+}
+
+void DistanceFilterLaw::cut_set_by_fix(const Vector3d& p, const Vector3d& std_m) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double bound = params_.bound_sigma * std_m[axis];
+    const EchoSlab slab{Vector3d::Unit(axis), p[axis] - bound, p[axis] + bound};
+    if (set_.cut(slab) != CutStatus::kEmpty) continue;
+    ++counters_.set_restarts;
+    start_set();
+    return;
+  }
+}
+
+}  // namespace vinerow

@@ -1,0 +1,64 @@
+#pragma once
+/// What a path follower reads and writes that drives its vehicle by speed and yaw rate.
+
+#include <memory>
+
+#include "controllers/parts/ground_drive/stop_profile.h"
+#include "controllers/parts/ground_drive/twist_drive.h"
+#include "controllers/parts/paths/pose2.h"
+#include "engine/api/messages/event.h"
+#include "engine/api/stepped_parts.h"
+
+namespace vinerow {
+
+/// The followers' common ports: reads "estimate", "plan" and, where somebody writes it,
+/// "authority"; writes "actuators", "command", "follower".
+class DrivePorts {
+ public:
+  /// @throws ConfigError as make_twist_drive()
+  DrivePorts(const ControllerContext& context, const std::string& type);
+
+  void connect(Ports& ports);
+
+  /// For people. Allocates.
+  void tell(Time now, Event::Level level, const std::string& text) {
+    event_.write(now, {level, part_, text});
+  }
+
+  /// True once per new plan.
+  bool has_new_plan() { return plan_.is_newer_than(seen_plan_); }
+  const PlannedPath& plan() const { return plan_.value(); }
+  /// Why the vehicle cannot drive the plan: a corner that it would have to turn on the spot. Empty
+  /// where it can.
+  std::string find_fault_in_plan() const;
+  bool has_estimate() const { return estimate_.has_value(); }
+  const Odometry& estimate() const { return estimate_.value(); }
+  Pose2 pose() const;
+  /// Distance along the plan at which to stand still; +infinity: none.
+  double stop_at_m() const { return read_stop_at_m(authority_); }
+
+  /// Writes wheel speeds, command and follower state. No heap.
+  void write(Time now, const VelocityCommand& command, const FollowerState& state) {
+    write(now, command, command, state);
+  }
+  /// The same with other wheel speeds than the command's (slip made up for).
+  void write(Time now, const VelocityCommand& command, const VelocityCommand& wheels,
+             const FollowerState& state);
+
+  const TwistDrive& drive() const { return *drive_; }
+
+ private:
+  std::unique_ptr<TwistDrive> drive_;
+  std::string part_;
+  NamedValues actuator_values_;
+  std::uint64_t seen_plan_ = 0;
+  SignalReader<Odometry> estimate_;
+  SignalReader<PlannedPath> plan_;
+  SignalReader<MovementAuthority> authority_;
+  SignalWriter<NamedValues> actuators_;
+  SignalWriter<VelocityCommand> command_;
+  SignalWriter<FollowerState> follower_;
+  SignalWriter<Event> event_;
+};
+
+}  // namespace vinerow

@@ -1,0 +1,101 @@
+#include "controllers/parts/paths/distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/api/messages/grid.h"
+
+namespace vinerow {
+namespace {
+
+constexpr float kFar = 1e20f;
+
+/// Squared distances along one line: out[i] = min_k (i - k)^2 + in[k].
+class LowerEnvelope {
+ public:
+  explicit LowerEnvelope(int longest) : parabola_(longest), begin_(longest + 1) {}
+
+  void transform(const float* in, int count, float* out) {
+    int last = -1;
+    for (int k = 0; k < count; ++k) {
+      if (in[k] >= kFar) continue;
+      double meet = -std::numeric_limits<double>::infinity();
+      while (last >= 0) {
+        const int other = parabola_[last];
+        meet =
+            ((in[k] + double(k) * k) - (in[other] + double(other) * other)) / (2.0 * (k - other));
+        if (meet > begin_[last]) break;
+        meet = -std::numeric_limits<double>::infinity();
+        --last;
+      }
+      ++last;
+      parabola_[last] = k;
+      begin_[last] = meet;
+    }
+    if (last < 0) {
+      std::fill(out, out + count, kFar);
+      return;
+    }
+    for (int i = 0, at = 0; i < count; ++i) {
+      while (at < last && begin_[at + 1] < i) ++at;
+      const float away = static_cast<float>(i - parabola_[at]);
+      out[i] = away * away + in[parabola_[at]];
+    }
+  }
+
+ private:
+  std::vector<int> parabola_;  // place of each parabola of the envelope
+  std::vector<double> begin_;  // where it takes over from the one before
+};
+
+}  // namespace
+
+DistanceField::DistanceField(const OccupancyGrid& grid)
+    : columns_(grid.columns), rows_(grid.rows), cell_m_(grid.cell_m), corner_W_(grid.corner_W) {
+  if (grid.empty()) {
+    columns_ = rows_ = 0;
+    return;
+  }
+  distance_m_.resize(grid.cells.size());
+  LowerEnvelope envelope(std::max(columns_, rows_));
+  std::vector<float> line(std::max(columns_, rows_)), result(line.size());
+  for (int j = 0; j < rows_; ++j) {
+    float* row = &distance_m_[static_cast<std::size_t>(j) * columns_];
+    for (int i = 0; i < columns_; ++i) line[i] = grid.occupied(i, j) ? 0.0f : kFar;
+    envelope.transform(line.data(), columns_, row);
+  }
+  for (int i = 0; i < columns_; ++i) {
+    for (int j = 0; j < rows_; ++j) {
+      line[j] = distance_m_[static_cast<std::size_t>(j) * columns_ + i];
+    }
+    envelope.transform(line.data(), rows_, result.data());
+    for (int j = 0; j < rows_; ++j) {
+      const double centres_m = std::sqrt(static_cast<double>(result[j])) * cell_m_;
+      distance_m_[static_cast<std::size_t>(j) * columns_ + i] =
+          static_cast<float>(std::max(0.0, centres_m - 0.5 * cell_m_));
+    }
+  }
+}
+
+bool DistanceField::covers(const Eigen::Vector2d& p_W) const {
+  const Eigen::Vector2d in_cells = (p_W - corner_W_) / cell_m_;
+  return in_cells.x() >= 0.0 && in_cells.y() >= 0.0 && in_cells.x() < columns_ &&
+         in_cells.y() < rows_;
+}
+
+double DistanceField::at(const Eigen::Vector2d& p_W) const {
+  if (empty()) return std::numeric_limits<double>::infinity();
+  if (!covers(p_W)) return 0.0;
+  const double x = std::clamp((p_W.x() - corner_W_.x()) / cell_m_ - 0.5, 0.0, columns_ - 1.0);
+  const double y = std::clamp((p_W.y() - corner_W_.y()) / cell_m_ - 0.5, 0.0, rows_ - 1.0);
+  const int i = std::min(static_cast<int>(x), std::max(columns_ - 2, 0));
+  const int j = std::min(static_cast<int>(y), std::max(rows_ - 2, 0));
+  const int right = columns_ > 1 ? 1 : 0;
+  const std::size_t up = rows_ > 1 ? static_cast<std::size_t>(columns_) : 0;
+  const float* d = &distance_m_[static_cast<std::size_t>(j) * columns_ + i];
+  const double u = x - i, v = y - j;
+  return (1 - v) * ((1 - u) * d[0] + u * d[right]) + v * ((1 - u) * d[up] + u * d[up + right]);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,42 @@
+#pragma once
+/// A path as straights and arcs, and its waypoints at a given pitch.
+
+#include <vector>
+
+#include "controllers/parts/paths/dubins.h"
+#include "engine/api/messages/path.h"
+
+namespace vinerow {
+
+/// A straight or an arc.
+struct PathPiece {
+  Pose2 start;
+  double length_m = 0.0;
+  double curvature_per_m = 0.0;  ///< positive to the left, 0 = straight
+  PathKind kind = PathKind::kLeg;
+  int alley = -1;
+  double speed_mps = 0.0;  ///< 0 = the follower's own
+
+  Pose2 at(double distance_m) const {
+    return advance(start, distance_m, distance_m * curvature_per_m);
+  }
+  Pose2 end() const { return at(length_m); }
+};
+using PathPieces = std::vector<PathPiece>;
+
+/// The straight from `a` to `b`. @pre a != b
+PathPiece make_straight(const Eigen::Vector2d& a, const Eigen::Vector2d& b, PathKind kind,
+                        int alley, double speed_mps);
+
+/// Appends the pieces of a Dubins path that have a length.
+void append_dubins(const Pose2& start, const DubinsPath& dubins, PathKind kind, double speed_mps,
+                   std::vector<PathPiece>& pieces);
+
+/// Waypoints: each piece is split into round(length / pitch) equal parts, at least one, so that its
+/// ends are waypoints (paper B: waypoint pitch WPP). Heights are zero. Pieces shorter than a
+/// micrometre are left out.
+/// @param pitch_m  > 0
+/// @throws ConfigError where they are more than 2 million
+PlannedPath make_planned_path(const std::vector<PathPiece>& pieces, double pitch_m);
+
+}  // namespace vinerow

@@ -1,0 +1,40 @@
+#pragma once
+/// The limits that every hand-tuned flight controller keeps, as parameters: tilt, thrust, torques,
+/// speeds at which errors are won back.
+
+#include <Eigen/Core>
+
+#include "controllers/parts/rotorcraft/rotor_mixer.h"
+#include "engine/api/parameter_table_fwd.h"
+#include "engine/math/angles.h"
+
+namespace vinerow {
+
+struct FlightLimits {
+  double tilt_rad = 0.0;
+  double min_thrust_N = 0.0, max_thrust_N = 0.0;
+  Eigen::Vector3d torque_Nm = Eigen::Vector3d::Zero();
+  double correction_mps = 0.0;        ///< towards the reference, horizontally
+  double climb_correction_mps = 0.0;  ///< the same up and down
+  double yaw_rate_radps = 0.0;        ///< towards the wanted heading
+};
+
+/// The same for a vehicle of any size.
+struct FlightLimitParams {
+  double tilt_rad = rad_from_deg(25.0);
+  double min_thrust = 0.3, max_thrust = 2.0;  ///< in weights
+  double torque_share = 0.7;                  ///< of what hover leaves room for
+  double correction_mps = 2.0;
+  double climb_correction_mps = 1.0;
+  double yaw_rate_radps = rad_from_deg(60.0);
+};
+
+/// `tilt_limit_deg`, `min_thrust`, `max_thrust`, `torque_share`, `correction_speed_mps`,
+/// `climb_correction_mps`, `yaw_rate_limit_degps`.
+const ParameterTable<FlightLimitParams>& flight_limit_table();
+
+/// max_thrust is cut to what the rotors have. The parameters' ranges leave room about the weight.
+FlightLimits make_flight_limits(const FlightLimitParams& params, const RotorcraftModel& craft,
+                                const RotorMixer& mixer);
+
+}  // namespace vinerow

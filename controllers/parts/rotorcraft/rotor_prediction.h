@@ -1,0 +1,40 @@
+#pragma once
+/// What the rotors do after a command: w' = (wanted - w) / lag. Nothing measures their speeds, and
+/// an error of this model dies out with the lag.
+
+#include <vector>
+
+#include "controllers/parts/rotorcraft/rotor_mixer.h"
+
+namespace vinerow {
+
+class RotorPrediction {
+ public:
+  RotorPrediction(const RotorcraftModel& craft, const RotorMixer& mixer);
+
+  /// Rotors at rest.
+  void reset();
+  /// Rotors at these speeds, rad/s.
+  void set_speeds(const std::vector<double>& speeds_radps) { speeds_radps_ = speeds_radps; }
+  /// These speeds are wanted for the next period_s. @param wanted_radps  as many as rotors
+  void command(const std::vector<double>& wanted_radps, double period_s);
+
+  /// At the end of the last command.
+  Wrench now() const { return mixer_.wrench_of(speeds_radps_); }
+  /// Mean over the last command; what spinning the rotors up gives the body is in it.
+  Wrench mean() const {
+    Wrench wrench = mixer_.wrench_of(mean_radps_);
+    wrench.torque_B.z() += spin_up_Nm_;
+    return wrench;
+  }
+
+ private:
+  const RotorMixer& mixer_;
+  double lag_s_;
+  std::vector<double> inertia_kgm2_;  ///< of each rotor, signed as its drag torque
+  double spin_up_Nm_ = 0.0;
+  std::vector<double> speeds_radps_;
+  std::vector<double> mean_radps_;  ///< root mean square
+};
+
+}  // namespace vinerow

@@ -1,0 +1,185 @@
+#include "controllers/parts/solvers/tube_sets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "controllers/parts/solvers/invariant_set.h"
+#include "controllers/parts/solvers/series_support.h"
+#include "controllers/parts/solvers/zonotope.h"
+#include "engine/core/error.h"
+
+namespace vinerow {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kMargin = 0.01;
+constexpr double kThinnest = 1e-6;  // of the limit: reach of gusts that do not come at a state
+
+void check_shape(const char* name, const MatrixXd& matrix, Index rows, Index columns) {
+  if (matrix.rows() != rows || matrix.cols() != columns) {
+    throw ConfigError(fmt::format("{} of a tube is {} x {}, must be {} x {}", name, matrix.rows(),
+                                  matrix.cols(), rows, columns));
+  }
+  if (!matrix.allFinite()) {
+    throw ConfigError(fmt::format("{} of a tube holds a number that is not finite", name));
+  }
+}
+
+void check(const TubeModel& model) {
+  const Index n = model.A.rows(), m = model.B.cols(), g = model.E.cols();
+  check_shape("A", model.A, n, n);
+  check_shape("B", model.B, n, m);
+  check_shape("E", model.E, n, g);
+  check_shape("K", model.K, m, n);
+  check_shape("the gust", model.gust, g, 1);
+  check_shape("the state limit", model.state_limit, n, 1);
+  check_shape("the input limit", model.input_limit, m, 1);
+  if ((model.gust.array() < 0.0).any()) throw ConfigError("a gust of a tube is negative");
+  if ((model.state_limit.array() <= 0.0).any() || (model.input_limit.array() <= 0.0).any()) {
+    throw ConfigError("a limit of a tube is not > 0");
+  }
+}
+
+std::string name_at(const std::vector<std::string>& names, Index i, const char* kind) {
+  const auto index = static_cast<std::size_t>(i);
+  return index < names.size() ? names[index] : fmt::format("{} {}", kind, i);
+}
+
+Zonotope gust_set(const TubeModel& model) {
+  return Zonotope(MatrixXd(model.E * model.gust.asDiagonal()));
+}
+
+Result<SeriesSupport> make_tube(const TubeModel& model) {
+  return SeriesSupport::make(model.A + model.B * model.K, gust_set(model));
+}
+
+TubeRoom room_of(const TubeModel& model, const SeriesSupport& S) {
+  TubeRoom room;
+  room.factor = std::numeric_limits<double>::infinity();
+  const auto look = [&room](double limit, double reach, const std::string& name) {
+    if (reach > 0.0 && limit / reach < room.factor) {
+      room.factor = limit / reach;
+      room.binding = name;
+    }
+  };
+  const Index n = model.A.rows(), m = model.B.cols();
+  room.reach.state.resize(n);
+  room.reach.input.resize(m);
+  // S of no gusts is the origin; the series' bound of the rest of nothing is not quite zero.
+  const bool calm = (model.E * model.gust.asDiagonal()).isZero(0.0);
+  for (Index i = 0; i < n; ++i) {
+    room.reach.state[i] = calm ? 0.0 : S(VectorXd::Unit(n, i));
+    look(model.state_limit[i], room.reach.state[i], name_at(model.state_names, i, "state"));
+  }
+  for (Index j = 0; j < m; ++j) {
+    room.reach.input[j] = calm ? 0.0 : S(model.K.row(j));
+    look(model.input_limit[j], room.reach.input[j], name_at(model.input_names, j, "input"));
+  }
+  return room;
+}
+
+/// What stays within limits of x and K x for ever, under x+ = A_K x (+ w, w in W).
+struct StayingSet {
+  MatrixXd rows;  // of x: |row x| <= 1
+  int steps = 0;
+};
+
+/// Rows of a set that is its own mirror image, one of each pair, divided by their limits. Where
+/// rounding has left one of a pair out as redundant, its mirror image stands for both.
+MatrixXd paired_rows(const Polytope& set) {
+  MatrixXd rows(set.rows(), set.dimension());
+  Index kept = 0;
+  for (Index i = 0; i < set.rows(); ++i) {
+    const Eigen::RowVectorXd row = set.F().row(i) / set.g()[i];
+    bool is_new = true;
+    for (Index k = 0; k < kept && is_new; ++k) {
+      const double near = 1e-9 * row.norm();
+      is_new = (rows.row(k) + row).norm() > near && (rows.row(k) - row).norm() > near;
+    }
+    if (is_new) rows.row(kept++) = row;
+  }
+  rows.conservativeResize(kept, Eigen::NoChange);
+  return rows;
+}
+
+/// Worked out for x / limits, so that rows of all units weigh the same.
+Result<StayingSet> make_staying_set(const TubeModel& model, const MatrixXd& A_K,
+                                    const TubeReach& limits, const Zonotope* W) {
+  const MatrixXd scale = limits.state.asDiagonal();
+  const MatrixXd unscale = limits.state.cwiseInverse().asDiagonal();
+  const MatrixXd A = unscale * A_K * scale;
+  const MatrixXd K = limits.input.cwiseInverse().asDiagonal() * model.K * scale;
+  const Polytope allowed =
+      Polytope::box(VectorXd::Ones(A.rows()))
+          .intersection(Polytope::box(VectorXd::Ones(K.rows())).linear_preimage(K));
+  const Result<InvariantSet> set =
+      W == nullptr ? maximal_invariant_set(A, allowed)
+                   : maximal_robust_invariant_set(A, allowed, W->linear_image(unscale));
+  if (!set) return Failure{set.reason()};
+  return StayingSet{paired_rows(set->set) * unscale, set->steps};
+}
+
+MatrixXd box_rows(const TubeModel& model, const TubeReach& reach) {
+  const Index n = model.A.rows(), m = model.B.cols();
+  MatrixXd rows(n + m, n);
+  rows.topRows(n) = reach.state.cwiseInverse().asDiagonal();
+  rows.bottomRows(m) = reach.input.cwiseInverse().asDiagonal() * model.K;
+  return rows;
+}
+
+}  // namespace
+
+Result<TubeRoom> calc_tube_room(const TubeModel& model) {
+  check(model);
+  const Result<SeriesSupport> S = make_tube(model);
+  if (!S) return Failure{S.reason()};
+  return room_of(model, *S);
+}
+
+Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape) {
+  check(model);
+  const Result<SeriesSupport> S = make_tube(model);
+  if (!S) return Failure{S.reason()};
+  TubeSets sets;
+  sets.A_K = model.A + model.B * model.K;
+  sets.room = room_of(model, *S);
+  const double factor = sets.room.factor;
+  if (!(factor > 1.0)) {
+    return Failure{fmt::format(
+        "the tube is empty: gusts alone take {:.3g} times the limit of {}; at most {:.3g} of them "
+        "are feasible",
+        1.0 / factor, sets.room.binding, factor)};
+  }
+  const bool calm = std::isinf(factor);
+  TubeReach reach = sets.room.reach;
+  if (!calm) {  // A set has an inside, so that rows have limits to be divided by.
+    reach.state = reach.state.cwiseMax(kThinnest * model.state_limit);
+    reach.input = reach.input.cwiseMax(kThinnest * model.input_limit);
+  }
+  sets.tube_rows.resize(0, model.A.rows());
+  if (!calm && shape == TubeShape::kBox) sets.tube_rows = box_rows(model, reach);
+  if (!calm && shape == TubeShape::kInvariant) {
+    sets.margin = std::min(kMargin, 0.5 * (factor - 1.0));
+    reach.state *= 1.0 + sets.margin;
+    reach.input *= 1.0 + sets.margin;
+    const Zonotope W = gust_set(model);
+    const Result<StayingSet> R = make_staying_set(model, sets.A_K, reach, &W);
+    if (!R) return Failure{R.reason()};
+    sets.tube_rows = R->rows;
+  }
+  sets.state_limit = model.state_limit - reach.state;
+  sets.input_limit = model.input_limit - reach.input;
+  const Result<StayingSet> terminal =
+      make_staying_set(model, sets.A_K, {sets.state_limit, sets.input_limit}, nullptr);
+  if (!terminal) return Failure{terminal.reason()};
+  sets.terminal_rows = terminal->rows;
+  sets.terminal_steps = terminal->steps;
+  return sets;
+}
+
+}  // namespace vinerow

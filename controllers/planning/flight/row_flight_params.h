@@ -1,0 +1,33 @@
+#pragma once
+/// Parameters of planner `row_flight`.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controllers/planning/routes/headland_turn.h"
+#include "controllers/planning/routes/route_planner.h"
+
+namespace vinerow {
+
+struct RowFlightParams {
+  RoutePlannerParams route;
+  double height_m = 1.5;
+  double return_height_m = 3.0;
+  std::optional<TurnKind> turns;  ///< in closed form; absent: searched on the grid
+  double smooth_m = 2.0;
+  double return_smooth_m = 3.0;
+  double return_speed_mps = 0.0;
+  bool returns = true;
+  double standing_m = 0.0;  ///< of B above the ground when the vehicle stands
+  double radius_m = 0.5;    ///< of the circle about B that holds the vehicle
+};
+
+/// Its own, those of route_planner.h and those of the search of rrt_star.
+std::vector<ParameterSpec> row_flight_parameters();
+/// @throws ConfigError as read_route_planner_params does, and for heights that leave nothing to
+/// climb
+RowFlightParams read_row_flight_params(const ParameterSet& parameters,
+                                       const PlannerContext& context, const std::string& who);
+
+}  // namespace vinerow

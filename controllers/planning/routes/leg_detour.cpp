@@ -1,0 +1,120 @@
+#include "controllers/planning/routes/leg_detour.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "controllers/planning/search/analytic_turn.h"
+
+namespace vinerow {
+namespace {
+
+/// Part of a line of straights.
+PathPieces cut(const PathPieces& pieces, double from_m, double to_m) {
+  constexpr double kShortest_m = 1e-6;
+  PathPieces part;
+  double begin_m = 0.0;
+  for (const PathPiece& piece : pieces) {
+    const double first_m = std::clamp(from_m - begin_m, 0.0, piece.length_m);
+    const double last_m = std::clamp(to_m - begin_m, 0.0, piece.length_m);
+    begin_m += piece.length_m;
+    if (last_m - first_m < kShortest_m) continue;
+    PathPiece some = piece;
+    some.start = piece.at(first_m);
+    some.length_m = last_m - first_m;
+    part.push_back(some);
+  }
+  return part;
+}
+
+Pose2 pose_on(const PathPieces& pieces, double distance_m) {
+  for (const PathPiece& piece : pieces) {
+    if (distance_m <= piece.length_m) return piece.at(distance_m);
+    distance_m -= piece.length_m;
+  }
+  return pieces.back().end();
+}
+
+struct Stretch {
+  double from_m = 0.0, to_m = 0.0;
+};
+
+std::vector<Stretch> find_blocked(const PathPieces& pieces, const Footprint& footprint,
+                                  double step_m) {
+  const double length_m = calc_length_m(pieces);
+  const int parts = std::max(1, static_cast<int>(std::ceil(length_m / step_m)));
+  std::vector<Stretch> blocked;
+  bool was_free = true;
+  for (int i = 0; i <= parts; ++i) {
+    const double s = length_m * i / parts;
+    const bool is_free = footprint.is_free(pose_on(pieces, s));
+    if (!is_free && was_free) blocked.push_back({s, s});
+    if (!is_free) blocked.back().to_m = s;
+    was_free = is_free;
+  }
+  return blocked;
+}
+
+}  // namespace
+
+Result<PathPieces> drive_around(const RouteLeg& leg, const Footprint& footprint,
+                                const RouteRoom& room, PoseSearch& search, int problem,
+                                const LegDetourParams& params, std::vector<SearchReport>& reports) {
+  PathPieces straights;
+  append_leg(leg, params.speed_mps, straights);
+  const double length_m = calc_length_m(straights);
+  PathPieces way;
+  double at_m = 0.0;
+  for (const Stretch& stretch : find_blocked(straights, footprint, params.step_m)) {
+    if (stretch.from_m < at_m) continue;  // passed together with the one before
+    // A swerve of d takes about 2 sqrt(R d) of way: two radii for half a metre, more for more.
+    constexpr double kRadii[] = {2.0, 3.5, 5.0};
+    std::optional<PathPieces> found;
+    std::string reason = "it is at the leg's end";
+    for (const double radii : kRadii) {
+      const double from_m = std::max(at_m, stretch.from_m - radii * params.radius_m);
+      const double to_m = std::min(length_m, stretch.to_m + radii * params.radius_m);
+      const Pose2 from = pose_on(straights, from_m), to = pose_on(straights, to_m);
+      if (!footprint.is_free(from) || !footprint.is_free(to)) continue;
+      reports.emplace_back();
+      const auto outcome = search.find(from, to, footprint, problem++, reports.back());
+      if (!outcome) {
+        reason = outcome.reason();
+        continue;
+      }
+      PathPieces swerve = *outcome;
+      if (!room.is_free(swerve)) {
+        reason = "the way found touches it";
+        continue;
+      }
+      for (PathPiece& piece : swerve) {
+        piece.kind = PathKind::kLeg;
+        piece.alley = leg.alley;
+        piece.speed_mps = params.speed_mps;
+      }
+      // A loop through the neighbouring alley is no way around what stands in this one.
+      constexpr double kLonger = 1.5;
+      if (calc_length_m(swerve) > kLonger * (to_m - from_m)) {
+        reason = fmt::format("the shortest way found takes {:.1f} m for {:.1f} m",
+                             calc_length_m(swerve), to_m - from_m);
+        continue;
+      }
+      found = cut(straights, at_m, from_m);
+      found->insert(found->end(), swerve.begin(), swerve.end());
+      at_m = to_m;
+      break;
+    }
+    if (!found) {
+      return Failure{fmt::format("the leg in alley {} is blocked: {}; no way around it: {}",
+                                 leg.alley, room.tell(pose_on(straights, stretch.from_m)), reason)};
+    }
+    way.insert(way.end(), found->begin(), found->end());
+  }
+  const PathPieces rest = cut(straights, at_m, length_m);
+  way.insert(way.end(), rest.begin(), rest.end());
+  return way;
+}
+
+}  // namespace vinerow

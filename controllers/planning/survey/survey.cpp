@@ -1,0 +1,62 @@
+#include "controllers/planning/survey/survey.h"
+
+#include <fmt/format.h>
+
+#include "controllers/planning/survey/survey_params.h"
+#include "controllers/planning/survey/survey_plan.h"
+#include "engine/core/error.h"
+
+namespace vinerow {
+namespace {
+
+class Survey final : public Planner {
+ public:
+  Survey(SurveyRequest request, const PlannerContext& context)
+      : request_(std::move(request)),
+        scene_(context.scene),
+        standing_m_(context.vehicle_description->height_above_ground_m) {}
+
+  Result<PlannedPath> plan(const Pose& start) override {
+    report_ = {};
+    auto plan = plan_survey(request_, start, make_ground(scene_, start.p.z() - standing_m_));
+    if (!plan) return Failure{plan.reason()};
+    report_.numbers = plan->numbers;
+    return plan->path;
+  }
+
+  const PlanReport* report() const override { return &report_; }
+
+ private:
+  SurveyRequest request_;
+  const SceneQuery* scene_;
+  double standing_m_;
+  PlanReport report_;
+};
+
+}  // namespace
+
+PartSpec survey_spec() {
+  PartSpec spec;
+  spec.name = "survey";
+  spec.description =
+      "Parallel lanes over a parcel for a camera that looks down: height from ground sampling "
+      "distance, overlaps, turns the aircraft can fly, waypoints above the terrain (paper A, "
+      "section "
+      "2; docs/survey.md).";
+  spec.parameters = survey_parameters();
+  spec.reads = {"estimate"};
+  spec.writes = {"plan"};
+  return spec;
+}
+
+std::unique_ptr<Planner> make_survey(const ParameterSet& parameters,
+                                     const PlannerContext& context) {
+  const std::string who = context.part + " (survey)";
+  if (!context.vehicle_description->flies()) {
+    throw ConfigError(fmt::format("{} plans flights, but vehicle type '{}' does not fly", who,
+                                  context.vehicle_description->type));
+  }
+  return std::make_unique<Survey>(read_survey_request(parameters, context, who), context);
+}
+
+}  // namespace vinerow

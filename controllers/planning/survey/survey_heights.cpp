@@ -1,0 +1,136 @@
+#include "controllers/planning/survey/survey_heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vinerow {
+namespace {
+
+constexpr double kSurveyStep_m = 1.0;   // between samples
+constexpr double kMostSamples = 800.0;  // of a piece
+// The ground between two samples is not looked at: keep a little of the allowed error for it.
+constexpr double kErrorShare = 0.98;
+
+/// Points within one piece: samples first to last, both included.
+void split_piece(const std::vector<GroundProfile::Sample>& samples,
+                 const std::vector<double>& wanted_m, int first, int last, double error_m,
+                 std::vector<int>& points) {
+  const int count = last - first + 1;
+  struct Best {
+    int ramps = std::numeric_limits<int>::max();
+    double squares_m2 = 0.0;  // of the ramps' lengths: small where they are even
+    int before = -1;
+  };
+  std::vector<Best> best(count);
+  best[0].ramps = 0;
+  for (int i = 0; i + 1 < count; ++i) {
+    // Slopes of ramps from i that miss none of the samples passed by more than allowed.
+    double low = -std::numeric_limits<double>::infinity(), high = -low;
+    for (int j = i + 1; j < count; ++j) {
+      const double way_m = samples[first + j].distance_m - samples[first + i].distance_m;
+      const double rise_m = wanted_m[first + j] - wanted_m[first + i];
+      const double slope = rise_m / way_m;
+      const double squares_m2 = best[i].squares_m2 + way_m * way_m;
+      const int ramps = best[i].ramps + 1;
+      if (slope >= low && slope <= high &&
+          (ramps < best[j].ramps ||
+           (ramps == best[j].ramps && squares_m2 < best[j].squares_m2 - 1e-6))) {
+        best[j] = {ramps, squares_m2, i};
+      }
+      low = std::max(low, (rise_m - error_m) / way_m);
+      high = std::min(high, (rise_m + error_m) / way_m);
+      if (low > high) break;
+    }
+  }
+  std::vector<int> found;
+  for (int j = count - 1; j > 0; j = best[j].before) found.push_back(first + j);
+  points.insert(points.end(), found.rbegin(), found.rend());
+}
+
+}  // namespace
+
+Result<GroundProfile> GroundProfile::make(const std::vector<Eigen::Vector2d>& line,
+                                          const GroundHeight& ground) {
+  GroundProfile profile;
+  std::vector<bool> known;
+  const auto add = [&](const Eigen::Vector2d& p, double distance_m) {
+    const std::optional<double> height_m = ground(p);
+    known.push_back(height_m.has_value());
+    profile.samples_.push_back({distance_m, height_m.value_or(0.0), p});
+  };
+  double distance_m = 0.0;
+  add(line.front(), 0.0);
+  profile.at_point_.push_back(0);
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Eigen::Vector2d way = line[i + 1] - line[i];
+    const double length_m = way.norm(), step_m = std::max(kSurveyStep_m, length_m / kMostSamples);
+    const int count = std::max(1, static_cast<int>(std::ceil(length_m / step_m - 1e-9)));
+    for (int k = 1; k <= count; ++k) {
+      const double share = static_cast<double>(k) / count;
+      add(line[i] + share * way, distance_m + share * length_m);
+    }
+    distance_m += length_m;
+    profile.at_point_.push_back(static_cast<int>(profile.samples_.size()) - 1);
+  }
+  const int n = static_cast<int>(known.size());
+  profile.beyond_ = static_cast<int>(std::count(known.begin(), known.end(), false));
+  if (profile.beyond_ == n) return Failure{"there is no ground below any of it"};
+  // The nearer of the known heights before and after.
+  std::vector<int> before(n, -1), after(n, -1);
+  for (int i = 0; i < n; ++i) before[i] = known[i] ? i : i > 0 ? before[i - 1] : -1;
+  for (int i = n - 1; i >= 0; --i) after[i] = known[i] ? i : i + 1 < n ? after[i + 1] : -1;
+  for (int i = 0; i < n; ++i) {
+    if (known[i]) continue;
+    const auto way_to = [&](int j) {
+      return j < 0 ? std::numeric_limits<double>::infinity()
+                   : std::abs(profile.samples_[j].distance_m - profile.samples_[i].distance_m);
+    };
+    const int from = way_to(before[i]) <= way_to(after[i]) ? before[i] : after[i];
+    profile.samples_[i].ground_m = profile.samples_[from].ground_m;
+  }
+  return profile;
+}
+
+std::vector<double> make_wanted_heights(const GroundProfile& profile, double above_m,
+                                        double max_slope) {
+  const auto& samples = profile.samples();
+  std::vector<double> wanted_m;
+  for (const GroundProfile::Sample& sample : samples) wanted_m.push_back(sample.ground_m + above_m);
+  const std::size_t n = samples.size();
+  for (std::size_t i = 1; i < n; ++i) {
+    const double way_m = samples[i].distance_m - samples[i - 1].distance_m;
+    wanted_m[i] = std::max(wanted_m[i], wanted_m[i - 1] - max_slope * way_m);
+  }
+  for (std::size_t i = n - 1; i-- > 0;) {
+    const double way_m = samples[i + 1].distance_m - samples[i].distance_m;
+    wanted_m[i] = std::max(wanted_m[i], wanted_m[i + 1] - max_slope * way_m);
+  }
+  return wanted_m;
+}
+
+double begin_heights_at(const GroundProfile& profile, double start_m, double max_slope,
+                        std::vector<double>& wanted_m) {
+  const auto& samples = profile.samples();
+  const double sign = start_m < wanted_m.front() ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double ramp_m = start_m + sign * max_slope * samples[i].distance_m;
+    if (sign * (wanted_m[i] - ramp_m) <= 0.0) return samples[i].distance_m;
+    wanted_m[i] = ramp_m;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::vector<int> split_ramps(const GroundProfile& profile, const std::vector<double>& wanted_m,
+                             std::size_t point_count, double error_m) {
+  std::vector<int> points = {0};
+  for (std::size_t i = 0; i + 1 < point_count; ++i) {
+    const int first = profile.at_point(i), last = profile.at_point(i + 1);
+    if (last > first) {
+      split_piece(profile.samples(), wanted_m, first, last, kErrorShare * error_m, points);
+    }
+  }
+  return points;
+}
+
+}  // namespace vinerow

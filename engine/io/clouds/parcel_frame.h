@@ -1,0 +1,52 @@
+#pragma once
+/// CloudFrame for the points of one parcel: some 30 times as fast, and as exact as points can be.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <span>
+
+#include "engine/io/clouds/point_cloud.h"
+#include "engine/io/clouds/point_cloud_crs.h"
+
+namespace vinerow::io {
+
+/// Brings coordinates of a CRS to W by polynomials that were fitted to a CloudFrame over a box.
+///
+/// W is linear in the height: W = A(x, y) + (z - z0) B(x, y). A is a polynomial of degree 3, B one
+/// of degree 2; over L m from the box's middle, what is left of A is of the order of L^4 / 24 R^3
+/// (R: of the Earth; 0.01 um at 3 km), of B L^2 / 2 R^2 for each metre of height. Whether that
+/// holds for the CRS at hand is not believed but measured, on a grid of other points at three
+/// heights: where one is off by more than kError_m (grids of datum shifts with steps, a pole,
+/// a box as large as a country), the exact frame does the work. Thread safe where is_fitted().
+class ParcelFrame {
+ public:
+  static constexpr double kError_m = 2e-5;
+
+  /// @param exact  outlives this. @param box  in the CRS's units, not empty
+  /// @throws ConfigError where the middle of the box has no place in the CRS
+  ParcelFrame(const CloudFrame& exact, const Eigen::AlignedBox3d& box);
+
+  bool is_fitted() const { return is_fitted_; }
+  /// @param points  inside of the box; in place, to m in W. @throws ConfigError as CloudFrame
+  void to_local(std::span<CloudPoint> points) const;
+
+ private:
+  static constexpr int kTerms = 10, kSlopeTerms = 6;
+  using Terms = Eigen::Matrix<double, kTerms, 1>;
+
+  static Terms terms_of(double u, double v);
+  Eigen::Vector3d fitted(const Eigen::Vector3d& position) const;
+  void fit();
+  double measured_error_m() const;
+  Eigen::Vector3d at(double u, double v, double w) const;
+
+  const CloudFrame* exact_;
+  Eigen::Vector3d middle_, half_;  // of the box; half_ > 0
+  // Of x, y, z and a zero that fills the registers.
+  Eigen::Matrix<double, 4, kTerms> place_ = Eigen::Matrix<double, 4, kTerms>::Zero();
+  Eigen::Matrix<double, 4, kSlopeTerms> slope_ =
+      Eigen::Matrix<double, 4, kSlopeTerms>::Zero();  // m for each unit of z
+  bool is_fitted_ = false;
+};
+
+}  // namespace vinerow::io

@@ -1,0 +1,72 @@
+#include "engine/io/geo/local_to_crs.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/core/error.h"
+#include "engine/io/geo/crs_text.h"
+#include "engine/io/geo/gdal_handles.h"
+#include "engine/io/geo/quiet_gdal.h"
+#include "engine/math/angles.h"
+#include "engine/math/geo.h"
+
+namespace vinerow::io {
+
+struct LocalToCrs::Impl {
+  Impl(const std::string& text, const GeoOrigin& origin) : frame(origin) {
+    OGRSpatialReference crs = parse_crs(text);
+    name = crs.GetName() ? crs.GetName() : "unknown";
+    if (crs.IsCompound() || crs.IsVertical()) {
+      height_m = crs.GetTargetLinearUnits("VERT_CS");
+    } else if (crs.IsProjected()) {
+      height_m = crs.GetLinearUnits();
+    }
+    if (crs.IsCompound()) crs.StripVertical();
+    crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const OGRSpatialReference wgs84 = make_wgs84();
+    from_wgs84.reset(OGRCreateCoordinateTransformation(&wgs84, &crs));
+    if (!from_wgs84) {
+      throw ConfigError(fmt::format("WGS84 does not convert to the crs '{}'", name));
+    }
+  }
+
+  LocalFrame frame;
+  double height_m = 1.0;  ///< metres of one unit of z
+  std::string name;
+  Transformation from_wgs84;
+};
+
+LocalToCrs::LocalToCrs(const std::string& crs, const GeoOrigin& origin) {
+  const QuietGdal quiet;
+  impl_ = std::make_unique<Impl>(crs, origin);
+}
+
+LocalToCrs::~LocalToCrs() = default;
+
+Eigen::Vector3d LocalToCrs::from_local(const Eigen::Vector3d& p_W) const {
+  const QuietGdal quiet;
+  const Geodetic place = impl_->frame.to_geodetic(p_W);
+  double x = deg_from_rad(place.longitude_rad), y = deg_from_rad(place.latitude_rad);
+  const double longitude = x, latitude = y;
+  if (!impl_->from_wgs84->Transform(1, &x, &y) || !std::isfinite(x) || !std::isfinite(y)) {
+    throw ConfigError(fmt::format("the place {:.6f} N, {:.6f} E lies outside of the crs '{}'",
+                                  latitude, longitude, impl_->name));
+  }
+  return {x, y, place.altitude_m / impl_->height_m};
+}
+
+LocalToCrs::Nearby LocalToCrs::near(const Eigen::Vector3d& centre_W) const {
+  constexpr double kStep_m = 10.0;
+  Nearby nearby;
+  nearby.centre_W = centre_W;
+  nearby.constant = from_local(centre_W);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d step = kStep_m * Eigen::Vector3d::Unit(axis);
+    nearby.linear.col(axis) =
+        (from_local(centre_W + step) - from_local(centre_W - step)) / (2.0 * kStep_m);
+  }
+  return nearby;
+}
+
+}  // namespace vinerow::io

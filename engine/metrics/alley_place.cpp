@@ -1,0 +1,221 @@
+#include "engine/metrics/alley_place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/api/map.h"
+#include "engine/api/plan_stretch.h"
+#include "engine/api/world_model.h"
+#include "engine/math/deviation.h"
+#include "engine/metrics/extremes.h"
+#include "engine/metrics/spread.h"
+#include "engine/metrics/tenths.h"
+
+namespace vinerow {
+namespace {
+
+using Eigen::Vector2d;
+
+/// The ground is looked for from so far above the origin, so that a vehicle that has sunk into it
+/// still finds it.
+constexpr double kGroundFrom_m = 0.5;
+/// A row belongs to an alley if it is nearer to its middle than this many widths; it should be half
+/// a width away.
+constexpr double kRowReach_widths = 0.75;
+
+PolylineDistance line_of(const std::vector<Eigen::Vector3d>& line_W) {
+  std::vector<Vector2d> points;
+  for (const Eigen::Vector3d& p : line_W) points.push_back(p.head<2>());
+  return PolylineDistance(std::move(points));
+}
+
+double cross(const Vector2d& a, const Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// One side of an alley.
+struct Wall {
+  PolylineDistance row;
+  double half_canopy_m = 0.0;
+  double top_m = 0.0;
+  int hint = 0;
+
+  /// Vector to the row's centre line; absent beyond its ends.
+  std::optional<Vector2d> look(const Vector2d& p) {
+    const PolylineDistance::Nearest at = row.nearest(p, hint);
+    hint = at.segment;
+    const bool before = at.segment == 0 && at.fraction <= 0.0;
+    const bool beyond = at.segment == row.segments() - 1 && at.fraction >= 1.0;
+    if (before || beyond) return std::nullopt;
+    return Vector2d(at.point - p);
+  }
+};
+
+struct Corridor {
+  PolylineDistance centre;
+  std::vector<double> s_m;  ///< of the centre line's points
+  Wall left, right;
+  Tenths passed;
+  int hint = 0;
+
+  /// Distance to the left of the middle between the walls; absent where p is not between them.
+  std::optional<double> offset_m(const Vector2d& p) {
+    const std::optional<Vector2d> to_left = left.look(p);
+    if (!to_left) return std::nullopt;
+    const std::optional<Vector2d> to_right = right.look(p);
+    if (!to_right || to_left->dot(*to_right) >= 0.0) return std::nullopt;
+    const double room_left_m = to_left->norm() - left.half_canopy_m;
+    const double room_right_m = to_right->norm() - right.half_canopy_m;
+    return 0.5 * (room_right_m - room_left_m);
+  }
+  void pass(const Vector2d& p, double moved_m) {
+    const PolylineDistance::Nearest at = centre.nearest(p, hint);
+    hint = at.segment;
+    const auto i = static_cast<std::size_t>(at.segment);
+    const double s = s_m[i] + at.fraction * (s_m[i + 1] - s_m[i]);
+    passed.look(s / s_m.back(), moved_m / s_m.back());
+  }
+};
+
+/// The rows on both sides of an alley; nothing where one is missing.
+std::optional<Corridor> make_corridor(const Alley& alley, const std::vector<PlantRow>& rows) {
+  if (alley.line_W.size() < 2) return std::nullopt;
+  Corridor corridor;
+  corridor.centre = line_of(alley.line_W);
+  const std::vector<Vector2d>& points = corridor.centre.points();
+  corridor.s_m = {0.0};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    corridor.s_m.push_back(corridor.s_m.back() + (points[i] - points[i - 1]).norm());
+  }
+  if (!(corridor.s_m.back() > 0.0)) return std::nullopt;
+  const auto half =
+      std::upper_bound(corridor.s_m.begin(), corridor.s_m.end(), 0.5 * corridor.s_m.back());
+  const auto i = static_cast<std::size_t>(half - corridor.s_m.begin());
+  const Vector2d along = (points[i] - points[i - 1]).normalized();
+  const Vector2d middle = points[i - 1] + (0.5 * corridor.s_m.back() - corridor.s_m[i - 1]) * along;
+  double left_m = kRowReach_widths * alley.width_m, right_m = left_m;
+  bool has_left = false, has_right = false;
+  for (const PlantRow& row : rows) {
+    if (row.line_W.size() < 2) continue;
+    Wall wall{line_of(row.line_W), 0.5 * row.canopy_width_m, row.canopy_top_m};
+    const PolylineDistance::Nearest at = wall.row.nearest(middle);
+    const bool is_left = cross(along, at.point - middle) > 0.0;
+    double& nearest_m = is_left ? left_m : right_m;
+    if (at.distance_m >= nearest_m) continue;
+    nearest_m = at.distance_m;
+    (is_left ? corridor.left : corridor.right) = std::move(wall);
+    (is_left ? has_left : has_right) = true;
+  }
+  if (!has_left || !has_right) return std::nullopt;
+  return corridor;
+}
+
+class AlleyPlace final : public Metric {
+ public:
+  explicit AlleyPlace(const MetricContext& context)
+      : scene_(context.scene), flies_(context.vehicle_description->flies()) {
+    if (context.world == nullptr) return;
+    for (const Alley& alley : context.world->rows->alleys) {
+      if (auto corridor = make_corridor(alley, context.world->rows->rows)) {
+        corridors_.push_back(std::move(*corridor));
+      }
+    }
+  }
+
+  void connect(Ports& ports) override {
+    truth_ = ports.read<Odometry>("truth");
+    plan_.connect(ports);
+  }
+
+  void step(Time) override {
+    plan_.take_over();
+    const Eigen::Vector3d& p_W = truth_.value().X_WB.p;
+    const Vector2d p = p_W.head<2>();
+    const double moved_m = before_ ? (p - *before_).norm() : 0.0;
+    before_ = p;
+    const bool off_the_legs = plan_.has_plan() && !plan_.is_leg(plan_.find(p_W).segment);
+    const int last = at_;
+    at_ = -1;
+    if (!off_the_legs) look(p_W, last, moved_m);
+    if (last >= 0 && at_ != last) corridors_[last].passed.leave();
+  }
+
+  std::map<std::string, double> results() const override {
+    const double count = static_cast<double>(offsets_m_.count);
+    const auto passed = std::count_if(corridors_.begin(), corridors_.end(),
+                                      [](const Corridor& c) { return c.passed.all(); });
+    std::map<std::string, double> results = {
+        {"alley_offset_mean_m", offsets_m_.count > 0 ? offset_sum_m_ / count : kNotMeasured},
+        {"alley_offset_rms_m", offsets_m_.rms()},
+        {"alley_offset_max_m", offsets_m_.max_or_nan()},
+        {"alleys_passed", static_cast<double>(passed)}};
+    if (flies_) {
+      results["alley_height_min_m"] = height_m_.min_or_nan();
+      results["alley_height_max_m"] = height_m_.max_or_nan();
+    }
+    return results;
+  }
+
+ private:
+  /// @param last  corridor of the last tick, looked at first; -1: none
+  void look(const Eigen::Vector3d& p_W, int last, double moved_m) {
+    const int count = static_cast<int>(corridors_.size());
+    for (int k = last >= 0 ? -1 : 0; k < count; ++k) {
+      const int index = k < 0 ? last : k;
+      Corridor& corridor = corridors_[index];
+      const std::optional<double> offset_m = corridor.offset_m(p_W.head<2>());
+      if (!offset_m) continue;
+      const std::optional<double> ground_m =
+          scene_->ground_height_m(p_W.x(), p_W.y(), p_W.z() + kGroundFrom_m);
+      if (!ground_m) return;
+      const double height_m = p_W.z() - *ground_m;
+      if (height_m > std::max(corridor.left.top_m, corridor.right.top_m)) return;
+      offsets_m_.add(*offset_m);
+      offset_sum_m_ += *offset_m;
+      height_m_.add(height_m);
+      corridor.pass(p_W.head<2>(), moved_m);
+      at_ = index;
+      return;
+    }
+  }
+
+  const SceneQuery* scene_;
+  bool flies_;
+  std::vector<Corridor> corridors_;
+  SignalReader<Odometry> truth_;
+  PlanStretch plan_;
+  std::optional<Vector2d> before_;  ///< at the last tick
+  int at_ = -1;                     ///< corridor of this tick
+  Spread offsets_m_;
+  double offset_sum_m_ = 0.0;
+  Extremes height_m_;
+};
+
+}  // namespace
+
+const std::vector<MetricNumber>& alley_place_numbers() {
+  static const std::vector<MetricNumber> numbers = {
+      signed_number("alley_offset_mean_m"), from_zero("alley_offset_rms_m"),
+      from_zero("alley_offset_max_m"),      signed_number("alley_height_min_m"),
+      signed_number("alley_height_max_m"),  count_number("alleys_passed")};
+  return numbers;
+}
+
+PartSpec alley_place_spec() {
+  PartSpec spec;
+  spec.name = "alley_place";
+  spec.description =
+      "Against the true rows: distance from the middle between the walls of the alley, height "
+      "above the true ground, alleys passed from end to end";
+  spec.reads = {"truth", "plan (optional)"};
+  spec.writes = written(alley_place_numbers());
+  return spec;
+}
+
+std::unique_ptr<Metric> make_alley_place(const ParameterSet&, const MetricContext& context) {
+  return std::make_unique<AlleyPlace>(context);
+}
+
+}  // namespace vinerow

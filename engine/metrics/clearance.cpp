@@ -1,0 +1,144 @@
+#include "engine/metrics/clearance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/event.h"
+#include "engine/api/parameter_table.h"
+#include "engine/metrics/spread.h"
+
+namespace vinerow {
+namespace {
+
+/// What stands in a row.
+constexpr SurfaceMask kRowMask = kPlantMask | mask_of(SurfaceClass::kWire);
+constexpr Duration kTouchGap{500'000'000};
+/// No point of the hull moves farther between two looks.
+constexpr double kLookEvery_m = 0.02;
+/// Looks in a tick at most: 20 m, farther than any vehicle comes in one.
+constexpr int kMostLooks = 1000;
+
+struct ClearanceParams {
+  double search_radius_m = 3.0;
+};
+
+const ParameterTable<ClearanceParams>& clearance_table() {
+  using P = ClearanceParams;
+  static const ParameterTable<P> table = ParameterTable<P>().number(
+      "search_radius_m", "m", &P::search_radius_m, kPositive, "farther plants are not looked for");
+  return table;
+}
+
+class Clearance final : public Metric {
+ public:
+  Clearance(const ParameterSet& parameters, const MetricContext& context)
+      : scene_(context.scene),
+        vehicle_(context.vehicle_description),
+        part_(context.part),
+        radius_m_(clearance_table().read(parameters, "").search_radius_m),
+        hull_reach_m_(vehicle_->collision_half_extents_m.norm()),
+        min_clearance_m_(radius_m_) {}
+
+  void connect(Ports& ports) override {
+    truth_ = ports.read<Odometry>("truth");
+    contacts_ = ports.read<NamedValues>("contacts");
+    // Two metrics of this kind have names of their own.
+    event_ = ports.write<Event>(part_.substr(part_.rfind('.') + 1) + "_event");
+  }
+
+  void step(Time now) override {
+    const Pose X_WBox =
+        truth_.value().X_WB * Pose{Eigen::Quaterniond::Identity(), vehicle_->collision_centre_B};
+    const Pose from = before_.value_or(X_WBox);
+    // What lay between two ticks is looked at as well: at 3 m/s they are 15 cm apart.
+    const int looks = std::clamp(static_cast<int>(std::ceil(moved_m(from, X_WBox) / kLookEvery_m)),
+                                 1, kMostLooks);
+    for (int k = 1; k < looks; ++k) {
+      const double share = static_cast<double>(k) / looks;
+      look(now, {from.q.slerp(share, X_WBox.q), from.p + share * (X_WBox.p - from.p)});
+    }
+    look(now, X_WBox);
+    before_ = X_WBox;
+  }
+
+  std::map<std::string, double> results() const override {
+    const double rigid = contacts_.has_value() ? contacts_.value().values[0] : 0.0;
+    return {{"min_clearance_m", min_clearance_m_ < radius_m_ ? min_clearance_m_ : kNotMeasured},
+            {"canopy_contact_count", canopy_touches_},
+            {"contact_count", rigid + canopy_touches_}};
+  }
+
+ private:
+  /// No point of the box moves farther than its centre plus the turn of its reach.
+  double moved_m(const Pose& from, const Pose& to) const {
+    return (to.p - from.p).norm() + to.q.angularDistance(from.q) * hull_reach_m_;
+  }
+
+  void look(Time now, const Pose& X_WBox) {
+    // Skipped where the hull cannot have come nearer than it has been.
+    if (looked_at_ && last_distance_m_ - moved_m(*looked_at_, X_WBox) > min_clearance_m_) return;
+    looked_at_ = X_WBox;
+    last_distance_m_ =
+        scene_->distance_to_box_m(X_WBox, vehicle_->collision_half_extents_m, radius_m_, kRowMask);
+    min_clearance_m_ = std::min(min_clearance_m_, last_distance_m_);
+    if (last_distance_m_ > 0.0) return;
+    const double canopy_m = scene_->distance_to_box_m(X_WBox, vehicle_->collision_half_extents_m,
+                                                      radius_m_, mask_of(SurfaceClass::kCanopy));
+    if (canopy_m > 0.0) return;
+    if (!last_touch_ || now - *last_touch_ > kTouchGap) {
+      ++canopy_touches_;
+      event_.write(now, {Event::Level::kWarning, part_,
+                         fmt::format("brushes the canopy, the hull's centre at x = {:.2f} m, "
+                                     "y = {:.2f} m",
+                                     X_WBox.p.x(), X_WBox.p.y())});
+    }
+    last_touch_ = now;
+  }
+
+  const SceneQuery* scene_;
+  const VehicleDescription* vehicle_;
+  std::string part_;
+  double radius_m_;
+  double hull_reach_m_;
+  double min_clearance_m_;
+  double last_distance_m_ = 0.0;
+  std::optional<Pose> before_;     ///< at the last tick
+  std::optional<Pose> looked_at_;  ///< when last_distance_m_ was measured
+  std::optional<Time> last_touch_;
+  int canopy_touches_ = 0;
+  SignalReader<Odometry> truth_;
+  SignalReader<NamedValues> contacts_;
+  SignalWriter<Event> event_;
+};
+
+}  // namespace
+
+const std::vector<MetricNumber>& clearance_numbers() {
+  static const std::vector<MetricNumber> numbers = {from_zero("min_clearance_m"),
+                                                    count_number("contact_count"),
+                                                    count_number("canopy_contact_count")};
+  return numbers;
+}
+
+PartSpec clearance_spec() {
+  PartSpec spec;
+  spec.name = "clearance";
+  spec.description =
+      "Minimum distance from the hull to canopy, posts, trunks and wires, and the number of "
+      "touches";
+  spec.parameters = clearance_table().specs();
+  spec.reads = {"truth", "contacts"};
+  spec.writes = written(clearance_numbers());
+  return spec;
+}
+
+std::unique_ptr<Metric> make_clearance(const ParameterSet& parameters,
+                                       const MetricContext& context) {
+  return std::make_unique<Clearance>(parameters, context);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,23 @@
+#pragma once
+/// Footprints by lane, and what those of neighbouring lanes have in common (picture_coverage.h).
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/math/polygon.h"
+
+namespace vinerow {
+
+struct PictureFootprint {
+  Polygon polygon_W;  ///< convex, counter-clockwise
+  double area_m2 = 0.0;
+  std::int32_t index = 0;  ///< of its picture
+  int lane = -1;
+  bool touches_parcel = false;
+};
+
+/// Of every picture that touches the parcel, with each neighbouring lane that has pictures on both
+/// sides of it. Empty for fewer than two lanes.
+std::vector<double> side_overlaps(const std::vector<PictureFootprint>& footprints);
+
+}  // namespace vinerow

@@ -1,0 +1,158 @@
+#include "engine/metrics/estimate_judge.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/math/angles.h"
+
+namespace vinerow {
+namespace {
+
+constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 ln 0.05
+/// Ten sigma: beyond, a filter is lost, and by how much says nothing. A mean of millions would.
+constexpr double kLost = 100.0;
+constexpr double kNormal95 = 1.959963984540054;  // two-sided
+
+template <int N>
+bool is_inside(const Eigen::Matrix<double, N, N>& P, const Eigen::Matrix<double, N, 1>& d) {
+  const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(P);
+  return factor.info() == Eigen::Success && d.dot(factor.solve(d)) <= 1.0;
+}
+
+bool is_inside(const PositionEllipsoid& ellipsoid, const Eigen::Vector3d& p_W) {
+  const Eigen::Matrix3d P =
+      symmetric_matrix(ellipsoid.shape_diagonal_m2, ellipsoid.shape_beside_m2);
+  const Eigen::Vector3d d = p_W - ellipsoid.centre_W;
+  if (P(2, 2) == 0.0) return is_inside<2>(P.topLeftCorner<2, 2>(), d.head<2>());
+  return is_inside<3>(P, d);
+}
+
+}  // namespace
+
+double EstimateJudge::ErrorSpread::std() const {
+  if (count == 0) return kNotMeasured;
+  const double n = static_cast<double>(count), mean = sum / n;
+  return std::sqrt(std::max(0.0, sum_squares / n - mean * mean));
+}
+
+EstimateJudge::EstimateJudge(Signals signals, Prefixes prefixes,
+                             const std::vector<std::string>& nis_sources, double margin)
+    : signals_(std::move(signals)), prefixes_(std::move(prefixes)), margin_(margin) {
+  for (const std::string& source : nis_sources) nis_.push_back({"nis_" + source});
+}
+
+void EstimateJudge::connect(Ports& ports) {
+  estimate_ = ports.read_optional<Odometry>(signals_.estimate);
+  ellipsoid_ = ports.read_optional<PositionEllipsoid>(signals_.ellipsoid);
+  state_ = ports.read_optional<NamedValues>(signals_.state);
+}
+
+void EstimateJudge::step(Time now, const Odometry& truth, double direction_rad) {
+  if (estimate_.has_value() && estimate_.stamp() == now) {
+    judge(truth, estimate_.value(), direction_rad);
+  }
+  if (ellipsoid_.has_value() && ellipsoid_.stamp() == now) {
+    contained_.add(is_inside(ellipsoid_.value(), truth.X_WB.p));
+  }
+  if (!nis_.empty() && state_.has_value()) add_nis(state_.value());
+}
+
+void EstimateJudge::judge(const Odometry& truth, const Odometry& estimate, double direction_rad) {
+  const Eigen::Vector3d e_W = estimate.X_WB.p - truth.X_WB.p;
+  const bool states_none = estimate.position_variance_m2.isZero(0.0);
+  // Once anything differs, what was equal before was an estimate as well.
+  is_truth_ = is_truth_ && states_none && e_W.isZero(0.0) &&
+              estimate.X_WB.q.coeffs() == truth.X_WB.q.coeffs();
+  if (is_truth_) {
+    ++equal_;
+    return;
+  }
+  for (; equal_ > 0; --equal_) add_error(Eigen::Vector3d::Zero(), 0.0, 0.0);
+  add_error(e_W, direction_rad,
+            wrap_angle(yaw_from_quaternion(estimate.X_WB.q) - yaw_from_quaternion(truth.X_WB.q)));
+  if (states_none) return;
+  const Eigen::Matrix2d P = estimate.position_covariance().topLeftCorner<2, 2>();
+  const Eigen::LLT<Eigen::Matrix2d> factor(P);
+  // A covariance that is none contains nothing.
+  const bool is_covariance = factor.info() == Eigen::Success;
+  const double nees = is_covariance
+                          ? std::min(kLost, e_W.head<2>().dot(factor.solve(e_W.head<2>())))
+                          : std::numeric_limits<double>::infinity();
+  nees_.add(nees);
+  inside_.add(nees <= kInside95);
+}
+
+void EstimateJudge::add_error(const Eigen::Vector3d& e_W, double direction_rad,
+                              double yaw_error_rad) {
+  const double c = std::cos(direction_rad), s = std::sin(direction_rad);
+  longitudinal_.add(c * e_W.x() + s * e_W.y());
+  lateral_.add(-s * e_W.x() + c * e_W.y());
+  vertical_.add(e_W.z());
+  yaw_.add(yaw_error_rad);
+}
+
+void EstimateJudge::add_nis(const NamedValues& state) {
+  for (Nis& nis : nis_) {
+    if (nis.at < 0) {
+      const auto found = std::find(state.names.begin(), state.names.end(), nis.name);
+      if (found == state.names.end()) continue;
+      nis.at = static_cast<int>(found - state.names.begin());
+    }
+    const double value = state.values[nis.at];
+    if (value == nis.last) continue;
+    nis.last = value;
+    nis.sum += value;
+    ++nis.count;
+  }
+}
+
+double EstimateJudge::consistent() const {
+  if (nees_.count() > 0 && !std::isfinite(nees_.mean())) return 0.0;
+  const double n = nees_.independent_count();
+  if (std::isnan(n)) return kNotMeasured;
+  const double low = chi_square_quantile(2.0 * n, -kNormal95) / n * (1.0 - margin_);
+  const double high = chi_square_quantile(2.0 * n, kNormal95) / n * (1.0 + margin_);
+  return nees_.mean() >= low && nees_.mean() <= high ? 1.0 : 0.0;
+}
+
+void EstimateJudge::write_results(std::map<std::string, double>& all) const {
+  const auto tell = [&](const std::string& name, double value) {
+    all[name] = is_truth_ ? kNotMeasured : value;
+  };
+  tell(prefixes_.error + "lateral_std_m", lateral_.std());
+  tell(prefixes_.error + "lateral_rms_m", lateral_.rms());
+  tell(prefixes_.error + "lateral_max_m", lateral_.max_or_nan());
+  tell(prefixes_.error + "longitudinal_std_m", longitudinal_.std());
+  tell(prefixes_.error + "longitudinal_rms_m", longitudinal_.rms());
+  tell(prefixes_.error + "longitudinal_max_m", longitudinal_.max_or_nan());
+  tell(prefixes_.error + "vertical_rms_m", vertical_.rms());
+  tell(prefixes_.error + "yaw_rms_deg", deg_from_rad(yaw_.rms()));
+  tell(prefixes_.error + "consistent", consistent());
+  tell(prefixes_.other + "nees_mean", nees_.mean());
+  tell(prefixes_.other + "nees_in_95_share", inside_.value());
+  tell(prefixes_.other + "ellipsoid_containment_share", contained_.value());
+  for (const Nis& nis : nis_) {
+    all[prefixes_.other + nis.name + "_mean"] =
+        nis.count ? nis.sum / static_cast<double>(nis.count) : kNotMeasured;
+  }
+}
+
+std::vector<MetricNumber> judge_numbers(const EstimateJudge::Prefixes& prefixes) {
+  const auto& [error, other] = prefixes;
+  return {
+      from_zero(error + "lateral_std_m"),      from_zero(error + "lateral_rms_m"),
+      from_zero(error + "lateral_max_m"),      from_zero(error + "longitudinal_std_m"),
+      from_zero(error + "longitudinal_rms_m"), from_zero(error + "longitudinal_max_m"),
+      from_zero(error + "vertical_rms_m"),     zero_to(180.0, error + "yaw_rms_deg"),
+      zero_to(kLost, other + "nees_mean"),     share_number(other + "nees_in_95_share"),
+      flag_number(error + "consistent"),       share_number(other + "ellipsoid_containment_share"),
+      from_zero(other + "nis_<source>_mean")};
+}
+
+double chi_square_quantile(double degrees_of_freedom, double z) {
+  const double a = 2.0 / (9.0 * degrees_of_freedom);
+  return degrees_of_freedom * std::pow(1.0 - a + z * std::sqrt(a), 3);
+}
+
+}  // namespace vinerow

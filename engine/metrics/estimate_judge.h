@@ -1,0 +1,97 @@
+#pragma once
+/// What the metric `estimation` keeps of one estimator: errors, consistency, containment.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/api/messages/commands.h"
+#include "engine/api/messages/motion.h"
+#include "engine/api/signal.h"
+#include "engine/metrics/batch_means.h"
+#include "engine/metrics/metric_numbers.h"
+#include "engine/metrics/spread.h"
+
+namespace vinerow {
+
+class EstimateJudge {
+ public:
+  /// What it reads: the estimate that the vehicle acts on, or an observer's.
+  struct Signals {
+    std::string estimate = "estimate";
+    std::string ellipsoid = "ellipsoid";
+    std::string state = "estimator_state";
+  };
+  /// Before the names of its results: `error` + "lateral_rms_m", `other` + "nees_mean".
+  struct Prefixes {
+    std::string error = "estimate_";
+    std::string other;
+  };
+
+  /// @param nis_sources  "<source>" of the values nis_<source> that are averaged
+  /// @param margin       by how much the mean NEES may lie beyond its bounds
+  EstimateJudge(Signals signals, Prefixes prefixes, const std::vector<std::string>& nis_sources,
+                double margin);
+  void connect(Ports& ports);
+
+  /// @param direction_rad  along which an error is longitudinal
+  void step(Time now, const Odometry& truth, double direction_rad);
+  /// Adds its results, by the names that estimation.h tells.
+  void write_results(std::map<std::string, double>& all) const;
+
+ private:
+  /// Spread about zero and about the mean.
+  struct ErrorSpread : Spread {
+    double sum = 0.0;
+    void add(double value) {
+      Spread::add(value);
+      sum += value;
+    }
+    double std() const;
+  };
+  struct Share {
+    std::int64_t hits = 0, count = 0;
+    void add(bool hit) {
+      hits += hit;
+      ++count;
+    }
+    double value() const {
+      return count ? static_cast<double>(hits) / static_cast<double>(count) : kNotMeasured;
+    }
+  };
+  struct Nis {
+    std::string name;
+    int at = -1;
+    double last = 0.0, sum = 0.0;
+    std::int64_t count = 0;
+  };
+
+  void judge(const Odometry& truth, const Odometry& estimate, double direction_rad);
+  void add_error(const Eigen::Vector3d& e_W, double direction_rad, double yaw_error_rad);
+  void add_nis(const NamedValues& state);
+  double consistent() const;
+
+  Signals signals_;
+  Prefixes prefixes_;
+  double margin_;
+  bool is_truth_ = true;
+  std::int64_t equal_ = 0;  ///< samples that equalled the truth so far
+  ErrorSpread lateral_, longitudinal_, vertical_, yaw_;
+  BatchMeans nees_;
+  Share inside_, contained_;
+  std::vector<Nis> nis_;
+  SignalReader<Odometry> estimate_;
+  SignalReader<PositionEllipsoid> ellipsoid_;
+  SignalReader<NamedValues> state_;
+};
+
+/// What write_results() adds.
+std::vector<MetricNumber> judge_numbers(const EstimateJudge::Prefixes& prefixes);
+
+/// Quantile of the chi-square distribution, also for fractional degrees of freedom; the bounds of
+/// 95 % within 1.5 % from 10 degrees on, the lower one below that too low. E. B. Wilson, M. M.
+/// Hilferty, "The distribution of chi-square", 1931.
+/// @param z  the normal quantile of the wanted probability
+double chi_square_quantile(double degrees_of_freedom, double z);
+
+}  // namespace vinerow

@@ -1,0 +1,36 @@
+#pragma once
+/// The moments of a mission at which pictures are drawn (`pictures.moments`), from its log.
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "engine/core/time.h"
+#include "engine/record/log_reader.h"
+#include "engine/scenario/scenario.h"
+
+namespace vinerow {
+
+/// From a phase's first state that is not "waiting" to its first that is not "running" either.
+struct PhaseSpan {
+  Time begin;
+  std::optional<Time> end;  ///< absent: it ran when the log ended
+
+  bool contains(Time t) const { return begin <= t && (!end || t <= *end); }
+};
+
+/// By name; without phases that never began. Empty for a run without a mission.
+std::map<std::string, PhaseSpan> read_phase_spans(const record::LogReader& reader);
+
+/// The latest phase that a vehicle works in at t. Without a mission vehicles work all the time,
+/// from the log's first instant on. @returns nullopt while the vehicle stands parked
+std::optional<PhaseSpan> work_at(const io::Scenario& scenario, const std::string& vehicle, Time t,
+                                 const std::map<std::string, PhaseSpan>& spans);
+
+/// Instants of a camera's frames. What follows a vehicle, behind it or on board, has none while
+/// that vehicle stands parked: no phase of its runs.
+std::set<Time> moment_times(const io::Scenario& scenario, const io::CameraConfig& camera,
+                            const std::map<std::string, PhaseSpan>& spans);
+
+}  // namespace vinerow

@@ -1,0 +1,58 @@
+#pragma once
+/// Frames of a run, drawn from its log: `vinerow run` and `vinerow render` share this one way.
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/api/registry.h"
+#include "engine/api/vehicle.h"
+#include "engine/scenario/scenario.h"
+
+namespace vinerow {
+
+namespace render {
+struct Image;
+}
+
+/// What to draw otherwise than the scenario in the log says.
+struct PictureOptions {
+  std::vector<std::string> cameras;            ///< names; empty = all of the scenario
+  std::optional<std::vector<double>> times_s;  ///< instead of the scenario's schedule
+  std::optional<double> every_s;
+  std::optional<double> from_s;  ///< no frame before; every_s counts from here
+  std::optional<double> to_s;    ///< no frame after
+  std::optional<int> width;
+  std::optional<int> height;
+  io::Overrides overrides;  ///< written over the log's scenario: cameras of one's own
+  /// Takes each frame in place of a file.
+  std::function<void(const render::Image&)> take_frame;
+  std::function<void(int done, int total)> progress;
+  std::function<bool()> interrupted;  ///< asked before each frame; true ends the drawing
+};
+
+struct PictureReport {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> digests;  ///< of the pixels, same order
+  std::string note;                  ///< why there are no pictures, or not all
+  std::string write_failure;         ///< why a frame could not be stored; empty: all were
+  double wall_s = 0.0;
+};
+
+/// Draws the frames of a log into `out`, named "<camera>_<milliseconds>.png".
+/// @throws ConfigError if the log cannot be read or names parts that the registry does not have
+PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
+                         const Registry& registry, const PictureOptions& options);
+
+/// The scenario that a log holds. @param overrides  written over it and checked like it
+io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
+                             const io::Overrides& overrides = {});
+
+/// A scenario's vehicles, built and not spawned: their links and descriptions, in its order.
+std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& scenario,
+                                                           const Registry& registry);
+
+}  // namespace vinerow

@@ -1,0 +1,432 @@
+#include "engine/run/run.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/api/messages/flight.h"
+#include "engine/api/messages/sensors.h"
+#include "engine/core/error.h"
+#include "engine/core/whole_file.h"
+#include "engine/io/files/output_folder.h"
+#include "engine/playback/canopy_file.h"
+#include "engine/playback/log_scene.h"
+#include "engine/playback/run_frames.h"
+#include "engine/record/recorder.h"
+#include "engine/run/junit.h"
+#include "engine/run/summary.h"
+#include "engine/sim/judge.h"
+#include "engine/sim/session.h"
+#include "engine/sim/simulation.h"
+#include "engine/sim/vehicle_runtime.h"
+
+namespace vinerow {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::int64_t wall_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
+      .count();
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Feeds the log: truth and diagnostics at their rate, sensors up to theirs, everything else as it
+/// is written.
+class LogObserver final : public RunObserver {
+ public:
+  LogObserver(const Simulation& simulation, const std::filesystem::path& file)
+      : recorder_(file, options_of(simulation.scenario()), metadata_of(simulation.scenario())) {
+    const io::RecordConfig& config = simulation.scenario().record;
+    recorder_.add_attachment("scenario.resolved.yaml", "application/yaml",
+                             simulation.scenario().resolved_yaml);
+    const std::map<std::string, std::string> frames = frames_of_readings(simulation);
+    for (const auto& signal : simulation.bus().signals()) {
+      if (signal->writer().empty()) continue;
+      const auto frame = frames.find(signal->name());
+      recorder_.add_signal(*signal, shortest_period(*signal, config),
+                           frame != frames.end() ? frame->second : "", is_true_scan(*signal));
+    }
+    recorder_.add_static_transforms(sensor_transforms(simulation));
+    std::vector<record::SceneEntity> scene = world_scene(simulation.world());
+    for (const auto& vehicle : simulation.vehicles()) {
+      for (auto& link : vehicle_scene(vehicle->name(), vehicle->vehicle().links())) {
+        scene.push_back(std::move(link));
+      }
+    }
+    recorder_.add_scene(scene);
+  }
+
+  void on_instant(Time now) override { recorder_.record(now); }
+  /// Several events can fall into one instant; each is stored before the next overwrites it.
+  void on_event(Time now, const Event&) override { recorder_.record(now); }
+
+  /// @throws SimulationError where the log cannot be written to its end
+  void finish() { recorder_.finish(); }
+
+ private:
+  static record::RecorderOptions options_of(const io::Scenario& scenario) {
+    record::RecorderOptions options;
+    options.compression = scenario.record.compression;
+    return options;
+  }
+  static std::map<std::string, std::string> metadata_of(const io::Scenario& scenario) {
+    return {{"scenario", scenario.name},
+            {"seed", std::to_string(scenario.seed)},
+            {"vinerow", program_version()},
+            {"latitude_longitude_note", "frame map is East-North-Up at the scenario's origin"}};
+  }
+  /// What a laser scanner would have read without error, the largest of all messages, is for
+  /// checks, which want the whole value.
+  static bool is_true_scan(const SignalBase& signal) {
+    return std::string_view(signal.type()) == LaserScan::kType && signal.name().ends_with("_truth");
+  }
+  static Duration shortest_period(const SignalBase& signal, const io::RecordConfig& config) {
+    const std::string& name = signal.name();
+    const bool is_observed = std::string_view(signal.type()) == Odometry::kType &&
+                             signal.writer().find(".observers.") != std::string::npos;
+    const bool is_truth = name.ends_with("/truth") || name.ends_with("/estimate");
+    if (is_truth || is_observed) return period_of_rate(config.truth_rate_Hz);
+    // The widest message of all; half as often is enough to see slip come and go.
+    if (name.ends_with("/wheels")) return period_of_rate(config.truth_rate_Hz) * 2;
+    // A charge changes slowly, and its message is a large one.
+    if (name.ends_with("/battery")) return period_of_rate(std::min(1.0, config.truth_rate_Hz));
+    // The previews of one reference repeat each other.
+    if (std::string_view(signal.type()) == ReferenceTrajectory::kType) {
+      return period_of_rate(config.truth_rate_Hz) * 4;
+    }
+    const bool is_event = std::string_view(signal.type()) == Event::kType;
+    if (is_event || name.ends_with("/plan") || name.ends_with("/contacts")) return {};
+    return period_of_rate(config.sensor_rate_limit_Hz);
+  }
+
+  record::Recorder recorder_;
+};
+
+class EventFile final : public RunObserver {
+ public:
+  explicit EventFile(const std::filesystem::path& file)
+      : name_(fmt::format("'{}'", file.string())) {
+    file_.reset(std::fopen(file.c_str(), "wb"));
+    if (!file_) throw_cannot_write(name_, errno);
+  }
+  void on_event(Time now, const Event& event) override {
+    const char* level = event.level == Event::Level::kInfo      ? "info"
+                        : event.level == Event::Level::kWarning ? "warning"
+                                                                : "error";
+    const std::string line = nlohmann::ordered_json{{"t_s", static_cast<double>(now.ns) / 1e9},
+                                                    {"level", level},
+                                                    {"source", event.source},
+                                                    {"text", event.text}}
+                                 .dump() +
+                             "\n";
+    if (error_number_) return;
+    // Flushed line by line: a killed run's events stay readable.
+    errno = 0;
+    const bool stored = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() &&
+                        std::fflush(file_.get()) == 0;
+    if (stored) {
+      whole_bytes_ += static_cast<off_t>(line.size());
+      return;
+    }
+    error_number_ = errno;
+    static_cast<void>(::ftruncate(::fileno(file_.get()), whole_bytes_));  // no half line
+  }
+
+  /// @throws ConfigError, WriteError where a line is missing
+  void check() const {
+    if (error_number_) throw_cannot_write(name_, *error_number_);
+  }
+
+ private:
+  std::string name_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
+  off_t whole_bytes_ = 0;
+  std::optional<int> error_number_;  ///< of the first line that could not be stored
+};
+
+/// Steps to the end in slices of simulated time, so that progress can be told. Slices change no
+/// result.
+void step_to_end(Session& session, const RunOptions& options, Clock::time_point start) {
+  const double duration_s = session.scenario().duration_s;
+  constexpr Duration kSlice{250'000'000};
+  double told_s = -1.0;
+  while (!session.over()) {
+    session.advance(session.now() + kSlice);
+    if (options.interrupted && options.interrupted()) {
+      throw SimulationError("run", session.now(), "interrupted by the user");
+    }
+    const double wall_s = seconds_since(start);
+    if (options.progress && (wall_s - told_s > 0.2 || session.over())) {
+      told_s = wall_s;
+      options.progress({session.now().s(), duration_s, wall_s});
+    }
+  }
+}
+
+/// The criteria that can be judged before the run: a job's numbers are known after it.
+std::vector<io::Criterion> of_vehicles(const io::Scenario& scenario) {
+  std::vector<io::Criterion> criteria;
+  for (const io::Criterion& criterion : scenario.criteria) {
+    const std::string owner = criterion.metric.substr(0, criterion.metric.find('.'));
+    const bool is_job =
+        std::any_of(scenario.phases.begin(), scenario.phases.end(),
+                    [&](const auto& phase) { return phase.job && phase.name == owner; });
+    if (!is_job) criteria.push_back(criterion);
+  }
+  return criteria;
+}
+
+/// Numbers that a job did not come to give are not measured, so that its criteria are not met.
+std::map<std::string, std::map<std::string, double>> with_missing_numbers(
+    const io::Scenario& scenario, std::map<std::string, std::map<std::string, double>> metrics,
+    const std::vector<PhaseReport>& phases) {
+  for (const io::Criterion& criterion : scenario.criteria) {
+    const std::size_t dot = criterion.metric.find('.');
+    const std::string owner = criterion.metric.substr(0, dot);
+    for (const PhaseReport& phase : phases) {
+      if (phase.job.empty() || phase.name != owner || phase.state == PhaseState::kSucceeded) {
+        continue;
+      }
+      metrics[owner].emplace(criterion.metric.substr(dot + 1),
+                             std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return metrics;
+}
+
+/// What an earlier run left in the same folder would be taken for this one's. Products stay until a
+/// job makes its own anew: another run may still want them.
+void clear_earlier_run(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::vector<std::filesystem::path> earlier;
+  for (const char* name : {"log.mcap", "report.html", "replay.html", "frames", "canopy",
+                           "summary.json", "junit.xml"}) {
+    earlier.push_back(folder / name);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::filesystem::path& file = entry.path();
+    const std::string stem = file.stem().string();
+    if (file.extension() == temporary_name("x").extension()) earlier.push_back(file);
+    const bool of_coverage = stem == "coverage" || stem.starts_with("coverage_");
+    if (of_coverage && (file.extension() == ".png" || file.extension() == ".json")) {
+      earlier.push_back(file);
+    }
+  }
+  for (const std::filesystem::path& path : earlier) std::filesystem::remove_all(path, ignored);
+}
+
+std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
+                                                const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code failed;
+  for (const auto& vehicle : simulation.vehicles()) {
+    for (const auto& [name, payload] : vehicle->payloads()) {
+      const CanopyCoverage* coverage = payload->coverage();
+      if (!coverage) continue;
+      std::filesystem::create_directories(folder, failed);
+      files.push_back(folder / fmt::format("{}_{}.json", vehicle->name(), name));
+      write_whole_file(files.back(), canopy_json(vehicle->name(), name, *coverage));
+    }
+  }
+  return files;
+}
+
+/// A run that is built, with what can be refused before its first step refused.
+/// @throws ConfigError
+Session open_run(const io::Scenario& scenario, const Registry& registry,
+                 const std::filesystem::path& products, std::shared_ptr<RunShelf> shelf) {
+  SessionOptions options;
+  options.products = products;
+  options.shelf = std::move(shelf);
+  // The caller keeps the registry.
+  Session session(scenario, std::shared_ptr<const Registry>(std::shared_ptr<void>(), &registry),
+                  std::move(options));
+  // Bad input must not wait for the end of a long run.
+  check_criteria(of_vehicles(scenario), session.metrics(), scenario.metrics);
+  return session;
+}
+
+/// Names of the vehicles whose planner waits for the estimate.
+std::vector<std::string> without_plan(const Simulation& simulation) {
+  std::vector<std::string> names;
+  for (const auto& vehicle : simulation.vehicles()) {
+    if (vehicle->awaits_plan()) names.push_back(vehicle->name());
+  }
+  return names;
+}
+
+/// What the run came to: numbers, verdicts, status.
+void judge_run(const io::Scenario& scenario, const Session& session, RunResult& result) {
+  const Simulation& simulation = session.simulation();
+  result.simulated_s = session.now().s();
+  result.digest = session.digest();
+  result.finished = session.finished();
+  result.metrics = session.metrics();
+  result.planning = simulation.planning();
+  result.phases = simulation.phases();
+  result.criteria =
+      judge(scenario.criteria, with_missing_numbers(scenario, result.metrics, result.phases));
+  result.crashes = simulation.crashes();
+  if (result.status != RunStatus::kAllMet) return;
+  if (!result.crashes.empty()) result.status = RunStatus::kCriterionFailed;
+  for (const Crash& crash : result.crashes) {
+    result.error += (result.error.empty() ? "" : "; ") + crash.sentence();
+  }
+  for (const PhaseReport& phase : result.phases) {
+    if (phase.state != PhaseState::kSucceeded) result.status = RunStatus::kCriterionFailed;
+  }
+  for (const CriterionResult& criterion : result.criteria) {
+    if (!criterion.met) result.status = RunStatus::kCriterionFailed;
+  }
+}
+
+void draw_pictures(const std::filesystem::path& log, const Registry& registry,
+                   const RunOptions& options, RunResult& result) {
+  PictureOptions drawing;
+  drawing.progress = options.picture_progress;
+  drawing.interrupted = options.interrupted;
+  if (options.interrupted && options.interrupted()) {
+    result.picture_note = "interrupted";
+    return;
+  }
+  try {
+    const PictureReport pictures = render_log(log, options.out / "frames", registry, drawing);
+    result.pictures = pictures.files;
+    result.picture_note = pictures.note;
+    result.write_failure = pictures.write_failure;
+  } catch (const ConfigError& error) {
+    // The verdict is there; it must not end as bad input.
+    result.picture_note = error.what();
+  }
+}
+
+std::string end_by(EndKind kind) {
+  return kind == EndKind::kCrashed ? "ended after a crash"
+                                   : fmt::format("ended: a vehicle {}", to_string(kind));
+}
+
+/// Steps to the end and judges. @param log  null: none
+void step_and_judge(Session& session, const RunOptions& options, LogObserver* log,
+                    RunResult& result) {
+  Simulation& simulation = session.simulation();
+  const io::Scenario& scenario = session.scenario();
+  const auto break_off = [&](const SimulationError& error) {
+    result.status = RunStatus::kBrokenOff;
+    result.error = error.what();
+    simulation.emit(Event::Level::kError, error.culprit(), error.what());
+  };
+  const Clock::time_point start = Clock::now();
+  try {
+    simulation.emit(Event::Level::kInfo, "run", fmt::format("started '{}'", scenario.name));
+    step_to_end(session, options, start);
+    simulation.emit(Event::Level::kInfo, "run",
+                    simulation.finished()           ? "mission finished"
+                    : !scenario.phases.empty()      ? "mission ended"
+                    : !simulation.crashes().empty() ? end_by(simulation.crashes().front().kind)
+                                                    : "duration is over");
+    if (log) log->on_instant(simulation.now());
+  } catch (const SimulationError& error) {
+    break_off(error);
+  }
+  try {
+    if (log) log->finish();
+  } catch (const SimulationError& error) {
+    break_off(error);
+  }
+  result.wall_s = seconds_since(start);
+  judge_run(scenario, session, result);
+}
+
+}  // namespace
+
+std::vector<std::string> rehearse_run(const io::Scenario& scenario, const Registry& registry) {
+  constexpr Duration kLongest{10'000'000'000};
+  Session session = open_run(scenario, registry, {}, nullptr);
+  std::vector<std::string> notes = session.simulation().world().notes;
+  if (!scenario.phases.empty()) return notes;
+  while (!session.over() && session.now() <= Time{kLongest.ns} &&
+         !without_plan(session.simulation()).empty()) {
+    session.advance(session.now());
+  }
+  for (const std::string& vehicle : without_plan(session.simulation())) {
+    notes.push_back(
+        fmt::format("{}.planner: not asked, as the estimate does not begin in the "
+                    "first {:g} s",
+                    vehicle, session.now().s()));
+  }
+  return notes;
+}
+
+RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
+                       const RunOptions& options) {
+  const bool writes = !options.out.empty();
+  Session session =
+      open_run(scenario, registry, writes ? options.out / "products" : "", options.shelf);
+  Simulation& simulation = session.simulation();
+  simulation.scheduler().set_clock(wall_ns, options.measure_cost);
+
+  RunResult result;
+  if (!writes) {
+    step_and_judge(session, options, nullptr, result);
+    return result;
+  }
+  io::make_folder(options.out);
+  result.lock = std::make_shared<FolderLock>(options.out);
+  clear_earlier_run(options.out);
+  // Whatever fills the disk, the verdict has its place.
+  constexpr std::size_t kVerdictBytes = 1 << 20;
+  DiskReserve reserve(options.out, kVerdictBytes);
+  write_whole_file(options.out / "scenario.resolved.yaml", scenario.resolved_yaml);
+  const std::filesystem::path log_file = options.out / "log.mcap";
+  const bool with_log = options.log && scenario.record.enabled;
+  std::unique_ptr<LogObserver> log;
+  if (with_log) {
+    log = std::make_unique<LogObserver>(simulation, log_file);
+    simulation.add_observer(log.get());
+  }
+  EventFile events(options.out / "events.jsonl");
+  simulation.add_observer(&events);
+  step_and_judge(session, options, log.get(), result);
+
+  reserve.give_back();
+  const auto write_verdict = [&] {
+    write_whole_file(options.out / "summary.json", summary_json(result, simulation));
+    write_whole_file(options.out / "junit.xml", junit_xml(scenario.name, result));
+  };
+  const bool wants_pictures = options.pictures && !scenario.pictures.cameras.empty();
+  if (wants_pictures && !with_log) {
+    result.picture_note = "pictures are drawn from the log, which this run does not write";
+  }
+  const auto store = [&](const auto& write) {
+    try {
+      if (result.write_failure.empty()) write();
+    } catch (const WriteError& error) {
+      result.write_failure = error.what();
+    }
+  };
+  store(write_verdict);
+  store([&] {
+    result.canopy = write_canopy(simulation, options.out / "canopy");
+    if (!result.canopy.empty()) write_verdict();  // which names these files
+  });
+  store([&] { events.check(); });
+  if (options.judged) options.judged(result);
+  if (wants_pictures && with_log && result.write_failure.empty()) {
+    draw_pictures(log_file, registry, options, result);
+    store(write_verdict);  // which names the pictures
+  }
+  return result;
+}
+
+}  // namespace vinerow

@@ -1,0 +1,180 @@
+// Words of the faults: what is allowed, which key was meant, where a misplaced key belongs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/suggest.h"
+#include "engine/scenario/known_names.h"
+#include "engine/scenario/scenario_keys.h"
+#include "engine/scenario/scenario_reader.h"
+#include "engine/scenario/yaml_include.h"
+
+namespace vinerow::io {
+namespace {
+
+/// Longer lists of known keys hide the answer rather than give it.
+constexpr std::size_t kMaxListedKeys = 40;
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return text;
+}
+
+/// "lookahead" of "lookahead_m": the key without what follows the last underscore.
+std::string stem(const std::string& key) {
+  const std::size_t underscore = key.rfind('_');
+  return underscore == std::string::npos || underscore == 0 ? key : key.substr(0, underscore);
+}
+
+std::string range_text(const ParameterSpec& spec) {
+  const char* above = spec.min_exclusive ? ">" : ">=";
+  const bool has_min = std::isfinite(spec.min), has_max = std::isfinite(spec.max);
+  if (has_min && has_max) return fmt::format(", {} {} and <= {}", above, spec.min, spec.max);
+  if (has_min) return fmt::format(", {} {}", above, spec.min);
+  if (has_max) return fmt::format(", <= {}", spec.max);
+  return "";
+}
+
+/// Where a part stands in the scenario, and the keys that it has there.
+struct Home {
+  std::string path;
+  std::vector<std::string> keys;
+};
+
+void add_part_home(const YamlNode* node, PartKind kind, const std::string& path,
+                   const Registry& registry, std::vector<Home>& homes) {
+  const YamlNode* type = node ? node->find("type") : nullptr;
+  if (!type || !type->is_scalar()) return;
+  const std::vector<std::string> known = registry.names(kind);
+  if (std::find(known.begin(), known.end(), type->text) == known.end()) return;
+  homes.push_back({path, names_of(registry.spec(kind, type->text).parameters)});
+}
+
+/// Every mapping of the scenario that has keys of its own, in file order.
+std::vector<Home> all_homes(const ReadContext& context) {
+  std::vector<Home> homes;
+  const YamlNode& root = context.root;
+  std::vector<std::string> top;
+  for (const StructuralKey& key : scenario_keys()) {
+    top.push_back(key.spec.name);
+    if (key.shape == KeyShape::kGroup) homes.push_back({key.spec.name, names_of(key.spec.fields)});
+  }
+  homes.push_back({"", top});
+  add_part_home(root.find("world"), PartKind::kWorld, "world", context.registry, homes);
+  const YamlNode* vehicles = root.find("vehicles");
+  if (!vehicles) return homes;
+  for (const YamlEntry& vehicle : vehicles->entries) {
+    const std::string path = "vehicles." + vehicle.key;
+    add_part_home(&vehicle.value, PartKind::kVehicle, path, context.registry, homes);
+    std::vector<std::string> own;
+    for (const StructuralKey& key : vehicle_keys()) {
+      own.push_back(key.spec.name);
+      const YamlNode* node = vehicle.value.find(key.spec.name);
+      if (key.shape == KeyShape::kPart) {
+        add_part_home(node, key.part_kind, path + "." + key.spec.name, context.registry, homes);
+      } else if (key.shape == KeyShape::kNamedParts && node) {
+        for (const YamlEntry& entry : node->entries) {
+          add_part_home(&entry.value, key.part_kind, path + "." + key.spec.name + "." + entry.key,
+                        context.registry, homes);
+        }
+      }
+    }
+    homes.push_back({path, own});
+  }
+  return homes;
+}
+
+std::string belongs_hint(const std::string& key, const ReadContext& context) {
+  for (const Home& home : all_homes(context)) {
+    if (std::find(home.keys.begin(), home.keys.end(), key) != home.keys.end()) {
+      return home.path.empty() ? "; it belongs at the top level" : "; it belongs to " + home.path;
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string allowed_text(const ParameterSpec& spec) {
+  const std::string unit = spec.unit.empty() ? "" : " in " + spec.unit;
+  switch (spec.kind) {
+    case ParameterKind::kNumber:
+      return "a number" + unit + range_text(spec);
+    case ParameterKind::kInteger:
+      return "a whole number" + range_text(spec);
+    case ParameterKind::kBoolean:
+      return "true or false";
+    case ParameterKind::kText:
+      return spec.choices.empty() ? "a text" : "one of: " + join(spec.choices);
+    case ParameterKind::kPath:
+      return "the path of a file or folder";
+    case ParameterKind::kNumberList:
+      return spec.size > 0 ? fmt::format("a list of {} numbers{}", spec.size, unit)
+                           : "a list of numbers" + unit;
+    case ParameterKind::kTextList:
+      return "a list of texts";
+    case ParameterKind::kGroup:
+      return fmt::format("a mapping with {}", join(names_of(spec.fields)));
+    case ParameterKind::kGroupList:
+      return fmt::format("a list of mappings with {}", join(names_of(spec.fields)));
+  }
+  return "";
+}
+
+std::string likely_key(const std::string& wrong, const std::vector<std::string>& known) {
+  const std::string lower = lower_case(wrong);
+  for (const std::string& key : known) {
+    if (lower_case(key) == lower) return key;
+  }
+  // The unit is missing, or another: of several keys that begin alike the one that ends in a unit.
+  for (const std::string& begin : {lower, lower_case(stem(wrong))}) {
+    std::vector<std::string> alike;
+    for (const std::string& key : known) {
+      if (stem(key) != key && lower_case(stem(key)) == begin) alike.push_back(key);
+    }
+    if (alike.empty()) continue;
+    const std::string nearest = nearest_name(wrong, alike);
+    return nearest.empty() ? alike.front() : nearest;
+  }
+  const std::string nearest = nearest_name(wrong, known);
+  if (!nearest.empty() && edit_distance(wrong, nearest) <= 2) return nearest;
+  for (const std::string& key : known) {
+    // A word of the right key: "rows" of "plant_rows".
+    if (("_" + lower_case(key) + "_").find("_" + lower + "_") != std::string::npos) return key;
+  }
+  return nearest;
+}
+
+void check_keys(const YamlNode& mapping, const std::string& path,
+                const std::vector<std::string>& known, const std::string& owner,
+                const ReadContext* context) {
+  for (const YamlEntry& entry : mapping.entries) {
+    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    std::vector<std::string> sorted = known;
+    std::sort(sorted.begin(), sorted.end());
+    std::string hint = context ? belongs_hint(entry.key, *context) : "";
+    const std::string likely = likely_key(entry.key, sorted);
+    if (hint.empty() && !likely.empty()) hint = fmt::format("; did you mean '{}'?", likely);
+    fail_at(entry.mark, fmt::format("{}: unknown key{}{} (known: {})", join_path(path, entry.key),
+                                    owner.empty() ? "" : " of " + owner, hint,
+                                    list_known(sorted, kMaxListedKeys)));
+  }
+}
+
+void check_name(const YamlEntry& entry, const std::string& path, const char* what) {
+  if (is_valid_name(entry.key)) return;
+  fail_at(entry.mark,
+          fmt::format("{}: the name of a {} is made of letters, digits, '_' and '-' and "
+                      "starts with a letter or '_'",
+                      join_path(path, entry.key), what));
+}
+
+void require_mapping(const YamlNode& node, const std::string& path, const std::string& example) {
+  if (!node.is_mapping()) {
+    fail_at(node.mark,
+            fmt::format("{} = {}, must be a mapping like {}", path, shown(node), example));
+  }
+}
+
+}  // namespace vinerow::io

@@ -1,0 +1,153 @@
+#include "engine/scenario/scenario_override.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "engine/core/error.h"
+#include "engine/core/suggest.h"
+#include "engine/scenario/scenario_keys.h"
+#include "engine/scenario/yaml_include.h"
+
+namespace vinerow::io {
+namespace {
+
+std::vector<std::string> split_path(const std::string& path, const SourceMark& mark) {
+  std::vector<std::string> keys;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t end = path.find('.', begin);
+    keys.push_back(path.substr(begin, end - begin));
+    if (keys.back().empty()) {
+      fail_at(mark, fmt::format("the path '{}' has an empty key; write it like "
+                                "rover.controller.rate_Hz",
+                                path));
+    }
+    if (end == std::string::npos) return keys;
+    begin = end + 1;
+  }
+}
+
+/// Puts `vehicles` in front where the path starts with a vehicle's name.
+void complete_path(std::vector<std::string>& keys, const YamlNode& root, const SourceMark& mark) {
+  std::vector<std::string> known;
+  for (const StructuralKey& key : scenario_keys()) {
+    if (key.spec.name == keys.front()) return;
+    known.push_back(key.spec.name);
+  }
+  if (const YamlNode* vehicles = root.find("vehicles")) {
+    if (vehicles->has(keys.front())) {
+      keys.insert(keys.begin(), "vehicles");
+      return;
+    }
+    for (const YamlEntry& vehicle : vehicles->entries) known.push_back(vehicle.key);
+  }
+  fail_at(mark, fmt::format("unknown path '{}'{} (known: {})", keys.front(),
+                            did_you_mean(keys.front(), known), join(known)));
+}
+
+YamlNode& list_item(YamlNode& list, const std::string& key, const std::string& path,
+                    const SourceMark& mark) {
+  std::size_t index = 0;
+  const auto result = std::from_chars(key.data(), key.data() + key.size(), index);
+  const bool whole = result.ec == std::errc() && result.ptr == key.data() + key.size();
+  if (!whole || index >= list.items.size()) {
+    fail_at(mark, list.items.empty()
+                      ? fmt::format("{} is an empty list, which has no entry '{}'", path, key)
+                      : fmt::format("{} is a list, its entries are 0 to {}, not '{}'", path,
+                                    list.items.size() - 1, key));
+  }
+  return list.items[index];
+}
+
+void set_value(YamlNode& root, const std::vector<std::string>& keys, YamlNode value) {
+  const SourceMark mark = value.mark;
+  YamlNode* node = &root;
+  std::string path;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const bool last = i + 1 == keys.size();
+    if (node->is_list()) {
+      node = &list_item(*node, keys[i], path, mark);
+      path = join_path(path, keys[i]);
+      if (last) *node = std::move(value);
+      continue;
+    }
+    if (node->is_null()) {
+      *node = yaml_mapping();
+      node->mark = mark;
+    }
+    if (!node->is_mapping()) {
+      fail_at(mark, fmt::format("{} = {} has no key '{}'", path, shown(*node), keys[i]));
+    }
+    // A source that belonged to the value before would be wrong for the new one.
+    if (last && keys[i] == "value" && is_sourced_value(*node)) node->erase("source");
+    path = join_path(path, keys[i]);
+    if (last && value.is_null()) {
+      node->erase(keys[i]);
+      return;
+    }
+    if (last) {
+      node->erase(keys[i]);
+      node->put(keys[i], std::move(value));
+      return;
+    }
+    if (!node->has(keys[i])) {
+      YamlNode created = yaml_mapping();
+      created.mark = mark;
+      node->put(keys[i], std::move(created));
+    }
+    node = node->find(keys[i]);
+  }
+}
+
+void mark_all(YamlNode& node, const SourceMark& mark) {
+  node.mark = mark;
+  for (YamlNode& item : node.items) mark_all(item, mark);
+  for (YamlEntry& entry : node.entries) {
+    entry.mark = mark;
+    mark_all(entry.value, mark);
+  }
+}
+
+/// @param value  with its marks
+void apply_value(YamlNode& root, const std::string& path, YamlNode value) {
+  const SourceMark mark = value.mark;
+  std::vector<std::string> keys = split_path(path, mark);
+  complete_path(keys, root, mark);
+  if (keys.back() == "include")
+    fail_at(mark, "include cannot be set; name the file in the scenario");
+  resolve_includes(value, "");
+  set_value(root, keys, std::move(value));
+}
+
+void apply_set(YamlNode& root, const std::string& set, const std::filesystem::path& folder) {
+  const SourceMark mark{fmt::format("--set {}", set), 0};
+  const std::size_t equals = set.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    fail_at(mark, "must have the form path=value, e.g. rover.controller.lookahead_m=0.5");
+  }
+  YamlNode value;
+  try {
+    value = parse_yaml(set.substr(equals + 1), mark.file, folder);
+  } catch (const ConfigError&) {
+    fail_at(mark, fmt::format("the value '{}' is not valid YAML", set.substr(equals + 1)));
+  }
+  mark_all(value, mark);
+  apply_value(root, set.substr(0, equals), std::move(value));
+}
+
+}  // namespace
+
+void apply_overrides(YamlNode& root, const Overrides& overrides,
+                     const std::filesystem::path& folder) {
+  for (const OverrideValue& value : overrides.values) apply_value(root, value.path, value.value);
+  for (const std::string& set : overrides.sets) apply_set(root, set, folder);
+  if (overrides.seed) {
+    YamlNode seed = yaml_text(std::to_string(*overrides.seed));
+    seed.quoted = false;
+    seed.mark = {"--seed", 0};
+    root.put("seed", std::move(seed));
+  }
+}
+
+}  // namespace vinerow::io

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/api/parameter_table.h"
+#include "engine/core/suggest.h"
+#include "engine/scenario/scenario_keys.h"
+#include "engine/scenario/scenario_part.h"
+#include "engine/scenario/yaml_include.h"
+
+namespace vinerow::io {
+namespace {
+
+/// The kind of a camera; chase where it is not said.
+std::string read_kind(const YamlNode& camera, const std::string& path) {
+  const YamlNode* kind = camera.find("kind");
+  if (!kind) return "chase";
+  const std::vector<std::string>& kinds = camera_kinds();
+  if (!kind->is_scalar() || std::find(kinds.begin(), kinds.end(), kind->text) == kinds.end()) {
+    fail_at(kind->mark, fmt::format("{}.kind = {}, must be one of: {}{}", path, shown(*kind),
+                                    join(kinds), did_you_mean(kind->text, kinds)));
+  }
+  return kind->text;
+}
+
+/// A view of one place needs its extent, and cannot follow a vehicle as well.
+void check_centre(const YamlNode& camera, const YamlEntry& centre, const std::string& path,
+                  double height_m) {
+  if (camera.has("vehicle")) {
+    fail_at(centre.mark,
+            fmt::format("{}: centre_m and vehicle are both given, must be one of them", path));
+  }
+  if (height_m <= 0.0) {
+    fail_at(centre.mark, fmt::format("{}.centre_m needs height_m > 0, what the picture shows from "
+                                     "south to north",
+                                     path));
+  }
+}
+
+CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
+                         const std::vector<std::string>& vehicles, YamlNode& resolved) {
+  const YamlNode& node = entry.value;
+  require_mapping(node, path, "{kind: chase}");
+  const std::string kind = read_kind(node, path);
+  const std::vector<ParameterSpec> fields = camera_fields(kind);
+  std::vector<std::string> known = names_of(fields);
+  known.push_back("kind");
+  check_keys(node, path, known, fmt::format("camera of kind '{}'", kind), nullptr);
+  ReadParameters read = read_parameters(node, entry.mark, path, fields, path);
+  CameraConfig camera = read_camera_fields(kind, read.values);
+  camera.name = entry.key;
+  camera.where = entry.mark;
+  if (const YamlEntry* centre = node.find_entry("centre_m"); centre && kind == "top") {
+    check_centre(node, *centre, path, camera.height_m);
+  }
+  const bool follows = kind == "chase" || kind == "on_board" || kind == "shots";
+  const YamlEntry* named = node.find_entry("vehicle");
+  if (named) {
+    check_vehicle(camera.vehicle, vehicles, named->value.mark, path + ".vehicle");
+  } else if (follows) {
+    if (vehicles.empty()) {
+      fail_at(entry.mark, fmt::format("{}: a camera of kind '{}' needs a vehicle, and the scenario "
+                                      "has none",
+                                      path, kind));
+    }
+    camera.vehicle = vehicles.front();
+  }
+  resolved.put("kind", yaml_text(kind));
+  if (!camera.vehicle.empty()) resolved.put("vehicle", yaml_text(camera.vehicle));
+  for (YamlEntry& written : read.resolved.entries) {
+    resolved.put(written.key, std::move(written.value));
+  }
+  return camera;
+}
+
+/// The cameras of a scenario that names none.
+YamlNode default_cameras(const std::vector<std::string>& vehicles) {
+  YamlNode cameras = yaml_mapping();
+  if (!vehicles.empty()) cameras.put("chase", yaml_mapping());
+  return cameras;
+}
+
+}  // namespace
+
+void check_shot_cameras(const PicturesConfig& pictures,
+                        const std::vector<VehicleConfig>& vehicles) {
+  for (const CameraConfig& camera : pictures.cameras) {
+    if (camera.kind != CameraKind::kShots) continue;
+    for (const VehicleConfig& vehicle : vehicles) {
+      if (vehicle.name != camera.vehicle) continue;
+      std::vector<std::string> known;
+      for (const NamedPart& sensor : vehicle.sensors) known.push_back(sensor.name);
+      if (std::find(known.begin(), known.end(), camera.sensor) != known.end()) continue;
+      fail_at(
+          camera.where,
+          fmt::format("pictures.cameras.{}.sensor = '{}', must be a sensor of {}{} "
+                      "(known: {})",
+                      camera.name, camera.sensor, vehicle.name, did_you_mean(camera.sensor, known),
+                      known.empty() ? "none" : join(known)));
+    }
+  }
+}
+
+PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::string>& vehicles,
+                             YamlNode& resolved) {
+  YamlNode node = yaml_mapping();
+  SourceMark where;
+  if (entry) {
+    require_mapping(entry->value, "pictures", "{shares: [1.0]}");
+    node = entry->value;
+    where = entry->mark;
+  }
+  std::vector<std::string> known;
+  std::vector<ParameterSpec> fields;
+  for (const StructuralKey& key : pictures_keys()) {
+    known.push_back(key.spec.name);
+    if (key.shape == KeyShape::kParameter) fields.push_back(key.spec);
+  }
+  check_keys(node, "pictures", known, "", nullptr);
+  if (!node.has("times_s") && !node.has("every_s") && !node.has("moments") && !node.has("shares")) {
+    YamlNode last_instant = yaml_list();
+    last_instant.items.push_back(yaml_number(1.0));
+    node.put("shares", std::move(last_instant));
+  }
+  ReadParameters read = read_parameters(node, where, "pictures", fields, "pictures");
+  resolved = std::move(read.resolved);
+
+  PicturesConfig pictures = pictures_table().read(read.values, "");
+  if (pictures.moment_texts.empty()) resolved.erase("moments");
+
+  const YamlNode* given = node.find("cameras");
+  const YamlNode cameras = given ? *given : default_cameras(vehicles);
+  require_mapping(cameras, "pictures.cameras", "{chase: {kind: chase}}");
+  YamlNode written = yaml_mapping();
+  for (const YamlEntry& camera : cameras.entries) {
+    check_name(camera, "pictures.cameras", "camera");
+    if (camera.value.is_null()) continue;
+    YamlNode one = yaml_mapping();
+    pictures.cameras.push_back(
+        read_camera(camera, "pictures.cameras." + camera.key, vehicles, one));
+    written.put(camera.key, std::move(one));
+  }
+  resolved.put("cameras", std::move(written));
+  return pictures;
+}
+
+}  // namespace vinerow::io

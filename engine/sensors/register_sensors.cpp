@@ -1,0 +1,33 @@
+#include "engine/sensors/register_sensors.h"
+
+#include "engine/sensors/air_data.h"
+#include "engine/sensors/barometer.h"
+#include "engine/sensors/camera_trigger.h"
+#include "engine/sensors/encoders.h"
+#include "engine/sensors/gnss.h"
+#include "engine/sensors/gnss_heading.h"
+#include "engine/sensors/gps.h"
+#include "engine/sensors/imu.h"
+#include "engine/sensors/ins.h"
+#include "engine/sensors/lidar.h"
+#include "engine/sensors/magnetometer.h"
+#include "engine/sensors/ultrasound.h"
+
+namespace vinerow {
+
+void register_sensors(Registry& registry) {
+  registry.add_sensor(air_data_spec(), make_air_data);
+  registry.add_sensor(barometer_spec(), make_barometer);
+  registry.add_sensor(camera_trigger_spec(), make_camera_trigger);
+  registry.add_sensor(encoders_spec(), make_encoders);
+  registry.add_sensor(gnss_spec(), make_gnss);
+  registry.add_sensor(gnss_heading_spec(), make_gnss_heading);
+  registry.add_sensor(gps_spec(), make_gps);
+  registry.add_sensor(imu_spec(), make_imu);
+  registry.add_sensor(ins_spec(), make_ins);
+  registry.add_sensor(lidar_spec(), make_lidar);
+  registry.add_sensor(magnetometer_spec(), make_magnetometer);
+  registry.add_sensor(ultrasound_spec(), make_ultrasound);
+}
+
+}  // namespace vinerow

@@ -1,0 +1,177 @@
+/// What ends a vehicle, or the run: a state that came apart, the edge of the ground, contacts,
+/// crashes, wheels that drive it nowhere. Part of VehicleRuntime.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/api/may_fail.h"
+#include "engine/core/error.h"
+#include "engine/sim/vehicle_runtime.h"
+
+namespace vinerow {
+namespace {
+
+/// Contacts closer than this in time are one touch.
+constexpr Duration kContactGap{500'000'000};
+/// Envelope of a sane state; beyond it the run has come apart.
+constexpr double kMaxDistance_m = 1e6;
+constexpr double kMaxSpeed_mps = 1e3;
+bool is_finite(const Odometry& state) {
+  return state.X_WB.p.allFinite() && state.X_WB.q.coeffs().allFinite() &&
+         state.v_WB_B.allFinite() && state.w_WB_B.allFinite();
+}
+
+/// Ground may be touched: wheels roll on it, and a belly may scrape over a bump. A face steeper
+/// than 45 deg is none, of whatever class: only a friction above 1 would hold a vehicle on it,
+/// which no tyre has on soil, so nothing drives there, and who touches it has run into it. A fence,
+/// a wall or a step that is part of the terrain's mesh is told from the terrain in this way.
+bool is_ground(const physics::Contact& contact) {
+  constexpr double kSteepestNormal_z = 0.70710678118654752;  // cos 45 deg
+  return contact.surface == SurfaceClass::kTerrain &&
+         std::abs(contact.normal_W.z()) >= kSteepestNormal_z;
+}
+
+/// "a post", "obstacle 'crate'": what was touched, by its name where the scenario gives it one.
+std::string name_of(const physics::Contact& contact, const WorldModel& world) {
+  if (contact.surface == SurfaceClass::kTerrain) return "a wall of the terrain";
+  if (contact.surface != SurfaceClass::kObstacle) {
+    return fmt::format("a {}", to_string(contact.surface));
+  }
+  if (contact.mesh < 0) return "an obstacle";
+  std::string name = world.meshes.at(static_cast<std::size_t>(contact.mesh)).name;
+  constexpr std::string_view kPrefix = "obstacle/";
+  if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
+  return name.empty() ? "an obstacle" : fmt::format("obstacle '{}'", name);
+}
+
+/// Of the height field and the meshes of class terrain; of all that is rigid where there are none.
+Eigen::AlignedBox2d find_ground_extent(const WorldModel& world) {
+  Eigen::AlignedBox2d terrain, rigid;
+  if (world.terrain) {
+    const HeightField& field = *world.terrain;
+    terrain.extend(field.corner_W);
+    terrain.extend(field.corner_W + Eigen::Vector2d(field.width_m(), field.depth_m()));
+  }
+  for (const MeshInstance& instance : world.meshes) {
+    if (!instance.collides) continue;
+    Eigen::AlignedBox2d& box = instance.surface == SurfaceClass::kTerrain ? terrain : rigid;
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      box.extend((instance.X_WM * v.cast<double>()).head<2>());
+    }
+  }
+  return terrain.isEmpty() ? rigid : terrain;
+}
+
+}  // namespace
+
+void VehicleRuntime::after_physics(Time now, Duration step) {
+  if (parked_) return;
+  vehicle_->after_physics(now, step);
+  Odometry state;
+  vehicle_->read_truth(state);
+  const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
+  if (!is_finite(state)) throw SimulationError(culprit, now, "its state is not finite any more");
+  if (state.X_WB.p.cwiseAbs().maxCoeff() > kMaxDistance_m) {
+    throw SimulationError(culprit, now,
+                          fmt::format("it is farther than {:g} m from the origin", kMaxDistance_m));
+  }
+  if (state.v_WB_B.norm() > kMaxSpeed_mps) {
+    throw SimulationError(culprit, now,
+                          fmt::format("its speed of {:g} m/s is beyond {:g} m/s",
+                                      state.v_WB_B.norm(), kMaxSpeed_mps));
+  }
+  demand_ground(now, state.X_WB);
+  watch_contacts(now);
+  watch_crash(now);
+}
+
+void VehicleRuntime::demand_ground(Time now, const Pose& X_WB) const {
+  const Eigen::Vector3d& p = X_WB.p;
+  if (run_.world.terrain && run_.world.terrain->contains(p.x(), p.y())) return;
+  const SceneQuery& scene = run_.physics.scene();
+  if (scene.ground_height_m(p.x(), p.y(), p.z())) return;
+  // A hole in a mesh smaller than the vehicle is no edge.
+  const VehicleDescription& description = vehicle_->description();
+  const Eigen::Vector3d& half = description.collision_half_extents_m;
+  for (const double side : {-1.0, 1.0}) {
+    for (const double end : {-1.0, 1.0}) {
+      const Eigen::Vector3d corner =
+          X_WB * Eigen::Vector3d(description.collision_centre_B +
+                                 Eigen::Vector3d(end * half.x(), side * half.y(), 0.0));
+      if (scene.ground_height_m(corner.x(), corner.y(), corner.z())) return;
+    }
+  }
+  const std::string culprit = fmt::format("{} ({})", config_.name, config_.vehicle.type);
+  const Eigen::AlignedBox2d box = find_ground_extent(run_.world);
+  throw SimulationError(
+      culprit, now,
+      fmt::format("it left the terrain at x = {:.2f} m, y = {:.2f} m: the ground of world '{}' "
+                  "lies between x = {:.1f} and {:.1f} m, y = {:.1f} and {:.1f} m{}",
+                  p.x(), p.y(), run_.world.name, box.min().x(), box.max().x(), box.min().y(),
+                  box.max().y(), tell_more_ground(run_.scenario.world.parameters)));
+}
+
+bool VehicleRuntime::finished() const {
+  if (crash_) return false;
+  if (controller_ == nullptr) return true;
+  // A part may fail in the very instant in which the controller has done its work.
+  const bool has_failed = std::any_of(may_fail_.begin(), may_fail_.end(),
+                                      [](const MayFail* part) { return !part->failure().empty(); });
+  return at_work() && controller_->finished() && !has_failed;
+}
+
+void VehicleRuntime::watch_crash(Time now) {
+  if (crash_) return;
+  if (!vehicle_->crash().empty()) {
+    crash_ = Crash{config_.name, now, std::string(vehicle_->crash())};
+    run_.emit(Event::Level::kError, config_.name, fmt::format("crashed: {}", crash_->text));
+    return;
+  }
+  for (const MayFail* part : may_fail_) {
+    if (crash_ || !at_work() || part->failure().empty()) continue;
+    crash_ = Crash{config_.name, now, std::string(part->failure()), EndKind::kGaveUp};
+    run_.emit(Event::Level::kError, config_.name, fmt::format("gave up: {}", crash_->text));
+  }
+}
+
+void VehicleRuntime::watch_contacts(Time now) {
+  const physics::Contact* touched = nullptr;
+  for (const physics::Contact& contact : run_.physics.contacts()) {
+    // Between two vehicles a contact is listed once, from either side.
+    const auto is_ours = [this](physics::BodyId body) {
+      return body.index >= first_body_ && body.index < end_body_;
+    };
+    if (!is_ours(contact.body) && !is_ours(contact.other)) continue;
+    if (contact.depth_m >= 0.0 && !is_ground(contact)) touched = &contact;
+  }
+  const bool was_touching = contacts_.values[1] != 0.0;
+  if (!touched && !was_touching) return;
+  const double touches_before = contacts_.values[0];
+  contacts_.values[1] = touched ? 1.0 : 0.0;
+  if (touched) {
+    if (now - last_contact_ > kContactGap) {
+      contacts_.values[0] += 1.0;
+      run_.emit(Event::Level::kWarning, config_.name,
+                fmt::format("touches {} at x = {:.2f} m, y = {:.2f} m",
+                            name_of(*touched, run_.world), touched->p_W.x(), touched->p_W.y()));
+    }
+    last_contact_ = now;
+  }
+  const bool is_touching = touched != nullptr;
+  if (is_touching != was_touching || contacts_.values[0] != touches_before) {
+    contacts_writer_.write(now, contacts_);
+  }
+}
+
+void VehicleRuntime::watch_progress(Time now) {
+  if (crash_ || !progress_ || finished()) return;
+  std::string told = progress_->update(now, truth_.X_WB.p, actuator_values_, now - progress_seen_);
+  progress_seen_ = now;
+  if (told.empty()) return;
+  told += fmt::format(", at x = {:.2f} m, y = {:.2f} m", truth_.X_WB.p.x(), truth_.X_WB.p.y());
+  crash_ = Crash{config_.name, now, std::move(told), EndKind::kStuck};
+  run_.emit(Event::Level::kError, config_.name, fmt::format("is stuck: {}", crash_->text));
+}
+
+}  // namespace vinerow

@@ -1,0 +1,193 @@
+// What becomes of the filters between rows when the noise is half or twice what they were told: the
+// table of docs/localisation.md. A filter is told by its settings and by what receivers and maps
+// state of themselves; no vineyard keeps to that.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+#include <vector>
+
+#include "tests/controllers/estimation/inertial/linear_theory.h"
+#include "tests/controllers/estimation/row_localisation/localisation_lab.h"
+#include "tests/controllers/estimation/row_localisation/map_localisation_lab.h"
+
+namespace vinerow::test::mismatch_test {
+namespace {
+
+constexpr int kSeeds = 10;
+
+/// Hands on a standard deviation of the fixes that is not theirs.
+class Misinformed final : public LabFilter {
+ public:
+  Misinformed(std::unique_ptr<LabFilter> filter, double told_share)
+      : filter_(std::move(filter)), told_share_(told_share) {}
+  void start(Time now, const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance) override {
+    filter_->start(now, p_W, covariance);
+  }
+  void inertial(Time now, const Eigen::Vector3d& v_W, const Eigen::Quaterniond& q_WB,
+                const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m) override {
+    filter_->inertial(now, v_W, q_WB, p_W, std_m);
+  }
+  void fix(Time measured, const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m) override {
+    filter_->fix(measured, p_W, told_share_ * std_m);
+  }
+  void height(Time measured, double z_m, double std_m) override {
+    filter_->height(measured, z_m, std_m);
+  }
+  void ranges(Time measured, std::span<const RangeReading> readings) override {
+    filter_->ranges(measured, readings);
+  }
+  Eigen::Vector3d p_W() const override { return filter_->p_W(); }
+  Eigen::Matrix3d covariance() const override { return filter_->covariance(); }
+
+ private:
+  std::unique_ptr<LabFilter> filter_;
+  double told_share_;
+};
+
+enum class Noise { kFixes, kVelocity, kHeading, kMap, kAll };
+const char* name_of(Noise noise) {
+  switch (noise) {
+    case Noise::kFixes:
+      return "fixes";
+    case Noise::kVelocity:
+      return "velocity";
+    case Noise::kHeading:
+      return "heading";
+    case Noise::kMap:
+      return "map";
+    case Noise::kAll:
+      return "all";
+  }
+  return "?";
+}
+
+/// Of a world whose noise is `factor` times what the filter is told.
+LabScore score_of(const LabFilterMaker& make, Noise noise, double factor, int seeds = kSeeds) {
+  LabSetup setup;
+  const auto is = [&](Noise one) { return noise == one || noise == Noise::kAll; };
+  if (is(Noise::kFixes)) setup.fix_std_m *= factor;
+  if (is(Noise::kVelocity)) setup.velocity_std_mps *= factor;
+  if (is(Noise::kHeading)) setup.heading_std_rad *= factor;
+  if (is(Noise::kMap)) {
+    setup.world.stated_surface_std_m = setup.world.surface_std_m;
+    setup.world.surface_std_m *= factor;
+  }
+  const double told_share = is(Noise::kFixes) ? 1.0 / factor : 1.0;
+  return study(setup, seeds, [&](const LabContext& context) {
+    return std::make_unique<Misinformed>(make(context), told_share);
+  });
+}
+
+struct TheoryCase {
+  Noise noise;
+  double factor;
+  LinearTheory::Share share;
+};
+
+TEST(MismatchOfALinearFilter, IsWhatTheRiccatiRecursionWithTheTrueNoiseSays) {
+  constexpr int kFlights = 20;
+  DistanceFilterParams open;  // a gate is not linear
+  open.fix_gate_sigma = 0.0;
+  const LabFilterMaker make = distance_filter(open, false);
+  for (const TheoryCase& one : {TheoryCase{Noise::kAll, 1.0, {1.0, 1.0}},
+                                {Noise::kFixes, 0.5, {0.5, 1.0}},
+                                {Noise::kFixes, 2.0, {2.0, 1.0}},
+                                {Noise::kVelocity, 0.5, {1.0, 0.5}},
+                                {Noise::kVelocity, 2.0, {1.0, 2.0}},
+                                {Noise::kAll, 0.5, {0.5, 0.5}},
+                                {Noise::kAll, 2.0, {2.0, 2.0}}}) {
+    SCOPED_TRACE(fmt::format("{} x {}", name_of(one.noise), one.factor));
+    const LinearTheory theory(one.share);
+    const LabScore score = score_of(make, one.noise, one.factor, kFlights);
+    std::printf("%-8s x %.1f %.3f / %.3f m, NEES %.2f; theory %.3f m, %.2f\n", name_of(one.noise),
+                one.factor, score.lateral_m, score.longitudinal_m, score.nees,
+                std::sqrt(theory.mean_square_m2()), theory.nees());
+    // Four standard deviations by the theory, not by how the figures scatter.
+    const double share = 4.0 / std::sqrt(static_cast<double>(kFlights));
+    const double square_margin = share * theory.mean_square_std_m2();
+    EXPECT_NEAR(score.lateral_m * score.lateral_m, theory.mean_square_m2(), square_margin);
+    EXPECT_NEAR(score.longitudinal_m * score.longitudinal_m, theory.mean_square_m2(),
+                square_margin);
+    EXPECT_NEAR(score.nees, theory.nees(), share * theory.nees_std());
+  }
+}
+
+struct Named {
+  const char* name;
+  LabFilterMaker make;
+  bool has_map = true;
+};
+
+void PrintTo(const Named& filter, std::ostream* out) {
+  *out << filter.name;
+}
+
+class Mismatch : public ::testing::TestWithParam<Named> {};
+
+TEST_P(Mismatch, HalfAndTwiceTheNoiseLeaveItInItsRow) {
+  const LabScore told = score_of(GetParam().make, Noise::kAll, 1.0);
+  std::printf("%-17s %-8s      %.4f / %.4f m, NEES %.2f, %.3f inside\n", GetParam().name, "as told",
+              told.lateral_m, told.longitudinal_m, told.nees, told.coverage);
+  // Across the rows the walls make a filter all but linear: its variance is then the sum of one
+  // share for each source of noise, and each share is found both from half and from twice of it.
+  double from_half_m2 = 0.0, from_twice_m2 = 0.0;
+  const double told_m2 = told.lateral_m * told.lateral_m;
+  for (const Noise noise :
+       {Noise::kFixes, Noise::kVelocity, Noise::kHeading, Noise::kMap, Noise::kAll}) {
+    for (const double factor : {0.5, 2.0}) {
+      SCOPED_TRACE(std::string(name_of(noise)) + (factor < 1.0 ? " by half" : " twice"));
+      const LabScore score = score_of(GetParam().make, noise, factor);
+      std::printf("%-17s %-8s x %.1f %.4f / %.4f m, NEES %.2f, %.3f inside\n", GetParam().name,
+                  name_of(noise), factor, score.lateral_m, score.longitudinal_m, score.nees,
+                  score.coverage);
+      EXPECT_EQ(score.lost, 0);
+      const double square_m2 = score.lateral_m * score.lateral_m;
+      if (noise != Noise::kAll) {
+        (factor < 1.0 ? from_half_m2 : from_twice_m2) +=
+            (square_m2 - told_m2) / (factor * factor - 1.0);
+      }
+      if (factor < 1.0) {
+        // Less noise than told never makes it worse than as told, and it is too careful.
+        EXPECT_LE(score.lateral_m, 1.05 * told.lateral_m);
+        EXPECT_LE(score.longitudinal_m, 1.05 * told.longitudinal_m);
+        EXPECT_LE(score.nees, 1.1 * told.nees);
+        EXPECT_GE(score.nees, 0.2 * told.nees);
+      } else {
+        // A linear filter scales with its noise: twice the error, four times the NEES where all
+        // noise is twice as large. A gate of 3.5 sigma then refuses 8 % of what is good. If every
+        // reading counts alike, that costs 1 / sqrt(0.92): the bound across the rows. Along them
+        // only the walls' roughness tells the place, which is not linear in an error as long as its
+        // bumps, and a gate of 5 sigma for three coordinates refuses 10 % of the fixes. No theory
+        // bounds that: 2.4 and 5.2 are just above the 2.34 and 4.7 that are reached.
+        if (GetParam().has_map) {
+          EXPECT_LE(score.lateral_m, 2.0 / std::sqrt(0.92) * told.lateral_m);
+        } else {
+          EXPECT_LE(score.lateral_m, 2.4 * told.lateral_m);
+        }
+        EXPECT_LE(score.longitudinal_m, 2.4 * told.longitudinal_m);
+        EXPECT_LE(score.nees, 5.2 * told.nees);
+        EXPECT_GE(score.nees, 0.9 * told.nees);
+      }
+    }
+  }
+  if (GetParam().has_map) {
+    // If errors across the rows forget within half a second (assumed, not measured), ten flights
+    // hold some 1100 independent ones, and products of two shares average to 3 %: four times that.
+    EXPECT_NEAR(from_half_m2, told_m2, 0.12 * told_m2);
+    EXPECT_NEAR(from_twice_m2, told_m2, 0.12 * told_m2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, Mismatch,
+                         ::testing::Values(Named{"range_ekf", distance_filter({})},
+                                           Named{"map_localisation", map_localisation()},
+                                           Named{"no_map", distance_filter({}, false), false}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace vinerow::test::mismatch_test

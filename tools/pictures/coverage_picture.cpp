@@ -1,0 +1,348 @@
+#include "tools/pictures/coverage_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/api/map.h"
+#include "engine/playback/frame_words.h"
+#include "engine/render/scale_bar.h"
+#include "tools/pictures/colour_scale.h"
+#include "tools/pictures/picture_canvas.h"
+#include "tools/pictures/picture_style.h"
+
+namespace vinerow::tools {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr Rgb kPlainGround = {232, 229, 220}, kNone = {190, 92, 76}, kTrack = {255, 255, 255};
+constexpr Rgb kShot = {20, 24, 26}, kParcelEdge = {20, 24, 26};
+constexpr int kPanelMargin = 32, kPanelGap = 36, kTitle = 34, kScales = 86, kNumbers = 198;
+constexpr int kTallestPanel = 900;
+
+/// What both maps show of the world: the parcel. Where the plane turns is of no interest.
+Eigen::AlignedBox2d extent_of(const SurveyCoverage& coverage) {
+  Eigen::AlignedBox2d box;
+  for (const Vector2d& p : coverage.options.parcel_W) box.extend(p);
+  const Vector2d margin = Vector2d::Constant(0.08 * box.sizes().maxCoeff());
+  return {Vector2d(box.min() - margin), Vector2d(box.max() + margin)};
+}
+
+/// One map on the canvas.
+struct Panel {
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0, px_per_m = 1.0;
+  Vector2d corner_W = {0, 0};  ///< at the panel's lower left
+
+  Vector2d operator()(const Vector2d& p_W) const {
+    return {left + (p_W.x() - corner_W.x()) * px_per_m,
+            top + height - (p_W.y() - corner_W.y()) * px_per_m};
+  }
+  Polygon operator()(const Polygon& polygon_W) const {
+    Polygon polygon;
+    for (const Vector2d& p : polygon_W) polygon.push_back((*this)(p));
+    return polygon;
+  }
+  Vector2d world(double x, double y) const {
+    return corner_W + Vector2d(x - left, top + height - y) / px_per_m;
+  }
+  bool contains(const Vector2d& p_W) const {
+    const Vector2d p = (*this)(p_W);
+    return p.x() >= left && p.y() >= top && p.x() <= left + width && p.y() <= top + height;
+  }
+};
+
+/// Two maps beside each other, or one above the other where they are wide.
+struct Layout {
+  std::array<Panel, 2> panels;
+  int height = 0;
+  double numbers_top = 0.0;
+
+  explicit Layout(const Eigen::AlignedBox2d& extent_W) {
+    const double w = extent_W.sizes().x(), h = extent_W.sizes().y();
+    const bool beside = w < 1.6 * h;
+    const double room = beside ? 0.5 * (kPictureWidth - 2 * kPanelMargin - kPanelGap)
+                               : kPictureWidth - 2 * kPanelMargin;
+    Panel panel;
+    panel.px_per_m = std::min(room / w, kTallestPanel / h);
+    panel.width = room;
+    panel.height = std::ceil(h * panel.px_per_m);
+    panel.left = kPanelMargin;
+    panel.top = kPanelMargin + kTitle;
+    // What is narrower than its panel comes into the middle.
+    panel.corner_W = extent_W.center() - 0.5 * Vector2d(room, panel.height) / panel.px_per_m;
+    panels = {panel, panel};
+    const double block = kTitle + panel.height + kScales;
+    if (beside) {
+      panels[1].left += room + kPanelGap;
+    } else {
+      panels[1].top += block;
+    }
+    numbers_top = kPanelMargin + (beside ? block : 2 * block);
+    height = static_cast<int>(numbers_top) + kNumbers;
+  }
+};
+
+/// A value's colour; nothing where the ground shows through.
+using Paint = std::function<std::optional<Rgb>(std::size_t cell)>;
+
+/// The cell's colour; of a cell outside the parcel that of a neighbour inside it, so that colours
+/// reach the parcel's edge.
+std::optional<Rgb> colour_near(const CoverageMap& map, const Paint& paint, int i, int j) {
+  if (i >= 0 && j >= 0 && i < map.columns && j < map.rows) {
+    if (const auto colour = paint(map.cell(i, j))) return colour;
+  }
+  for (const auto& [di, dj] :
+       {std::pair{0, 1}, {1, 0}, {0, -1}, {-1, 0}, {1, 1}, {1, -1}, {-1, -1}, {-1, 1}}) {
+    const int k = i + di, l = j + dj;
+    if (k < 0 || l < 0 || k >= map.columns || l >= map.rows) continue;
+    if (const auto colour = paint(map.cell(k, l))) return colour;
+  }
+  return std::nullopt;
+}
+
+/// Cells with all their neighbours inside the parcel: no need to look where its edge is.
+std::vector<char> inner_cells(const CoverageMap& map) {
+  std::vector<char> inner(map.pictures.size(), 0);
+  for (int j = 1; j + 1 < map.rows; ++j) {
+    for (int i = 1; i + 1 < map.columns; ++i) {
+      bool all = true;
+      for (int k = 0; k < 9; ++k)
+        all = all && map.pictures[map.cell(i + k % 3 - 1, j + k / 3 - 1)] >= 0;
+      inner[map.cell(i, j)] = all;
+    }
+  }
+  return inner;
+}
+
+void draw_cells(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage,
+                const Paint& paint) {
+  constexpr int kSamples = 3;
+  const CoverageMap& map = coverage.map;
+  const std::vector<char> inner = inner_cells(map);
+  for (int y = static_cast<int>(panel.top); y < panel.top + panel.height; ++y) {
+    for (int x = static_cast<int>(panel.left); x < panel.left + panel.width; ++x) {
+      std::array<int, 3> sum = {0, 0, 0};
+      int painted = 0;
+      for (int s = 0; s < kSamples * kSamples; ++s) {
+        const Vector2d p_W =
+            panel.world(x + (s % kSamples + 0.5) / kSamples, y + (s / kSamples + 0.5) / kSamples);
+        const Vector2d cell = (p_W - map.corner_W) / map.cell_m;
+        const int i = static_cast<int>(std::floor(cell.x()));
+        const int j = static_cast<int>(std::floor(cell.y()));
+        if (i < -1 || j < -1 || i > map.columns || j > map.rows) continue;
+        const bool on_map = i >= 0 && j >= 0 && i < map.columns && j < map.rows;
+        const bool is_inner = on_map && inner[map.cell(i, j)];
+        if (!is_inner && !contains(coverage.options.parcel_W, p_W)) continue;
+        const std::optional<Rgb> colour = colour_near(map, paint, i, j);
+        if (!colour) continue;
+        ++painted;
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += (*colour)[c];
+      }
+      if (painted == 0) continue;
+      canvas.blend(x, y, {sum[0] / painted, sum[1] / painted, sum[2] / painted},
+                   painted / static_cast<double>(kSamples * kSamples));
+    }
+  }
+}
+
+void draw_world(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage) {
+  for (const auto& row : coverage.rows) {
+    if (!panel.contains(row[0]) || !panel.contains(row[1])) continue;
+    canvas.line(panel(row[0]), panel(row[1]), 1.0, kInk, 0.22);
+  }
+  canvas.outline(panel(coverage.options.parcel_W), 2.5, kParcelEdge);
+  for (std::size_t i = 0; i + 1 < coverage.track_W.size(); ++i) {
+    const Vector2d &a = coverage.track_W[i], &b = coverage.track_W[i + 1];
+    if (!panel.contains(a) || !panel.contains(b)) continue;
+    const bool over_parcel = contains(coverage.options.parcel_W, a);
+    canvas.line(panel(a), panel(b), 1.6, over_parcel ? kTrack : kFaint, 0.85);
+  }
+  for (const LaneShot& taken : coverage.shots) {
+    if (!panel.contains(taken.shot.X_WS.p.head<2>())) continue;
+    const Vector2d at = panel(Vector2d(taken.shot.X_WS.p.head<2>()));
+    Polygon dot, rim;
+    for (int k = 0; k < 12; ++k) {
+      const double angle = 2.0 * std::acos(-1.0) * k / 12;
+      const Vector2d way(std::cos(angle), std::sin(angle));
+      dot.push_back(at + 2.4 * way);
+      rim.push_back(at + 3.6 * way);
+    }
+    canvas.fill(rim, kTrack, 0.9);
+    canvas.fill(dot, taken.lane >= 0 ? kShot : kNone);
+  }
+}
+
+/// A bar from one value to the other, with ticks. @returns its right end
+double draw_bar(Canvas& canvas, double left, double top, double width,
+                const std::function<Rgb(double share)>& colour) {
+  for (int x = 0; x < width; ++x) {
+    const Polygon column = {
+        {left + x, top}, {left + x + 1, top}, {left + x + 1, top + 16}, {left + x, top + 16}};
+    canvas.fill(column, colour((x + 0.5) / width));
+  }
+  canvas.outline({{left, top}, {left + width, top}, {left + width, top + 16}, {left, top + 16}},
+                 1.0, kFaint, 0.7);
+  return left + width;
+}
+
+void draw_tick(Canvas& canvas, double x, double top, const std::string& words,
+               bool strong = false) {
+  canvas.line({x, top + 16}, {x, top + 22}, 1.5, strong ? kInk : kFaint);
+  canvas.text(words, 15, {x, top + 38}, strong ? kInk : kFaint, 0.5);
+}
+
+void draw_patch(Canvas& canvas, double right, double top, const Rgb& colour,
+                const std::string& words) {
+  const Polygon patch = {
+      {right - 150, top}, {right - 128, top}, {right - 128, top + 16}, {right - 150, top + 16}};
+  canvas.fill(patch, colour);
+  canvas.outline(patch, 1.0, kFaint, 0.7);
+  canvas.text(words, 15, {right - 120, top + 14}, kInk);
+}
+
+void draw_counts(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage) {
+  const CoverageMap& map = coverage.map;
+  const int most = std::max(1, *std::max_element(map.pictures.begin(), map.pictures.end()));
+  // As many colours as counts: each step of the scale is one picture more.
+  const auto colour_of = [most](int count) {
+    return viridis(most > 1 ? (count - 1.0) / (most - 1.0) : 1.0);
+  };
+  draw_cells(canvas, panel, coverage, [&](std::size_t cell) -> std::optional<Rgb> {
+    const int count = map.pictures[cell];
+    if (count < 0) return std::nullopt;
+    return count == 0 ? kNone : colour_of(count);
+  });
+  draw_world(canvas, panel, coverage);
+  canvas.text("Pictures that see each place", 20, {panel.left, panel.top - 12}, kInk);
+  const double top = panel.top + panel.height + 14, width = panel.width - 190;
+  draw_bar(canvas, panel.left, top, width, [&](double share) {
+    return colour_of(1 + std::min(most - 1, static_cast<int>(share * most)));
+  });
+  for (const double value : ticks(1, most, 12)) {
+    if (value != std::floor(value)) continue;
+    draw_tick(canvas, panel.left + (value - 0.5) / most * width, top, fmt::format("{:g}", value));
+  }
+  draw_patch(canvas, panel.left + panel.width, top, kNone, "no picture");
+}
+
+void draw_overlaps(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage) {
+  const CoverageMap& map = coverage.map;
+  const double wanted = coverage.options.wanted_overlap;
+  double least = wanted;
+  for (const float overlap : map.forward_overlap) {
+    if (overlap > 0.0f) least = std::min(least, static_cast<double>(overlap));
+  }
+  const double from = std::max(0.0, std::floor((least - 0.051) * 20.0) / 20.0);
+  draw_cells(canvas, panel, coverage, [&](std::size_t cell) -> std::optional<Rgb> {
+    const double overlap = map.forward_overlap[cell];
+    if (overlap < 0.0) return std::nullopt;
+    return overlap == 0.0 ? kNone : viridis((overlap - from) / (1.0 - from));
+  });
+  draw_world(canvas, panel, coverage);
+  canvas.text(
+      "Forward overlap that every pair of consecutive pictures keeps there, on the best lane", 20,
+      {panel.left, panel.top - 12}, kInk);
+  const double top = panel.top + panel.height + 14, width = panel.width - 190;
+  draw_bar(canvas, panel.left, top, width, viridis);
+  const auto x_of = [&](double value) { return panel.left + (value - from) / (1 - from) * width; };
+  for (const double value : ticks(from, 1.0, 6)) {
+    if (std::abs(x_of(value) - x_of(wanted)) < 85.0) continue;
+    draw_tick(canvas, x_of(value), top, fmt::format("{:.0f} %", 100 * value));
+  }
+  canvas.line({x_of(wanted), top - 5}, {x_of(wanted), top + 16}, 2.5, kInk);
+  draw_tick(canvas, x_of(wanted), top, fmt::format("{:g} % wanted", 100 * wanted), true);
+  draw_patch(canvas, panel.left + panel.width, top, kNone, "no overlap");
+}
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "not measured";
+}
+
+/// The overlap that every pair keeps on half of the parcel or more of it.
+double held_on_half(const CoverageMap& map) {
+  std::vector<float> held;
+  std::copy_if(map.forward_overlap.begin(), map.forward_overlap.end(), std::back_inserter(held),
+               [](float overlap) { return overlap >= 0.0f; });
+  if (held.empty()) return 0.0;
+  const auto middle = held.begin() + static_cast<std::ptrdiff_t>((held.size() - 1) / 2);
+  std::nth_element(held.begin(), middle, held.end());
+  return *middle;
+}
+
+void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& coverage) {
+  const auto number = [&](const char* name) { return coverage.map.numbers.at(name); };
+  const double left = kPanelMargin, top = layout.numbers_top + 18;
+  canvas.text(fmt::format("{}: {} of {}", title_of_name(coverage.scenario), coverage.camera,
+                          coverage.vehicle),
+              22, {left, top + 6}, kInk);
+  const double area_ha = 1e-4 * std::abs(signed_area_m2(coverage.options.parcel_W));
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format(
+      "{:.0f} pictures, parcel of {:.2f} ha: seen {}, by two {}, by three {}", number("shots"),
+      area_ha, percent(number("covered_share")), percent(number("covered_twice_share")),
+      percent(number("covered_three_times_share"))));
+  if (number("shots_off_ground") > 0) {
+    lines.back() += fmt::format("; {:.0f} look beyond the ground", number("shots_off_ground"));
+  }
+  lines.push_back(fmt::format(
+      "forward overlap: mean {}, least {}; the wanted {:g} % is reached by at least one pair on {} "
+      "of the parcel, and kept by every pair on {}",
+      percent(number("forward_overlap_mean")), percent(number("forward_overlap_min")),
+      100 * coverage.options.wanted_overlap, percent(number("overlap_covered_share")),
+      percent(number("overlap_held_share"))));
+  // A parcel that keeps a little less than wanted is not one that keeps nothing.
+  const double half = held_on_half(coverage.map);
+  if (half > 0.0 && half < coverage.options.wanted_overlap) {
+    lines.push_back(
+        fmt::format("every pair keeps at least {} on half of the parcel", percent(half)));
+  }
+  lines.push_back(fmt::format("side overlap: mean {}, least {}",
+                              percent(number("side_overlap_mean")),
+                              percent(number("side_overlap_min"))));
+  if (std::isfinite(number("gsd_mean_m"))) {
+    lines.push_back(fmt::format(
+        "GSD {:.1f} mm, from {:.1f} to {:.1f} mm; {:.2f} % above that of a picture straight down",
+        1e3 * number("gsd_mean_m"), 1e3 * number("gsd_min_m"), 1e3 * number("gsd_max_m"),
+        100 * number("gsd_formula_error_mean")));
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    canvas.text(lines[i], 16, {left, top + 34 + 24 * static_cast<double>(i)}, kFaint);
+  }
+  const auto outside =
+      std::count_if(coverage.shots.begin(), coverage.shots.end(), [&](const LaneShot& taken) {
+        return !layout.panels[0].contains(taken.shot.X_WS.p.head<2>());
+      });
+  std::string key =
+      "thin lines: plant rows; white and grey: track; dots: pictures, red off the lanes";
+  if (outside > 0) key += fmt::format("; {} pictures were taken outside this frame", outside);
+  canvas.text(key, 14, {left, top + 34 + 24 * static_cast<double>(lines.size())}, kFaint);
+}
+
+}  // namespace
+
+render::Image draw_coverage(const SurveyCoverage& coverage) {
+  const Layout layout(extent_of(coverage));
+  Canvas canvas(kPictureWidth, layout.height, kPaper);
+  for (const Panel& panel : layout.panels) {
+    const double right = panel.left + panel.width, bottom = panel.top + panel.height;
+    canvas.fill(
+        {{panel.left, panel.top}, {right, panel.top}, {right, bottom}, {panel.left, bottom}},
+        kPlainGround);
+  }
+  draw_counts(canvas, layout.panels[0], coverage);
+  draw_overlaps(canvas, layout.panels[1], coverage);
+  draw_numbers(canvas, layout, coverage);
+  draw_scale_bar(canvas, {kPictureWidth - kPanelMargin, layout.numbers_top + kNumbers - 30},
+                 0.2 * layout.panels[0].width / layout.panels[0].px_per_m,
+                 layout.panels[0].px_per_m, kInk);
+  return canvas.image();
+}
+
+}  // namespace vinerow::tools

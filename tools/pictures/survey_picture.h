@@ -1,0 +1,18 @@
+#pragma once
+/// The top view of a planned survey, as in figure 6 of paper A.
+
+#include <string>
+
+#include "controllers/planning/survey/survey_plan.h"
+#include "controllers/planning/survey/survey_request.h"
+#include "engine/render/scene.h"
+
+namespace vinerow::tools {
+
+/// North is up. Terrain shaded with contour lines, the area, lanes coloured in the order flown,
+/// waypoints numbered, turns and the ways there and home thin, the footprint of one picture.
+/// @param title  first line below the map
+render::Image draw_survey(const SurveyRequest& request, const SurveyPlan& plan,
+                          const GroundHeight& ground, const std::string& title);
+
+}  // namespace vinerow::tools

@@ -1,0 +1,162 @@
+#include "tools/replay/replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/api/map.h"
+#include "engine/core/check.h"
+#include "tools/replay/base64.h"
+#include "tools/replay/replay_assets.h"
+#include "tools/replay/replay_scene.h"
+#include "tools/replay/replay_textures.h"
+#include "tools/replay/replay_tracks.h"
+
+namespace vinerow::tools {
+namespace {
+
+using nlohmann::json;
+
+/// What stands in a page's text, where < and & would begin markup.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return out;
+}
+
+/// JSON inside a script element: no text may end the element or look like a comment.
+std::string script_json(const json& value) {
+  std::string out;
+  for (const char c : value.dump(-1, ' ', false, json::error_handler_t::replace)) {
+    out += c == '<' ? "\\u003c" : std::string(1, c);
+  }
+  return out;
+}
+
+/// Lines as lists of x, y, z to a millimetre.
+json lines_of(const std::vector<Eigen::Vector3d>& line) {
+  json points = json::array();
+  for (const Eigen::Vector3d& p : line) {
+    for (int c = 0; c < 3; ++c) points.push_back(1e-3 * std::round(1e3 * p[c]));
+  }
+  return points;
+}
+
+json ground_index(const WorldModel& world) {
+  json rows = json::array(), alleys = json::array();
+  Eigen::AlignedBox3d box;
+  double top_m = 0.0;
+  for (const PlantRow& row : world.rows->rows) {
+    top_m = std::max(top_m, row.canopy_top_m);
+    rows.push_back(lines_of(row.line_W));
+    for (const Eigen::Vector3d& p : row.line_W) {
+      box.extend(p).extend(p + Eigen::Vector3d(0, 0, row.canopy_top_m));
+    }
+  }
+  for (const Alley& alley : world.rows->alleys) alleys.push_back(lines_of(alley.line_W));
+  json index = {{"rows", rows}, {"alleys", alleys}, {"canopy_top_m", top_m}};
+  if (!box.isEmpty()) index["row_box"] = {lines_of({box.min()}), lines_of({box.max()})};
+  if (world.terrain) {
+    const HeightField& field = *world.terrain;
+    const auto [low, high] = std::minmax_element(field.heights_m.begin(), field.heights_m.end());
+    const Eigen::Vector2d far = field.corner_W + Eigen::Vector2d(field.width_m(), field.depth_m());
+    index["terrain_box"] = {{field.corner_W.x(), field.corner_W.y(), *low},
+                            {far.x(), far.y(), *high}};
+  }
+  return index;
+}
+
+json phases_of(const ReplayInput& input) {
+  json phases = json::array();
+  for (const ReplayPhase& phase : input.phases) {
+    phases.push_back({{"name", phase.name},
+                      {"begin", phase.begin_s - input.trace->first.s()},
+                      {"end", phase.end_s - input.trace->first.s()},
+                      {"state", phase.state}});
+  }
+  return phases;
+}
+
+void append_data(std::string& html, const char* id, const char* type, const std::string& text) {
+  html += fmt::format("<script type=\"{}\" id=\"vinerow-replay-{}\">", type, id);
+  html += text;
+  html += "</script>\n";
+}
+
+void append_script(std::string& html, std::string_view text) {
+  VINEROW_DEMAND(text.find("</script") == std::string_view::npos);
+  html += "<script>\n";
+  html += text;
+  html += "</script>\n";
+}
+
+}  // namespace
+
+bool has_replay() {
+  return !three_scripts().empty();
+}
+
+std::string replay_absence() {
+  return has_replay()
+             ? ""
+             : "this program was built without three.js (Debian: libjs-three), which draws "
+               "the replay";
+}
+
+std::string replay_section(const ReplayInput& input, const ReplayLimits& limits) {
+  VINEROW_DEMAND(input.scenario != nullptr && input.world != nullptr && input.vehicles != nullptr &&
+                 input.trace != nullptr);
+  VINEROW_DEMAND(input.vehicles->size() == input.scenario->vehicles.size());
+  if (!has_replay()) {
+    return fmt::format("<p class=\"vinerow-replay-absent\">No replay: {}.</p>\n",
+                       escaped(replay_absence()));
+  }
+  ReplayScene scene = make_replay_scene(input, limits);
+  ReplayTracks tracks = make_replay_tracks(input, limits);
+  const ReplayTextures textures = make_replay_textures(input.world->daylight);
+
+  json index = {{"name", input.scenario->name},
+                {"first_s", input.trace->first.s()},
+                {"duration_s", (input.trace->last - input.trace->first).s()},
+                {"ground", ground_index(*input.world)},
+                {"light", replay_light(input.world->daylight)},
+                {"textures", textures.index},
+                {"phases", phases_of(input)}};
+  index["vehicles"] = std::move(tracks.index["vehicles"]);
+  index["notes"] = json::array();
+  for (const std::vector<std::string>* notes : {&scene.notes, &tracks.notes}) {
+    for (const std::string& note : *notes) index["notes"].push_back(note);
+  }
+
+  std::string html = "<style>\n";
+  html += replay_style();
+  html += "</style>\n";
+  html += replay_markup();
+  append_data(html, "index", "application/json", script_json(index));
+  append_data(html, "scene", "text/plain", base64(scene.glb));
+  append_data(html, "tracks", "text/plain", base64(tracks.bytes));
+  append_data(html, "textures", "text/plain", base64(textures.bytes));
+  html += "<!--\n";
+  html += three_notice();
+  html += "-->\n";
+  for (const std::string_view script : three_scripts()) append_script(html, script);
+  for (const std::string_view script : replay_scripts()) append_script(html, script);
+  return html;
+}
+
+std::string replay_page(const ReplayInput& input, const ReplayLimits& limits) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "<title>{}: replay</title>\n"
+      "<style>html, body {{ margin: 0; height: 100%; background: #10151a; }}\n"
+      ".vinerow-replay {{ height: 100vh !important; border-radius: 0 !important; }}</style>\n"
+      "</head>\n<body>\n{}</body>\n</html>\n",
+      escaped(input.scenario->name), replay_section(input, limits));
+}
+
+}  // namespace vinerow::tools

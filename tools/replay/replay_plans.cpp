@@ -1,0 +1,102 @@
+#include "tools/replay/replay_plans.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/api/world_model.h"
+
+namespace vinerow::tools {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kTolerance_m = 0.03;
+
+double from_stretch_m(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                      const Eigen::Vector3d& b) {
+  const Eigen::Vector3d along = b - a;
+  const double length2 = along.squaredNorm();
+  const double share = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - share * along).norm();
+}
+
+std::vector<Eigen::Vector3d> line_of(const PlannedPath& plan, const WorldModel& world) {
+  std::vector<Eigen::Vector3d> line;
+  for (const PathPoint& point : plan.points) {
+    Eigen::Vector3d p = point.p_W;
+    if (world.terrain) p.z() = std::max(p.z(), world.terrain->height_m(p.x(), p.y()));
+    line.push_back(p);
+  }
+  return simplify_line(line, kTolerance_m);
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> simplify_line(const std::vector<Eigen::Vector3d>& points,
+                                           double tolerance_m) {
+  if (points.size() < 3) return points;
+  std::vector<bool> stays(points.size(), false);
+  stays.front() = stays.back() = true;
+  // A list of stretches instead of recursion: plans may have a hundred thousand points.
+  std::vector<std::pair<std::size_t, std::size_t>> stretches = {{0, points.size() - 1}};
+  while (!stretches.empty()) {
+    const auto [begin, end] = stretches.back();
+    stretches.pop_back();
+    double farthest_m = tolerance_m;
+    std::size_t at = begin;
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const double away_m = from_stretch_m(points[i], points[begin], points[end]);
+      if (away_m > farthest_m) {
+        farthest_m = away_m;
+        at = i;
+      }
+    }
+    if (at == begin) continue;
+    stays[at] = true;
+    stretches.push_back({begin, at});
+    stretches.push_back({at, end});
+  }
+  std::vector<Eigen::Vector3d> line;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (stays[i]) line.push_back(points[i]);
+  }
+  return line;
+}
+
+void add_plans(const ReplayInput& input, const ReplayLimits& limits, ReplayTracks& tracks) {
+  std::size_t left = limits.plan_points;
+  std::size_t left_out = 0;
+  for (json& vehicle : tracks.index["vehicles"]) {
+    const Trace<PlannedPath>& plans =
+        input.trace->vehicles.at(vehicle["name"].get<std::string>()).plan;
+    vehicle["plans"] = json::array();
+    std::vector<Eigen::Vector3d> last;
+    for (std::size_t i = 0; i < plans.values.size(); ++i) {
+      std::vector<Eigen::Vector3d> line = line_of(plans.values[i], *input.world);
+      if (line.size() < 2 || line == last) continue;
+      if (line.size() > left) {
+        ++left_out;
+        continue;
+      }
+      left -= line.size();
+      while (tracks.bytes.size() % 4 != 0) tracks.bytes += '\0';
+      vehicle["plans"].push_back({{"t", (plans.times[i] - input.trace->first).s()},
+                                  {"points", tracks.bytes.size()},
+                                  {"count", line.size()}});
+      for (const Eigen::Vector3d& p : line) {
+        const Eigen::Vector3f rounded = p.cast<float>();
+        tracks.bytes.append(reinterpret_cast<const char*>(rounded.data()), 3 * sizeof(float));
+      }
+      last = std::move(line);
+    }
+  }
+  if (left_out > 0) {
+    tracks.notes.push_back(
+        fmt::format("{} plans are not shown: there are more than a page holds", left_out));
+  }
+}
+
+}  // namespace vinerow::tools

@@ -1,0 +1,140 @@
+#include "tools/report/estimate_plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
+#include "engine/math/deviation.h"
+#include "tools/report/html.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+constexpr double kRowReach_m = 5.0;
+/// More bands hide each other.
+constexpr std::size_t kMostBands = 2;
+/// A band of more than so many times the largest error would be the plot's ground.
+constexpr double kWidestBand = 1.2;
+
+std::vector<PolylineDistance> rows_of(const WorldModel* world) {
+  std::vector<PolylineDistance> rows;
+  if (world == nullptr) return rows;
+  for (const PlantRow& row : world->rows->rows) {
+    std::vector<Eigen::Vector2d> line;
+    for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
+    if (line.size() >= 2) rows.emplace_back(std::move(line));
+  }
+  return rows;
+}
+
+/// Unit vector along the nearest row, towards where the vehicle looks; the heading's where no row
+/// is near.
+Eigen::Vector2d along(const std::vector<PolylineDistance>& rows, const Pose& X_WB) {
+  const double yaw_rad = yaw_from_quaternion(X_WB.q);
+  const Eigen::Vector2d heading(std::cos(yaw_rad), std::sin(yaw_rad));
+  Eigen::Vector2d direction = heading;
+  double nearest_m = kRowReach_m;
+  for (const PolylineDistance& row : rows) {
+    const auto at = row.nearest(X_WB.p.head<2>());
+    if (at.distance_m > nearest_m) continue;
+    const Eigen::Vector2d d = row.points()[at.segment + 1] - row.points()[at.segment];
+    if (d.isZero(0.0)) continue;
+    nearest_m = at.distance_m;
+    direction = d.normalized();
+    if (direction.dot(heading) < 0.0) direction = -direction;
+  }
+  return direction;
+}
+
+struct Errors {
+  Samples lateral, longitudinal;
+  std::vector<double> lateral_2s, longitudinal_2s;  ///< two stated sigma
+  bool states_any = false;
+};
+
+Errors errors_of(const Trace<Odometry>& estimate, const Trace<Odometry>& truth,
+                 const std::vector<PolylineDistance>& rows) {
+  Errors errors;
+  for (std::size_t i = 0; i < estimate.values.size(); ++i) {
+    const Time t = estimate.times[i];
+    const Odometry true_now = odometry_at(truth, t);
+    const Eigen::Vector2d e = (estimate.values[i].X_WB.p - true_now.X_WB.p).head<2>();
+    const Eigen::Vector2d d = along(rows, true_now.X_WB), n(-d.y(), d.x());
+    const Eigen::Matrix2d P = estimate.values[i].position_covariance().topLeftCorner<2, 2>();
+    errors.lateral.add(t.s(), n.dot(e));
+    errors.longitudinal.add(t.s(), d.dot(e));
+    errors.lateral_2s.push_back(2.0 * std::sqrt(std::max(0.0, n.dot(P * n))));
+    errors.longitudinal_2s.push_back(2.0 * std::sqrt(std::max(0.0, d.dot(P * d))));
+    errors.states_any = errors.states_any || !P.isZero(0.0);
+  }
+  return errors;
+}
+
+PlotBand band_of(const std::string& name, const std::vector<double>& t_s,
+                 const std::vector<double>& two_sigma, const std::string& style) {
+  PlotBand band{name + ", ±2σ stated", t_s, {}, two_sigma, style};
+  for (const double value : two_sigma) band.low.push_back(-value);
+  return band;
+}
+
+double largest_error_m(const LinePlot& plot) {
+  double largest_m = plot.least_span;
+  for (const PlotLine& line : plot.lines) {
+    for (const double error_m : line.samples.y) largest_m = std::max(largest_m, std::abs(error_m));
+  }
+  return largest_m;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Bands that would fill the plot go into its caption in words.
+void put_far_bands_in_words(LinePlot& plot) {
+  const double widest_m = kWidestBand * largest_error_m(plot);
+  std::erase_if(plot.bands, [&](const PlotBand& band) {
+    const double half_width_m = median(band.high);
+    if (half_width_m <= widest_m) return false;
+    plot.caption += fmt::format(" Not drawn, as it would fill the plot: {} (±{:.2g} m).",
+                                escaped(band.label), half_width_m);
+    return true;
+  });
+}
+
+}  // namespace
+
+std::vector<LinePlot> estimate_plots(const VehicleLog& vehicle, const WorldModel* world) {
+  if (vehicle.truth.empty() || vehicle.estimates.empty()) return {};
+  const std::vector<PolylineDistance> rows = rows_of(world);
+  LinePlot lateral, longitudinal;
+  lateral.title = "Estimation error across the rows";
+  longitudinal.title = "Estimation error along the rows";
+  lateral.y_label = longitudinal.y_label = "estimate minus truth, m";
+  lateral.caption = longitudinal.caption =
+      "Error of the estimated position, and the band of two standard deviations that the estimator "
+      "states of itself: about 95 % of the line should lie inside. As paper C, figure 8.";
+  lateral.least_span = longitudinal.least_span = 0.01;
+  std::size_t colour = 0;
+  for (const auto& [name, estimate] : vehicle.estimates) {
+    const std::string style = fmt::format("s{}", colour % 8);
+    Errors errors = errors_of(estimate, vehicle.truth, rows);
+    if (errors.states_any && colour < kMostBands) {
+      lateral.bands.push_back(band_of(name, errors.lateral.x, errors.lateral_2s, style));
+      longitudinal.bands.push_back(
+          band_of(name, errors.longitudinal.x, errors.longitudinal_2s, style));
+    }
+    lateral.lines.push_back({name, std::move(errors.lateral), style});
+    longitudinal.lines.push_back({name, std::move(errors.longitudinal), style});
+    ++colour;
+  }
+  put_far_bands_in_words(lateral);
+  put_far_bands_in_words(longitudinal);
+  return {lateral, longitudinal};
+}
+
+}  // namespace vinerow::tools::report

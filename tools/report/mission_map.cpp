@@ -1,0 +1,298 @@
+#include "tools/report/mission_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
+#include "tools/report/html.h"
+#include "tools/report/svg.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+constexpr double kTolerance_px = 0.3;
+/// Around everything, as a share of the larger side.
+constexpr double kMarginShare = 0.03;
+/// A parcel that takes less of the whole picture is shown apart.
+constexpr double kSmallParcel = 0.35;
+constexpr double kTurnMargin_m = 3.0;
+constexpr double kTickRoom_px = 40.0;
+
+/// Metres to pixels, the same along both axes.
+class Projection {
+ public:
+  Projection(const MapView& view, const MapStyle& style) {
+    const double room = style.with_axes ? kTickRoom_px : 0.0;
+    const double width = style.width - room;
+    const double wanted = width / view.x.span() * view.y.span();
+    const double height = std::clamp(wanted, style.least_height - room, style.most_height - room);
+    scale_ = std::min(width / view.x.span(), height / view.y.span());
+    const double x_m = width / scale_, y_m = height / scale_;
+    const double x0 = 0.5 * (view.x.low + view.x.high), y0 = 0.5 * (view.y.low + view.y.high);
+    shown_.x = {x0 - 0.5 * x_m, x0 + 0.5 * x_m};
+    shown_.y = {y0 - 0.5 * y_m, y0 + 0.5 * y_m};
+    left_ = room;
+    bottom_ = height;
+    full_height_ = height + room;
+  }
+  Eigen::Vector2d operator()(const Eigen::Vector2d& p) const {
+    return {left_ + scale_ * (p.x() - shown_.x.low), bottom_ - scale_ * (p.y() - shown_.y.low)};
+  }
+  const MapView& shown() const { return shown_; }
+  double scale() const { return scale_; }
+  double left() const { return left_; }
+  double bottom() const { return bottom_; }
+  double full_height() const { return full_height_; }
+
+ private:
+  MapView shown_;
+  double scale_ = 1.0, left_ = 0.0, bottom_ = 0.0, full_height_ = 0.0;
+};
+
+/// Lines every so many metres, the same along both axes; the axes' texts where there is room.
+void draw_grid_lines(const Projection& at, const MapStyle& style, Svg& svg) {
+  if (!style.with_axes) return;
+  const Axis x(at.shown().x, at.left(), style.width, 10);
+  const double step_m = x.ticks().size() > 1 ? x.ticks()[1] - x.ticks()[0] : at.shown().x.span();
+  const double first = std::ceil(at.shown().y.low / step_m - 1e-9);
+  const double bottom = at.bottom();
+  for (const double tick : x.ticks()) {
+    svg.line(x.px(tick), 0, x.px(tick), bottom, "grid");
+    svg.text(x.px(tick), bottom + 16, x.text(tick), "tick mid");
+  }
+  for (double k = first; k * step_m <= at.shown().y.high; ++k) {
+    const double y = at({0.0, k * step_m}).y();
+    svg.line(at.left(), y, style.width, y, "grid");
+    // The corner belongs to the axis' name, 80 units long on a telephone.
+    if (y > 90.0) svg.text(at.left() - 5, y + 4, tick_text(k * step_m, step_m), "tick end");
+  }
+  svg.text(style.width - 2, bottom + 33, "east, m", "tick end");
+  svg.raw(
+      fmt::format("<text class=\"tick end\" transform=\"translate(12 4) rotate(-90)\">north, "
+                  "m</text>\n"));
+}
+
+std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector2d>& line,
+                                       const Projection& at) {
+  std::vector<Eigen::Vector2d> out;
+  out.reserve(line.size());
+  for (const Eigen::Vector2d& p : line) out.push_back(at(p));
+  return simplified(out, kTolerance_px);
+}
+
+std::vector<Eigen::Vector2d> plane_line(const std::vector<Eigen::Vector3d>& line) {
+  std::vector<Eigen::Vector2d> out;
+  for (const Eigen::Vector3d& p : line) out.push_back(p.head<2>());
+  return out;
+}
+
+std::vector<Eigen::Vector2d> track_line(const VehicleLog& vehicle) {
+  std::vector<Eigen::Vector2d> out;
+  for (const Odometry& truth : vehicle.truth.values) out.push_back(truth.X_WB.p.head<2>());
+  return out;
+}
+
+std::vector<Eigen::Vector2d> plan_line(const PlannedPath& plan) {
+  std::vector<Eigen::Vector2d> out;
+  for (const PathPoint& point : plan.points) out.push_back(point.p_W.head<2>());
+  return out;
+}
+
+void draw_rows(const RunFolder& run, const Projection& at, const MapStyle& style, Svg& svg) {
+  if (!run.world) return;
+  svg.polygon(projected(run.world->rows->boundary_W, at), "parcel");
+  for (const PlantRow& row : run.world->rows->rows) {
+    const double width = style.with_canopy ? at.scale() * row.canopy_width_m : 0.0;
+    svg.open_group(fmt::format("class=\"row\" stroke-width=\"{}\"", px(std::max(1.2, width))));
+    svg.polyline(projected(plane_line(row.line_W), at), "");
+    svg.close_group();
+  }
+}
+
+void draw_tracks(const std::vector<VehicleLog>& vehicles, const Projection& at,
+                 const MapStyle& style, Svg& svg) {
+  for (const VehicleLog& vehicle : vehicles) {
+    svg.polyline(projected(track_line(vehicle), at), "track " + vehicle.style);
+  }
+  if (style.with_plans) {
+    for (const VehicleLog& vehicle : vehicles) {
+      for (const PlannedPath& plan : vehicle.plan.values) {
+        svg.polyline(projected(plan_line(plan), at), "plan");
+      }
+    }
+  }
+  for (const VehicleLog& vehicle : vehicles) {
+    if (vehicle.truth.empty() || !style.with_ends) continue;
+    const Eigen::Vector2d start = at(vehicle.truth.values.front().X_WB.p.head<2>());
+    const Eigen::Vector2d end = at(vehicle.truth.values.back().X_WB.p.head<2>());
+    svg.circle(start.x(), start.y(), 5, "start " + vehicle.style, vehicle.name + " starts here");
+    svg.rect(end.x() - 4.5, end.y() - 4.5, 9, 9, "end " + vehicle.style,
+             vehicle.name + " ends here");
+  }
+}
+
+/// A round length of about a sixth of the picture, and an arrow to the north.
+void draw_scale(const Projection& at, const MapStyle& style, Svg& svg) {
+  const double most_m = style.width / at.scale() / 5.0;
+  double length_m = std::pow(10.0, std::floor(std::log10(most_m)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * length_m > most_m) continue;
+    length_m *= factor;
+    break;
+  }
+  const double length = at.scale() * length_m, x = style.width - 22 - length, y = at.bottom() - 16;
+  svg.rect(x - 10, y - 22, length + 54 - 22, 32, "paper");
+  svg.line(x, y, x + length, y, "scale");
+  svg.line(x, y - 5, x, y + 5, "scale");
+  svg.line(x + length, y - 5, x + length, y + 5, "scale");
+  svg.text(x + 0.5 * length, y - 7, fmt::format("{:g} m", length_m), "label mid");
+  const double ax = style.width - 26;
+  svg.rect(ax - 16, 8, 32, 46, "paper");
+  svg.polygon({{ax, 28}, {ax - 8, 50}, {ax, 44}, {ax + 8, 50}}, "north");
+  svg.text(ax, 23, "N", "label mid");
+}
+
+void include(const std::vector<Eigen::Vector2d>& line, MapView& view) {
+  for (const Eigen::Vector2d& p : line) {
+    view.x.include(p.x());
+    view.y.include(p.y());
+  }
+}
+
+void include(const VehicleLog& vehicle, MapView& view) {
+  include(track_line(vehicle), view);
+  for (const PlannedPath& plan : vehicle.plan.values) include(plan_line(plan), view);
+}
+
+std::optional<MapView> with_margin(MapView view) {
+  if (view.x.empty()) return std::nullopt;
+  const double margin_m = std::max(1.0, kMarginShare * std::max(view.x.span(), view.y.span()));
+  for (Range* range : {&view.x, &view.y}) *range = {range->low - margin_m, range->high + margin_m};
+  return view;
+}
+
+/// Index of the point farthest from the straight line between two, and how far it is.
+std::pair<std::size_t, double> farthest(const std::vector<Eigen::Vector2d>& line, std::size_t first,
+                                        std::size_t last) {
+  const Eigen::Vector2d d = line[last] - line[first];
+  const double length_2 = d.squaredNorm();
+  std::pair<std::size_t, double> best{first, 0.0};
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const Eigen::Vector2d off = line[i] - line[first];
+    const double s = length_2 > 0.0 ? std::clamp(off.dot(d) / length_2, 0.0, 1.0) : 0.0;
+    const double distance = (off - s * d).norm();
+    if (distance > best.second) best = {i, distance};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> simplified(const std::vector<Eigen::Vector2d>& line,
+                                        double tolerance) {
+  if (line.size() < 3) return line;
+  std::vector<char> keep(line.size(), 0);
+  keep.front() = keep.back() = 1;
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, line.size() - 1}};
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    const auto [at, distance] = farthest(line, first, last);
+    if (distance <= tolerance) continue;
+    keep[at] = 1;
+    open.push_back({first, at});
+    open.push_back({at, last});
+  }
+  std::vector<Eigen::Vector2d> out;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (keep[i]) out.push_back(line[i]);
+  }
+  return out;
+}
+
+std::optional<MapView> whole_view(const RunFolder& run, const std::vector<VehicleLog>& vehicles) {
+  MapView view;
+  if (run.world) {
+    include(run.world->rows->boundary_W, view);
+    for (const PlantRow& row : run.world->rows->rows) include(plane_line(row.line_W), view);
+  }
+  for (const VehicleLog& vehicle : vehicles) include(vehicle, view);
+  return with_margin(view);
+}
+
+std::optional<MapView> parcel_view(const RunFolder& run, const std::vector<VehicleLog>& vehicles) {
+  const auto whole = whole_view(run, vehicles);
+  const bool anybody = std::any_of(vehicles.begin(), vehicles.end(), [](const VehicleLog& vehicle) {
+    return !vehicle.has_wings && !vehicle.plan.empty();
+  });
+  if (!run.world || !whole || !anybody) return std::nullopt;
+  MapView view;
+  include(run.world->rows->boundary_W, view);
+  for (const PlantRow& row : run.world->rows->rows) include(plane_line(row.line_W), view);
+  for (const VehicleLog& vehicle : vehicles) {
+    if (!vehicle.has_wings) include(vehicle, view);
+  }
+  const double area = view.x.span() * view.y.span(), all = whole->x.span() * whole->y.span();
+  return area < kSmallParcel * all ? with_margin(view) : std::nullopt;
+}
+
+std::optional<MapView> own_view(const VehicleLog& vehicle) {
+  MapView view;
+  include(vehicle, view);
+  return with_margin(view);
+}
+
+std::optional<MapView> first_turn_view(const Track& track) {
+  MapView view;
+  for (std::size_t i = 0; i < track.t_s.size(); ++i) {
+    if (!track.in_turn[i]) {
+      if (!view.x.empty()) break;
+      continue;
+    }
+    view.x.include(track.p_W[i].x());
+    view.y.include(track.p_W[i].y());
+  }
+  if (view.x.empty()) return std::nullopt;
+  for (Range* range : {&view.x, &view.y}) {
+    *range = {range->low - kTurnMargin_m, range->high + kTurnMargin_m};
+  }
+  return view;
+}
+
+std::string mission_map(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
+                        const MapView& view, const MapStyle& style) {
+  const Projection at(view, style);
+  Svg svg(style.width, at.full_height(), "map", style.label);
+  svg.rect(at.left(), 0, style.width - at.left(), at.bottom(), "ground");
+  draw_grid_lines(at, style, svg);
+  svg.raw(fmt::format("<svg x=\"{}\" y=\"0\" width=\"{}\" height=\"{}\" viewBox=\"{} 0 {} {}\">\n",
+                      px(at.left()), px(style.width - at.left()), px(at.bottom()), px(at.left()),
+                      px(style.width - at.left()), px(at.bottom())));
+  draw_rows(run, at, style, svg);
+  draw_tracks(vehicles, at, style, svg);
+  svg.raw("</svg>\n");
+  draw_scale(at, style, svg);
+  return svg.finish();
+}
+
+std::string map_legend(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
+                       const MapStyle& style) {
+  std::string keys;
+  const auto key = [&](const std::string& css_class, const std::string& label) {
+    keys += fmt::format("<span><i class=\"key {}\"></i>{}</span>", css_class, escaped(label));
+  };
+  bool planned = false;
+  for (const VehicleLog& vehicle : vehicles) {
+    key(vehicle.style, vehicle.name);
+    planned = planned || !vehicle.plan.empty();
+  }
+  if (planned && style.with_plans) key("ref", "planned");
+  if (run.world && !run.world->rows->rows.empty()) key("area row", "plant rows");
+  if (!vehicles.empty() && style.with_ends) keys += "<span>● start</span><span>■ end</span>";
+  return "<p class=\"legend\">" + keys + "</p>\n";
+}
+
+}  // namespace vinerow::tools::report

@@ -1,0 +1,265 @@
+#include "tools/report/page_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
+#include "engine/core/error.h"
+#include "engine/math/deviation.h"
+#include "engine/playback/frame_words.h"
+#include "engine/render/png.h"
+#include "tools/replay/base64.h"
+#include "tools/report/html.h"
+#include "tools/report/jpeg.h"
+#include "tools/report/map_captions.h"
+#include "tools/report/units.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFrames = 36;
+/// A file as small as this is taken as it is.
+constexpr std::uintmax_t kSmall_bytes = 250'000;
+constexpr double kMoves_mps = 0.05;
+constexpr int kPhotoQuality = 84;
+/// Bytes of a frame as JPEG of that quality over those of its PNG file, about.
+constexpr double kPhotoShare = 0.1;
+
+std::vector<fs::path> png_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".png") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// "<camera>_<milliseconds>" of a frame's name; an empty camera where it is not of that form.
+struct FrameName {
+  std::string camera;
+  double time_s = 0.0;
+};
+
+FrameName frame_name(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const std::size_t at = stem.rfind('_');
+  const bool fits = at != std::string::npos && at + 1 < stem.size() && stem.size() - at <= 16 &&
+                    stem.find_first_not_of("0123456789", at + 1) == std::string::npos;
+  if (!fits) return {};
+  return {stem.substr(0, at), 1e-3 * static_cast<double>(std::stoll(stem.substr(at + 1)))};
+}
+
+const io::CameraConfig* camera_of(const RunFolder& run, const std::string& name) {
+  if (!run.scenario) return nullptr;
+  for (const io::CameraConfig& camera : run.scenario->pictures.cameras) {
+    if (camera.name == name) return &camera;
+  }
+  return nullptr;
+}
+
+std::string frame_caption(const RunFolder& run, const fs::path& file) {
+  const FrameName name = frame_name(file);
+  if (name.camera.empty()) return file.stem().string();
+  const io::CameraConfig* camera = camera_of(run, name.camera);
+  std::string what = name.camera;
+  if (camera && camera->kind == io::CameraKind::kTop) what += ", seen from above";
+  if (camera && camera->kind == io::CameraKind::kChase) what += ", behind " + camera->vehicle;
+  if (camera && camera->kind == io::CameraKind::kOnBoard)
+    what += ", on board of " + camera->vehicle;
+  if (camera && camera->kind == io::CameraKind::kShots) {
+    what += ", what the camera of " + camera->vehicle + " took";
+  }
+  return fmt::format("{}, after {}", what, duration_text(name.time_s));
+}
+
+/// Share of a frame that shows each vehicle, as its file says; empty where it does not say.
+std::map<std::string, double> seen_in(const fs::path& file) {
+  const std::map<std::string, std::string> words = render::read_png_words(file.string());
+  const auto text = words.find(kSeenKey);
+  return text == words.end() ? std::map<std::string, double>() : parse_seen(text->second);
+}
+
+/// Between rows or beside one: where the work is.
+bool is_at_a_row(const RunFolder& run, const Eigen::Vector3d& p_W) {
+  constexpr double kBeside_m = 2.0;
+  if (!run.world) return false;
+  for (const PlantRow& row : run.world->rows->rows) {
+    std::vector<Eigen::Vector2d> line;
+    for (const Eigen::Vector3d& p : row.line_W) line.push_back(p.head<2>());
+    if (line.size() < 2) continue;
+    if (PolylineDistance(std::move(line)).nearest(p_W.head<2>()).distance_m < kBeside_m)
+      return true;
+  }
+  return false;
+}
+
+/// Share of a picture from which on it shows no more of a vehicle.
+constexpr double kFillsPicture = 0.2;
+
+/// How much of the run a frame shows; more is better, any of one line more than all below it.
+double score_of(const RunFolder& run, const fs::path& file,
+                const std::vector<VehicleLog>& vehicles) {
+  const FrameName name = frame_name(file);
+  const io::CameraConfig* camera = camera_of(run, name.camera);
+  if (camera == nullptr) return 0.0;
+  double score = 0.0;
+  const bool aslant =
+      camera->kind != io::CameraKind::kTop && camera->kind != io::CameraKind::kShots;
+  const bool plain = !camera->show_map && !camera->show_estimate && !camera->show_grid;
+  score += aslant ? 10'000 : 0;
+  score += plain ? 5'000 : 0;
+  const std::map<std::string, double> seen = seen_in(file);
+  double moving_share = 0.0;
+  for (const VehicleLog& vehicle : vehicles) {
+    if (vehicle.truth.empty()) continue;
+    const Odometry truth = odometry_at(vehicle.truth, Time{} + duration_from_s(name.time_s));
+    const bool moves = truth.v_WB_B.norm() > kMoves_mps;
+    const auto share = seen.find(vehicle.name);
+    if (moves && share != seen.end()) moving_share += share->second;
+    // Of pictures that do not tell what they show.
+    score += moves && seen.empty() ? 1e-3 : 0.0;
+    if (vehicle.name != camera->vehicle) continue;
+    score += moves ? 1'000 : 0;
+    score += is_at_a_row(run, truth.X_WB.p) ? 500 : 0;
+  }
+  // Of two pictures of work in the rows that which shows more of those at work.
+  return score + 400.0 * std::min(1.0, moving_share / kFillsPicture);
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+std::vector<Picture> frame_pictures(const RunFolder& run) {
+  std::vector<Picture> pictures;
+  const std::size_t count = run.frames.size(), shown = std::min(count, kMostFrames);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const fs::path& file = run.frames[i * count / shown];
+    pictures.push_back({file, frame_caption(run, file), true});
+  }
+  return pictures;
+}
+
+std::vector<Picture> coverage_pictures(const RunFolder& run) {
+  std::vector<Picture> pictures;
+  for (const fs::path& file : png_files(run.path)) {
+    if (!file.filename().string().starts_with("coverage")) continue;
+    pictures.push_back({file,
+                        "How many pictures of the survey see each place of the parcel, and "
+                        "with what forward overlap",
+                        false});
+  }
+  return pictures;
+}
+
+std::vector<Picture> product_pictures(const RunFolder& run) {
+  // In the order of their making: points, meshes, rows, grid.
+  const auto rank = [](const fs::path& file) {
+    const std::string order[] = {"classes", "mesh", "top", "grid"};
+    return std::find(std::begin(order), std::end(order), file.stem().string()) - std::begin(order);
+  };
+  std::vector<Picture> pictures;
+  for (const Json& phase : list_in(run.summary, "phases")) {
+    // A phase that gave nothing may have a folder of an earlier run.
+    if (!phase.contains("product") || !phase["product"].contains("file")) continue;
+    const std::string name = phase.at("name");
+    std::vector<fs::path> files = png_files(run.path / phase["product"]["file"].get<std::string>());
+    std::stable_sort(files.begin(), files.end(),
+                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    for (const fs::path& file : files) {
+      std::string caption = map_picture_caption(file.stem().string());
+      if (caption.ends_with('.')) caption.pop_back();
+      pictures.push_back({file, fmt::format("{} ({})", caption, name), false});
+    }
+  }
+  return pictures;
+}
+
+const Picture* hero_picture(const RunFolder& run, const std::vector<VehicleLog>& vehicles,
+                            const std::vector<Picture>& frames) {
+  std::vector<const Picture*> best;
+  double best_score = -1.0;
+  for (const Picture& picture : frames) {
+    const double score = score_of(run, picture.file, vehicles);
+    if (score > best_score) best.clear();
+    best_score = std::max(best_score, score);
+    if (score == best_score) best.push_back(&picture);
+  }
+  return best.empty() ? nullptr : best[(best.size() - 1) / 2];
+}
+
+int fitting_width(const std::vector<Picture>& pictures, std::size_t budget_bytes) {
+  double bytes = 0.0;
+  for (const Picture& picture : pictures) {
+    std::error_code failed;
+    const std::uintmax_t size = fs::file_size(picture.file, failed);
+    if (!failed) bytes += (picture.is_photo ? kPhotoShare : 1.0) * static_cast<double>(size);
+  }
+  for (const int width : {1280, 1024, 800, 640}) {
+    // Bytes go with the area of pictures that are 1280 wide.
+    const double share = std::pow(width / 1280.0, 2);
+    if (share * bytes <= static_cast<double>(budget_bytes)) return width;
+  }
+  return 480;
+}
+
+std::string embedded(const Picture& picture, int most_width) {
+  auto pixels = render::read_png(picture.file.string());
+  if (!pixels) throw ConfigError(pixels.reason());
+  const bool is_wide = pixels->width > most_width;
+  const render::Pixels shown = is_wide ? shrunk(*pixels, most_width) : std::move(*pixels);
+  const bool as_it_is = !is_wide && fs::file_size(picture.file) <= kSmall_bytes;
+  std::string bytes, type = "png";
+  if (picture.is_photo) {
+    type = "jpeg";
+    bytes = encode_jpeg(shown, kPhotoQuality);
+  } else {
+    bytes = as_it_is ? bytes_of(picture.file) : render::encode_png(shown);
+  }
+  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/{};base64,{}\"/>",
+                     shown.width, shown.height, escaped(picture.caption), type, base64(bytes));
+}
+
+std::string picture_figure(const Picture& picture, int most_width) {
+  return fmt::format("<figure class=\"picture\">{}<figcaption>{}</figcaption></figure>\n",
+                     embedded(picture, most_width), escaped(sentence_case(picture.caption)));
+}
+
+render::Pixels shrunk(const render::Pixels& pixels, int width) {
+  const double scale = static_cast<double>(pixels.width) / width;
+  const int height = std::max(1, static_cast<int>(std::lround(pixels.height / scale)));
+  const double scale_y = static_cast<double>(pixels.height) / height;
+  render::Pixels out(width, height);
+  for (int j = 0; j < height; ++j) {
+    for (int i = 0; i < width; ++i) {
+      double sum[4] = {0, 0, 0, 0}, area = 0.0;
+      const double left = i * scale, right = (i + 1) * scale;
+      const double top = j * scale_y, bottom = (j + 1) * scale_y;
+      for (int y = static_cast<int>(top); y < std::min<double>(bottom, pixels.height); ++y) {
+        const double tall = std::min<double>(bottom, y + 1) - std::max<double>(top, y);
+        for (int x = static_cast<int>(left); x < std::min<double>(right, pixels.width); ++x) {
+          const double share = tall * (std::min<double>(right, x + 1) - std::max<double>(left, x));
+          for (int c = 0; c < 4; ++c) sum[c] += share * pixels.at(x, y)[c];
+          area += share;
+        }
+      }
+      for (int c = 0; c < 4; ++c) {
+        out.at(i, j)[c] = static_cast<std::uint8_t>(std::lround(sum[c] / area));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace vinerow::tools::report

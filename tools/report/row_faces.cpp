@@ -1,0 +1,117 @@
+#include "tools/report/row_faces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/api/map.h"
+#include "engine/api/world_model.h"
+#include "engine/math/deviation.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+constexpr double kBin_m = 0.5;
+/// Where no alley tells how far one works.
+constexpr double kReach_m = 4.0;
+/// What flies higher above the row's foot works on no side of it.
+constexpr double kLow_m = 6.0;
+constexpr double kPassed = 0.5;
+constexpr std::size_t kMostNamed = 6;
+
+PolylineDistance row_line_of(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<Eigen::Vector2d> line;
+  for (const Eigen::Vector3d& p : points) line.push_back(p.head<2>());
+  return PolylineDistance(std::move(line));
+}
+
+/// Metres along the line; negative where the nearest place is one of its ends.
+double along_m(const PolylineDistance& line, const PolylineDistance::Nearest& at) {
+  const auto& points = line.points();
+  const auto segment = static_cast<std::size_t>(at.segment);
+  const bool before = segment == 0 && at.fraction <= 0.0;
+  const bool beyond = at.segment + 1 == line.segments() && at.fraction >= 1.0;
+  if (before || beyond) return -1.0;
+  double sum_m = 0.0;
+  for (std::size_t i = 0; i < segment; ++i) sum_m += (points[i + 1] - points[i]).norm();
+  return sum_m + at.fraction * (points[segment + 1] - points[segment]).norm();
+}
+
+/// Stretches of one side that were passed.
+class Passed {
+ public:
+  explicit Passed(double length_m)
+      : bins_(static_cast<std::size_t>(std::max(1.0, std::ceil(length_m / kBin_m))), 0) {}
+  void add(double s_m) {
+    bins_[std::min(static_cast<std::size_t>(s_m / kBin_m), bins_.size() - 1)] = 1;
+  }
+  double share() const {
+    return static_cast<double>(std::count(bins_.begin(), bins_.end(), 1)) /
+           static_cast<double>(bins_.size());
+  }
+
+ private:
+  std::vector<char> bins_;
+};
+
+}  // namespace
+
+std::vector<RowFace> row_faces(const RunFolder& run, const VehicleLog& vehicle) {
+  std::vector<RowFace> faces;
+  if (!run.world || vehicle.truth.empty()) return faces;
+  double reach_m = 0.0;
+  for (const Alley& alley : run.world->rows->alleys) reach_m = std::max(reach_m, alley.width_m);
+  if (reach_m <= 0.0) reach_m = kReach_m;
+  for (const PlantRow& row : run.world->rows->rows) {
+    if (row.line_W.size() < 2) continue;
+    const PolylineDistance line = row_line_of(row.line_W);
+    Passed left(line.length_m()), right(line.length_m());
+    for (const Odometry& truth : vehicle.truth.values) {
+      const auto at = line.nearest(truth.X_WB.p.head<2>());
+      const double foot_m = row.line_W[static_cast<std::size_t>(at.segment)].z();
+      const double s_m = along_m(line, at);
+      if (at.distance_m > reach_m || s_m < 0.0 || truth.X_WB.p.z() - foot_m > kLow_m) continue;
+      (at.signed_distance_m > 0.0 ? left : right).add(s_m);
+    }
+    for (const int side : {1, -1}) {
+      RowFace face{row.id, side, (side > 0 ? left : right).share() >= kPassed, false};
+      for (const Alley& alley : run.world->rows->alleys) {
+        const Eigen::Vector3d middle = alley.line_W[alley.line_W.size() / 2];
+        const Eigen::Vector3d before = alley.line_W[(alley.line_W.size() - 1) / 2];
+        const auto at = line.nearest((0.5 * (middle + before)).head<2>());
+        const bool beside = at.distance_m < reach_m && side * at.signed_distance_m > 0.0;
+        face.has_alley = face.has_alley || beside;
+      }
+      faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
+std::string faces_left_out(const std::vector<RowFace>& faces) {
+  std::vector<std::string> names;
+  for (const RowFace& face : faces) {
+    if (!face.passed)
+      names.push_back(fmt::format("row {} ({})", face.row, face.side > 0 ? "left" : "right"));
+  }
+  if (names.empty()) return "";
+  if (names.size() > kMostNamed) return fmt::format("{} sides", names.size());
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
+}
+
+std::string face_sentence(const std::vector<RowFace>& faces) {
+  const auto passed =
+      std::count_if(faces.begin(), faces.end(), [](const RowFace& face) { return face.passed; });
+  if (passed == 0 || static_cast<std::size_t>(passed) == faces.size()) return "";
+  const bool no_way = std::none_of(faces.begin(), faces.end(), [](const RowFace& face) {
+    return !face.passed && face.has_alley;
+  });
+  return fmt::format(
+      "{} {} of the {} row sides: {}", no_way ? "No alley runs beside" : "The plan left out",
+      faces.size() - static_cast<std::size_t>(passed), faces.size(), faces_left_out(faces));
+}
+
+}  // namespace vinerow::tools::report

@@ -1,0 +1,116 @@
+#include "tools/report/run_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tools/report/html.h"
+#include "tools/report/units.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+std::string plain(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  return value.is_number() ? number_text(value.get<double>()) : value.dump();
+}
+
+/// What planners counted, of every vehicle.
+std::string planning_table(const RunFolder& run) {
+  const auto planning = run.summary.find("planning");
+  if (planning == run.summary.end() || !planning->is_object()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [vehicle, numbers] : planning->items()) {
+    for (const auto& [name, value] : numbers.items()) {
+      rows.push_back({escaped(vehicle), escaped(words_of(name)), number_cell(number_of(value)),
+                      escaped(unit_of(name))});
+    }
+  }
+  return rows.empty()
+             ? ""
+             : "<details><summary>What the planners counted</summary>\n" +
+                   table({"vehicle", "number", "value", "unit"}, rows, "planning") + "</details>\n";
+}
+
+/// "its estimator error_state_kalman", "the true state: it has no estimator".
+std::string state_source(const Json& estimation) {
+  const auto estimator = estimation.find("estimator");
+  if (estimator == estimation.end() || !estimator->is_string()) {
+    return "the true state: it has no estimator";
+  }
+  if (*estimator == "truth") return "the true state, as its estimator 'truth' gives it";
+  std::string told = "its estimator " + estimator->get<std::string>();
+  for (const Json& of_truth : list_in(estimation, "truth")) {
+    told += ", with the true " + plain(of_truth);
+  }
+  return told;
+}
+
+}  // namespace
+
+std::string facts(const RunFolder& run) {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const std::string& what, const std::string& value) {
+    rows.push_back({what, escaped(value)});
+  };
+  add("scenario", run.text("scenario"));
+  add("verdict of the run", run.text("status"));
+  add("digest of all signals", run.text("digest"));
+  for (const char* key : {"seed", "physics_step_s", "steps"}) {
+    const auto found = run.summary.find(key);
+    if (found != run.summary.end()) add(words_of(key), found->dump());
+  }
+  const auto estimation = run.summary.find("estimation");
+  if (estimation != run.summary.end() && estimation->is_object()) {
+    for (const auto& [vehicle, told] : estimation->items()) {
+      add(escaped(vehicle) + " acts on", state_source(told));
+    }
+  }
+  const auto versions = run.summary.find("versions");
+  if (versions != run.summary.end() && versions->is_object()) {
+    for (const auto& [name, value] : versions->items()) add(name, plain(value));
+  }
+  for (const Json& note : list_in(run.summary, "notes")) add("note", plain(note));
+  if (!run.text("picture_note").empty()) add("pictures", "none: " + run.text("picture_note"));
+  std::string out = table({}, rows, "facts") + planning_table(run);
+  if (!run.resolved_yaml.empty()) {
+    out +=
+        "<details><summary>The scenario as it was run, with every default written out"
+        "</summary>\n<pre>" +
+        escaped(run.resolved_yaml) + "</pre></details>\n";
+  }
+  return out;
+}
+
+std::string timings(const RunFolder& run) {
+  std::string out = fmt::format(
+      "<p>The only part of this page that differs from machine to machine. {} simulated in {:.2f} "
+      "s: "
+      "<strong id=\"real-time-factor\">{:.0f} ×</strong> real time, pictures and building the "
+      "world "
+      "apart.</p>\n",
+      duration_text(std::max(0.0, run.end_s())), run.number("wall_s"),
+      run.number("real_time_factor"));
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& phase : list_in(run.summary, "phases")) {
+    const auto wall = phase.find("wall_s");
+    if (wall == phase.end() || phase.value("kind", "") != "job") continue;
+    rows.push_back(
+        {"phase " + escaped(phase.value("name", "")), "", "", number_cell(number_of(*wall)), ""});
+  }
+  for (const Json& task : list_in(run.summary, "cost")) {
+    const auto number = [&](const char* key) {
+      return number_cell(number_of(task.value(key, Json())));
+    };
+    rows.push_back({"<code>" + escaped(task.value("task", "")) + "</code>", number("period_s"),
+                    number("ticks"), number("wall_s"), number("us_per_tick")});
+  }
+  return out + (rows.empty()
+                    ? ""
+                    : table({"task", "period, s", "ticks", "computing time, s", "µs a tick"}, rows,
+                            "cost"));
+}
+
+}  // namespace vinerow::tools::report

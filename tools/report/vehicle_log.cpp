@@ -1,0 +1,139 @@
+#include "tools/report/vehicle_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/playback/vehicle_colours.h"
+
+namespace vinerow::tools::report {
+namespace {
+
+/// Signals that are plotted; others of the same type are left in the log.
+constexpr const char* kColumns[] = {"actuators", "wheels", "deviation", "steering",
+                                    "wrench",    "rotors", "air"};
+
+template <class T>
+void read_into(const record::LogReader& log, const std::string& topic, Trace<T>& trace) {
+  log.read<T>(topic, [&](Time t, const T& value) {
+    trace.times.push_back(t);
+    trace.values.push_back(value);
+  });
+}
+
+void read_columns(const record::LogReader& log, const std::string& topic, Columns& columns) {
+  log.read<NamedValues>(topic, [&](Time t, const NamedValues& value) {
+    if (columns.names.empty()) {
+      columns.names = value.names;
+      columns.values.resize(value.names.size());
+    }
+    if (value.values.size() != columns.values.size()) return;
+    columns.t_s.push_back(t.s());
+    for (std::size_t i = 0; i < value.values.size(); ++i) {
+      columns.values[i].push_back(value.values[i]);
+    }
+  });
+}
+
+void read_reference(const record::LogReader& log, const std::string& topic,
+                    FlightReference& reference) {
+  log.read<ReferenceTrajectory>(topic, [&](Time t, const ReferenceTrajectory& value) {
+    if (value.points.empty()) return;
+    const TrajectoryPoint& now = value.points.front();
+    reference.t_s.push_back(t.s());
+    reference.p_W.push_back(now.p_W);
+    reference.speed_mps.push_back(now.v_W.norm());
+    reference.yaw_rad.push_back(now.yaw_rad);
+    reference.phase.push_back(static_cast<int>(value.phase));
+  });
+}
+
+/// Whether a vehicle acts on the truth: it has no estimator, or, where the scenario is not known,
+/// its estimate is the truth wherever both were logged at one instant.
+bool acts_on_truth(const RunFolder& run, const VehicleLog& vehicle) {
+  if (run.scenario) {
+    for (const io::VehicleConfig& config : run.scenario->vehicles) {
+      if (config.name == vehicle.name)
+        return !config.estimator || config.estimator->type == "truth";
+    }
+  }
+  const Trace<Odometry>& estimate = vehicle.estimates.at("estimate");
+  for (std::size_t i = 0; i < estimate.times.size(); ++i) {
+    const auto at =
+        std::lower_bound(vehicle.truth.times.begin(), vehicle.truth.times.end(), estimate.times[i]);
+    if (at == vehicle.truth.times.end() || *at != estimate.times[i]) continue;
+    const auto k = static_cast<std::size_t>(at - vehicle.truth.times.begin());
+    if (estimate.values[i].X_WB.p != vehicle.truth.values[k].X_WB.p) return false;
+  }
+  return true;
+}
+
+void read_signal(const record::LogReader& log, const record::ChannelInfo& channel,
+                 const std::string& signal, VehicleLog& vehicle) {
+  const auto found = channel.metadata.find("vinerow_type");
+  if (found == channel.metadata.end() || channel.messages == 0) return;
+  const std::string& type = found->second;
+  if (type == Odometry::kType && signal == "truth") {
+    read_into(log, channel.topic, vehicle.truth);
+  } else if (type == Odometry::kType) {
+    if (!is_truth_beside(log, channel.topic)) {
+      read_into(log, channel.topic, vehicle.estimates[signal]);
+    }
+  } else if (type == PlannedPath::kType && signal == "plan") {
+    read_into(log, channel.topic, vehicle.plan);
+  } else if (type == ReferenceTrajectory::kType && signal == "reference") {
+    read_reference(log, channel.topic, vehicle.reference);
+  } else if (type == AirReference::kType && signal == "reference") {
+    read_into(log, channel.topic, vehicle.air_reference);
+  } else if (type == VelocityCommand::kType && signal == "command") {
+    read_into(log, channel.topic, vehicle.command);
+  } else if (type == BatteryState::kType) {
+    read_into(log, channel.topic, vehicle.battery);
+  } else if (type == MovementAuthority::kType) {
+    read_into(log, channel.topic, vehicle.authority);
+  } else if (type == NamedValues::kType &&
+             std::find(std::begin(kColumns), std::end(kColumns), signal) != std::end(kColumns)) {
+    read_columns(log, channel.topic, vehicle.columns[signal]);
+  }
+}
+
+void describe(const VehicleDescription& description, VehicleLog& vehicle) {
+  vehicle.actuators = description.actuators;
+  vehicle.flies = description.flies();
+  vehicle.has_wings = description.fixed_wing.has_value();
+}
+
+}  // namespace
+
+const std::vector<double>* Columns::find(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? nullptr : &values[static_cast<std::size_t>(found - names.begin())];
+}
+
+const Columns* VehicleLog::find(const std::string& signal) const {
+  const auto found = columns.find(signal);
+  return found == columns.end() || found->second.empty() ? nullptr : &found->second;
+}
+
+std::vector<VehicleLog> read_vehicles(const RunFolder& run) {
+  std::vector<VehicleLog> vehicles;
+  if (!run.log) return vehicles;
+  for (const std::string& name : run.vehicles) {
+    VehicleLog& vehicle = vehicles.emplace_back();
+    vehicle.name = name;
+    vehicle.style = fmt::format("v{}", (vehicles.size() - 1) % kVehicleColours.size());
+    // Without a scenario nothing is known but the signals.
+    if (!run.models.empty()) describe(run.models[vehicles.size() - 1]->description(), vehicle);
+    const std::string prefix = "/" + name + "/";
+    for (const record::ChannelInfo& channel : run.log->info().channels) {
+      if (!channel.topic.starts_with(prefix)) continue;
+      read_signal(*run.log, channel, channel.topic.substr(prefix.size()), vehicle);
+    }
+    if (vehicle.estimates.contains("estimate") && acts_on_truth(run, vehicle)) {
+      vehicle.estimates.erase("estimate");
+    }
+  }
+  return vehicles;
+}
+
+}  // namespace vinerow::tools::report

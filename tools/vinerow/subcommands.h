@@ -1,0 +1,75 @@
+#pragma once
+/// The sub-commands of `vinerow`. Each adds itself to the parser; its callback sets the exit
+/// status.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/api/registry.h"
+#include "engine/playback/coverage_log.h"
+#include "engine/run/run.h"
+#include "engine/scenario/scenario.h"
+
+namespace vinerow::tools {
+
+/// Adds one command. @param exit_status  set by the command when it has run
+void add_run_command(CLI::App& app, int& exit_status);
+void add_validate_command(CLI::App& app, int& exit_status);
+void add_study_command(CLI::App& app, int& exit_status);
+void add_list_command(CLI::App& app, int& exit_status);
+void add_schema_command(CLI::App& app, int& exit_status);
+void add_render_command(CLI::App& app, int& exit_status);
+void add_info_command(CLI::App& app, int& exit_status);
+void add_export_command(CLI::App& app, int& exit_status);
+void add_compare_command(CLI::App& app, int& exit_status);
+void add_video_command(CLI::App& app, int& exit_status);
+void add_grid_command(CLI::App& app, int& exit_status);
+void add_trim_command(CLI::App& app, int& exit_status);
+void add_coverage_command(CLI::App& app, int& exit_status);
+void add_survey_command(CLI::App& app, int& exit_status);
+void add_cloud_command(CLI::App& app, int& exit_status);
+void add_map_command(CLI::App& app, int& exit_status);
+void add_replay_command(CLI::App& app, int& exit_status);
+void add_report_command(CLI::App& app, int& exit_status);
+
+void add_completion_command(CLI::App& app, int& exit_status);
+
+/// Options that every command which reads a scenario has.
+struct ScenarioArguments {
+  std::filesystem::path file;
+  io::Overrides overrides;
+  std::vector<std::filesystem::path> plugins;
+};
+/// @param set_example  what the help of --set shows: a value that means something to this command
+void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments,
+                            const std::string& set_example);
+
+/// What `vinerow run` writes.
+struct RunChoice {
+  std::filesystem::path out;  ///< empty: runs/<scenario name>
+  bool no_log = false, no_pictures = false, no_report = false, quiet = false;
+};
+/// Runs a scenario as `vinerow run` does: progress, verdict, pictures, report. @returns the exit
+/// status
+RunStatus run_and_tell(const io::Scenario& scenario, const Registry& registry,
+                       const RunChoice& choice);
+
+/// RUN/log.mcap of a folder, else the file itself.
+std::filesystem::path log_of(const std::filesystem::path& run_or_log);
+
+/// Draws the coverage of every camera that took pictures in a run, numbers beside it as .json.
+/// @param out  the picture; of several cameras each has its name added
+/// @returns the pictures; none where the log holds no shots
+std::vector<std::filesystem::path> write_coverage(const std::filesystem::path& log,
+                                                  const Registry& registry,
+                                                  const CoverageChoice& choice,
+                                                  const std::filesystem::path& out);
+
+/// Built-in parts plus those of the scenario's and the command line's plug-ins.
+Registry make_registry(const std::vector<std::filesystem::path>& plugins);
+/// Loads plug-ins, then the scenario against them. @throws ConfigError
+io::Scenario load(const ScenarioArguments& arguments, Registry& registry);
+
+}  // namespace vinerow::tools

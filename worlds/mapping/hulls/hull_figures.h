@@ -1,0 +1,56 @@
+#pragma once
+/// What a row's hulls contain and how wide and high they are.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "worlds/mapping/hulls/hull_chain.h"
+
+namespace vinerow::worlds {
+
+/// Tells which points lie inside of hulls or at most a distance outside of them: exactly, with the
+/// distance to the nearest point of the surface.
+///
+/// Most points need c comparisons: inside the section at their s is inside; a point as near to that
+/// section, in its plane, is near enough; and by more than the steepest side nearby a point may not
+/// be above it. Only what is left is measured against triangles.
+class HullContainment {
+ public:
+  /// @param chains  of one row, in order, not overlapping along it; outlive this
+  HullContainment(const std::vector<HullChain>& chains, double tolerance_m);
+
+  /// @param p  (s, y, z)
+  bool contains(const Eigen::Vector3d& p) const;
+  std::int64_t count(const std::vector<Eigen::Vector3f>& points) const;
+
+ private:
+  struct Interval {
+    const HullChain* chain;
+    int section;      ///< its first
+    double steepest;  ///< |dh/ds| of it and of those within the tolerance
+  };
+  bool contains_near(const Interval& interval, const Eigen::Vector3d& p) const;
+
+  double tolerance_m_;
+  std::vector<Interval> intervals_;
+  double low_m_ = 0.0;
+  std::vector<std::uint32_t> starts_;  // first interval that ends behind each step along the row
+};
+
+/// Distance from p to the triangle. Source: C. Ericson, "Real-time collision detection",
+/// 2005, 5.1.5.
+double distance_to_triangle_m(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                              const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+/// Signed volume of a closed mesh by the divergence theorem, positive where the outside is
+/// counter-clockwise.
+double mesh_volume_m3(const TriangleMesh& mesh);
+
+/// Means along the chains, m.
+struct SectionMeans {
+  double base_m = 0.0, top_m = 0.0, width_m = 0.0, length_m = 0.0;
+};
+SectionMeans mean_sections(const std::vector<HullChain>& chains);
+
+}  // namespace vinerow::worlds

@@ -1,0 +1,28 @@
+#pragma once
+/// Rows whose canopy no picture shows: a fault of a survey, as under a cloud's shadow, or of a
+/// vineyard whose vines were uprooted before the flight.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/api/forward.h"
+#include "worlds/mapping/model/parcel_cloud.h"
+#include "worlds/mapping/model/row_curve.h"
+
+namespace vinerow::worlds {
+
+class HiddenRows {
+ public:
+  /// @param hidden  PlantRow::id of each
+  /// @throws ConfigError: the world has no such row
+  HiddenRows(const WorldModel& world, const std::vector<int>& hidden);
+
+  /// Whether a place on a plant belongs to one of them: of all rows' lines theirs is the nearest.
+  bool hide(const Eigen::Vector3d& p_W, PointClass truth) const;
+
+ private:
+  std::vector<RowCurve> lines_;  ///< of all rows; none where nothing is hidden
+  std::vector<bool> hidden_;     ///< of each line
+};
+
+}  // namespace vinerow::worlds

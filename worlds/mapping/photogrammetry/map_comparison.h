@@ -1,0 +1,36 @@
+#pragma once
+/// How far a map that was made of a synthetic cloud is from what is true of its parcel.
+
+#include <vector>
+
+#include "worlds/mapping/model/cloud_map.h"
+#include "worlds/mapping/photogrammetry/cloud_truth.h"
+
+namespace vinerow::worlds {
+
+/// A true row and the map's row that lies on it. Errors are the map's figure less the true one.
+struct RowComparison {
+  int true_row = 0;
+  int mapped_row = -1;  ///< -1: not found; then all else is 0
+  double bearing_deg = 0.0;
+  double first_m = 0.0, last_m = 0.0;  ///< distance of the ends from the true ones, horizontally
+  double length_m = 0.0, base_m = 0.0, top_m = 0.0, width_m = 0.0;
+  double volume_share = 0.0;  ///< of the true volume
+  int gaps = 0, true_gaps = 0;
+};
+
+struct MapComparison {
+  std::vector<RowComparison> rows;  ///< one per true row that has canopy
+  std::vector<int> extra_rows;      ///< of the map, where no true row is
+  double bearing_deg = 0.0, spacing_m = 0.0, volume_share = 0.0;
+  double seen_volume_share = 0.0;  ///< the estimate without noise, of the true volume
+
+  int found() const;
+  double worst_end_m() const;
+  double mean_end_m() const;
+};
+
+/// @param map  moved to the truth's origin where it has one of its own
+MapComparison compare_with_truth(const CloudMap& map, const CloudTruth& truth);
+
+}  // namespace vinerow::worlds

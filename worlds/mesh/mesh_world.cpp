@@ -1,0 +1,342 @@
+#include "worlds/mesh/mesh_world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "engine/api/map.h"
+#include "engine/api/parameter_table.h"
+#include "engine/api/world_model.h"
+#include "engine/core/error.h"
+#include "engine/io/meshes/mesh_file.h"
+#include "engine/physics/check_world.h"
+#include "engine/physics/world_scene.h"
+#include "worlds/mapping/model/row_map.h"
+#include "worlds/mesh/ground_meshes.h"
+#include "worlds/mesh/mesh_params.h"
+#include "worlds/mesh/sdf_rows.h"
+#include "worlds/parts/alley_spawns.h"
+
+namespace vinerow::worlds {
+namespace {
+
+PartSpec mesh_spec() {
+  PartSpec spec;
+  spec.name = "mesh";
+  spec.description = "mesh files placed by pose, an SDF world's includes, or both";
+  spec.parameters = mesh_world_table().specs();
+  return spec;
+}
+
+/// Loads files once, however often they are placed, and keeps their notes.
+class MeshLibrary {
+ public:
+  explicit MeshLibrary(WorldModel& world) : world_(world) {}
+
+  const io::MeshFile& load(const std::string& file, const io::MeshFileOptions& options) {
+    const std::string key =
+        fmt::format("{}|{}|{}|{}|{}|{}", file, static_cast<int>(options.up_axis), options.unit_m,
+                    options.scale.x(), options.scale.y(), options.scale.z());
+    const auto known = files_.find(key);
+    if (known != files_.end()) return known->second;
+    io::MeshFile& loaded = files_[key] = io::load_mesh(file, options);
+    for (const std::string& note : loaded.notes) {
+      if (std::find(world_.notes.begin(), world_.notes.end(), note) == world_.notes.end()) {
+        world_.notes.push_back(note);
+      }
+    }
+    return loaded;
+  }
+
+  MeshObject place(const std::string& name, const io::MeshFile& file, const Pose& X_WM,
+                   SurfaceClass surface, bool collides, bool visible) {
+    const std::size_t begin = world_.meshes.size();
+    for (std::size_t i = 0; i < file.parts.size(); ++i) {
+      const io::MeshPart& part = file.parts[i];
+      MeshInstance instance;
+      instance.name = file.parts.size() == 1 ? name : fmt::format("{}/{}_{}", name, i, part.name);
+      instance.mesh = part.mesh;
+      instance.X_WM = X_WM;
+      instance.surface = surface;
+      instance.material = part.material;
+      instance.collides = collides;
+      instance.visible = visible;
+      world_.meshes.push_back(std::move(instance));
+    }
+    return {begin, world_.meshes.size()};
+  }
+
+ private:
+  WorldModel& world_;
+  std::map<std::string, io::MeshFile> files_;
+};
+
+MeshObject place_item(const MeshItem& item, MeshLibrary& library) {
+  io::MeshFileOptions options;
+  options.scale = Eigen::Vector3d::Constant(item.scale);
+  options.up_axis = item.up_axis;
+  options.unit_m = item.unit_m.value_or(options.unit_m);
+  const io::MeshFile& loaded = library.load(item.file.string(), options);
+  Pose X_WM;
+  X_WM.p = item.p_WM;
+  X_WM.q = quaternion_from_rpy(item.rpy);
+  const std::string name = item.name.empty() ? item.file.stem().string() : item.name;
+  return library.place(name, loaded, X_WM, item.surface.value_or(SurfaceClass::kObstacle),
+                       item.collides, item.visible);
+}
+
+std::vector<std::filesystem::path> model_folders(const MeshWorldParams& params) {
+  const std::filesystem::path beside = params.sdf_file.parent_path();
+  std::vector<std::filesystem::path> folders;
+  for (const std::string& folder : params.model_folders) folders.push_back(beside / folder);
+  if (folders.empty()) folders = {beside / ".." / "models", beside / "models", beside};
+  return folders;
+}
+
+/// "box, cylinder": each once.
+std::string words_once(std::vector<std::string> words) {
+  std::sort(words.begin(), words.end());
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Places an SDF world's models.
+class SdfModels {
+ public:
+  SdfModels(const MeshWorldParams& params, MeshLibrary& library, WorldModel& world)
+      : params_(params), folders_(model_folders(params)), library_(library), world_(world) {}
+
+  /// Those that are there; of those that are not it tells what stands in for them.
+  void place(const std::vector<io::SdfInclude>& includes) {
+    for (const io::SdfInclude& include : includes) place(include);
+    for (const auto& [model, count] : missing_) {
+      const char* stand_in =
+          is_vine(model) ? "a trellis row of our own stands in" : "it is left out";
+      world_.notes.push_back(fmt::format("{}: model '{}' (included {} times) is missing; {}",
+                                         params_.sdf_file.string(), model, count, stand_in));
+    }
+  }
+
+  bool is_vine(const std::string& model) const {
+    return !params_.vine_model.empty() && model.rfind(params_.vine_model, 0) == 0;
+  }
+  /// Pieces of vine rows show themselves: nothing need stand in for them.
+  bool has_vine_meshes() const { return has_vine_meshes_; }
+  const std::vector<MeshObject>& objects() const { return objects_; }
+  /// The first thing that was looked for in vain: "model 'a' is in none of ..."; empty: all found.
+  const std::string& first_miss() const { return first_miss_; }
+
+ private:
+  void place(const io::SdfInclude& include) {
+    // Light, and the plane that Gazebo has of itself: `ground` lays one.
+    if (include.model == "sun" || include.model == "ground_plane") return;
+    if (include.written_out) {
+      place(include, *include.written_out);
+      return;
+    }
+    const std::filesystem::path beside = params_.sdf_file.parent_path();
+    const auto folder = io::find_sdf_model(include, beside, folders_);
+    if (folder) {
+      place(include, io::read_sdf_model(*folder, folders_));
+      return;
+    }
+    ++missing_[include.model];
+    std::vector<std::string> looked_in;
+    for (const auto& path : folders_) looked_in.push_back(path.lexically_normal().string());
+    miss(include, fmt::format("model '{}' has no model.sdf in a folder '{}' of {}", include.model,
+                              include.model, fmt::join(looked_in, " or ")));
+  }
+
+  void place(const io::SdfInclude& include, const io::SdfModel& model) {
+    MeshObject object{world_.meshes.size(), world_.meshes.size()};
+    for (const io::SdfMesh& mesh : model.meshes) {
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(mesh.file, error)) {
+        tell(fmt::format("model '{}': mesh '{}' is missing", include.model, mesh.uri));
+        miss(include, fmt::format("model '{}': mesh '{}' is not at '{}'", include.model, mesh.uri,
+                                  mesh.file.lexically_normal().string()));
+        continue;
+      }
+      io::MeshFileOptions options;
+      options.scale = mesh.scale;
+      options.up_axis = io::UpAxis::kAuto;
+      object.end = library_
+                       .place(include.name, library_.load(mesh.file.string(), options),
+                              include.X_WM * mesh.X_MG, SurfaceClass::kObstacle, true, true)
+                       .end;
+    }
+    std::vector<std::string> left_out = model.other_shapes;
+    std::erase(left_out, "plane");  // `ground` lays one
+    if (!left_out.empty()) {
+      tell(fmt::format("model '{}': {} left out, only meshes are read", include.model,
+                       words_once(std::move(left_out))));
+    }
+    if (object.begin == object.end) return;
+    objects_.push_back(object);
+    has_vine_meshes_ = has_vine_meshes_ || is_vine(include.model);
+  }
+
+  void miss(const io::SdfInclude& include, const std::string& sentence) {
+    if (!first_miss_.empty()) return;
+    first_miss_ = fmt::format("{}:{}: {}", params_.sdf_file.string(), include.line, sentence);
+  }
+  void tell(const std::string& note) {
+    const auto known = std::find(world_.notes.begin(), world_.notes.end(), note);
+    if (known == world_.notes.end()) world_.notes.push_back(note);
+  }
+
+  const MeshWorldParams& params_;
+  std::vector<std::filesystem::path> folders_;
+  MeshLibrary& library_;
+  WorldModel& world_;
+  std::map<std::string, int> missing_;
+  std::vector<MeshObject> objects_;
+  bool has_vine_meshes_ = false;
+  std::string first_miss_;
+};
+
+/// Of the objects that nobody gave a class: those that are the world's ground become terrain.
+/// @returns whether there are such
+bool mark_ground(const std::vector<MeshObject>& objects, WorldModel& world) {
+  const std::vector<std::size_t> ground = find_ground(objects, world);
+  for (const std::size_t i : ground) {
+    for (std::size_t m = objects[i].begin; m < objects[i].end; ++m) {
+      world.meshes[m].surface = SurfaceClass::kTerrain;
+    }
+  }
+  if (!ground.empty()) {
+    world.notes.push_back(fmt::format(
+        "mesh '{}' lies under the whole world and is taken for its ground; no plane is laid",
+        world.meshes[objects[ground.front()].begin].name));
+  }
+  return !ground.empty();
+}
+
+/// The box around every placed mesh and row, in the plane.
+Eigen::AlignedBox2d extent_of(const WorldModel& world, const std::vector<RowCurve>& rows) {
+  Eigen::AlignedBox2d box;
+  for (const MeshInstance& instance : world.meshes) {
+    for (const Eigen::Vector3f& v : instance.mesh->vertices) {
+      box.extend(Eigen::Vector2d((instance.X_WM * v.cast<double>()).head<2>()));
+    }
+  }
+  for (const RowCurve& row : rows) {
+    for (const Eigen::Vector2d& p : row.points_W()) box.extend(p);
+  }
+  if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
+  return box;
+}
+
+void plant_stand_ins(WorldModel& world, const std::vector<RowCurve>& rows,
+                     const GroundHeight& ground, const MeshWorldParams& params) {
+  const VinePlanting& planting = params.planting;
+  const double spacing_m = params.vine_spacing_m;
+  std::vector<VineRow> vine_rows;
+  for (const RowCurve& row : rows) {
+    const double length_m = row.length_m();
+    VineRow vines{
+        row, regular_vines(length_m, spacing_m, 0.0, RandomStream(0, "", "")), spacing_m, {}};
+    if (planting.trellis.posts) {
+      vines.post_s_m = spread_posts(0.0, length_m, planting.trellis.post_spacing_m);
+    }
+    vine_rows.push_back(std::move(vines));
+  }
+  MemoryMeshStore store;
+  plant_vine_rows(world, vine_rows, ground, planting, store);
+}
+
+/// Plants the rows, unless their pieces have meshes, and tells where they are.
+void add_rows(WorldModel& world, const std::vector<RowCurve>& rows, bool have_meshes,
+              const MeshWorldParams& params) {
+  // The ground as it is before plants stand on it; their meshes move the list.
+  const WorldModel bare = world;
+  std::optional<physics::WorldScene> scene;
+  if (!bare.terrain) {
+    physics::check_world(bare);
+    scene.emplace(bare);
+  }
+  constexpr double kFromAbove_m = 1e4;
+  const GroundHeight ground = [&](double x, double y) {
+    if (!scene) return bare.terrain->height_m(x, y);
+    return scene->ground_height_m(x, y, kFromAbove_m).value_or(0.0);
+  };
+  RowMap map = make_row_map(rows, ground, canopy_size(params.planting.canopy),
+                            parcel_boundary(rows, 8.0, 3.0));
+  if (!have_meshes) plant_stand_ins(world, rows, ground, params);
+  world.rows = std::move(map);
+  add_alley_spawn_points(world);
+}
+
+std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
+                                            const WorldContext& context) {
+  const MeshWorldParams params = mesh_world_table().read(parameters, "");
+  if (params.items.empty() && params.sdf_file.empty()) {
+    throw ConfigError("mesh: nothing to load, give items (mesh files) or sdf_file");
+  }
+  auto world = std::make_unique<WorldModel>();
+  world->name = "mesh";
+  world->origin = params.origin;
+  set_surroundings(params.surroundings, context.seed, *world);
+  world->depends_on_seed = false;  // plants have a seed of their own
+
+  MeshLibrary library(*world);
+  bool has_ground = false;
+  std::vector<MeshObject> unnamed;  // nobody said what they are
+  for (const MeshItem& item : params.items) {
+    const MeshObject object = place_item(item, library);
+    has_ground = has_ground || item.surface == SurfaceClass::kTerrain;
+    if (!item.surface && item.collides) unnamed.push_back(object);
+  }
+  std::vector<RowCurve> rows;
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+  SdfModels models(params, library, *world);
+  if (!params.sdf_file.empty()) {
+    const io::SdfWorld sdf = io::read_sdf_world(params.sdf_file, model_folders(params));
+    const std::vector<io::SdfInclude>& includes = sdf.includes;
+    models.place(includes);
+    unnamed.insert(unnamed.end(), models.objects().begin(), models.objects().end());
+    rows = find_sdf_rows(includes, params.vine_model, params.vine_piece_length_m);
+    plane = fit_ground_plane(includes, params.vine_model);
+    const bool says_none = params.origin.latitude_rad == 0.0 && params.origin.longitude_rad == 0.0;
+    if (sdf.origin && says_none) {
+      world->origin = {sdf.origin->latitude_rad, sdf.origin->longitude_rad, sdf.origin->altitude_m};
+    }
+  }
+  if (world->meshes.empty() && rows.empty() && !models.first_miss().empty()) {
+    throw ConfigError(fmt::format(
+        "{}; the world has no mesh that could be loaded: put the files there or name their folders "
+        "with model_folders",
+        models.first_miss()));
+  }
+  if (!has_ground && params.ground != MeshGround::kFlat) {
+    has_ground = mark_ground(unnamed, *world);
+  }
+
+  Eigen::AlignedBox2d box = extent_of(*world, rows);
+  if (params.ground == MeshGround::kFlat || (params.ground == MeshGround::kAuto && !has_ground)) {
+    const double margin_m = std::max(params.ground_margin_m, 1.0);
+    const Eigen::Vector2d margin(margin_m, margin_m);
+    const Eigen::AlignedBox2d ground_box(Eigen::Vector2d(box.min() - margin),
+                                         Eigen::Vector2d(box.max() + margin));
+    TerrainShape shape;
+    shape.centre_W = ground_box.center();
+    shape.gradient = plane.tail<2>();
+    shape.centre_height_m = plane.x() + shape.gradient.dot(shape.centre_W);
+    world->terrain =
+        build_terrain(params.terrain, params.planting.seed, world->origin, shape, ground_box);
+  }
+  if (!rows.empty()) add_rows(*world, rows, models.has_vine_meshes(), params);
+  fill_occupancy(params.map, *world, {}, row_end_margin_m(params.planting));
+  world->spawn_points.push_back({"centre", box.center(), 0.0});
+  return world;
+}
+
+}  // namespace
+
+void register_mesh(Registry& registry) {
+  registry.add_world(mesh_spec(), make_mesh_world);
+}
+
+}  // namespace vinerow::worlds

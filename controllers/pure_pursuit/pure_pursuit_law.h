@@ -17,7 +17,7 @@
 ///   6. yaw rate = theta / t (eq. 6), limited to v_t / R_min (table 1).
 /// Settled here: D_th equals the lookahead distance and the last waypoint is aimed at once it is
 /// within the lookahead distance. Other choices loop about a waypoint or never reach the goal
-/// (docs/paper_b.md).
+/// (docs/papers/paper_b.md).
 ///
 /// The paper's paths have no sharp corners, and its law circles about them. Here a sharp corner
 /// (path_corners.h) is the goal of the stretch before it: the vehicle brakes, turns on the spot and

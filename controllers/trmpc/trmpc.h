@@ -1,6 +1,6 @@
 #pragma once
 /// Controller `trmpc`: tube-based robust model predictive control of vehicles on wings, paper A,
-/// section 2.2, eq. 8-20 in a corrected form (docs/trmpc.md).
+/// section 2.2, eq. 8-20 in a corrected form (docs/papers/trmpc.md).
 
 #include <memory>
 

@@ -27,7 +27,7 @@ struct Product {
   ProductKind kind = ProductKind::kMap;
   std::shared_ptr<const PictureSet> pictures;
   /// Cloud: a LAS file, its truth beside it as STEM.truth.json. Map: its folder
-  /// (docs/mapping.md), empty where it has none.
+  /// (docs/guides/mapping.md), empty where it has none.
   std::filesystem::path file;
   std::shared_ptr<const RowMap> map;
   std::shared_ptr<const PlannedPath> plan;

@@ -1,7 +1,7 @@
 #pragma once
 /// What everybody feels of a world's wind at a place and time: mean wind by the height law, and
 /// listed gusts. Turbulence, gusts by chance and shelter are a vehicle's own
-/// (vehicles/parts/wind_probe.h). Formulae: docs/wind.md.
+/// (vehicles/parts/wind_probe.h). Formulae: docs/models/wind.md.
 
 #include <Eigen/Core>
 

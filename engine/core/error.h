@@ -1,5 +1,5 @@
 #pragma once
-/// The two kinds of failure a user can meet, each with its exit status (docs/architecture.md).
+/// The two kinds of failure a user can meet, each with its exit status (docs/contributing/architecture.md).
 
 #include <stdexcept>
 #include <string>

@@ -18,7 +18,7 @@ namespace vinerow {
 
 class RunShelf;
 
-/// Exit status of `vinerow run` (docs/architecture.md).
+/// Exit status of `vinerow run` (docs/contributing/architecture.md).
 enum class RunStatus { kAllMet = 0, kCriterionFailed = 1, kBadInput = 2, kBrokenOff = 3 };
 
 struct Progress {

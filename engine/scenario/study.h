@@ -8,7 +8,7 @@
 ///     spacing: {key: rover.planner.waypoint_spacing_m, from: 0.5, to: 2.5, step: 0.5}
 ///   seeds: 10
 ///
-/// Guide: docs/studies.md.
+/// Guide: docs/guides/studies.md.
 
 #include <cstdint>
 #include <filesystem>

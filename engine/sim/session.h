@@ -12,7 +12,7 @@
 /// A session does not own the loop, starts no thread that outlives a call, and never reads the wall
 /// clock. One session belongs to one thread at a time; any number of them run side by side
 /// (`twin()`). Its results are those of a process of its own, to the bit, however it is stepped.
-/// Guide: docs/session.md.
+/// Guide: docs/guides/session.md.
 
 #include <cstdint>
 #include <filesystem>
@@ -195,7 +195,7 @@ class Session {
   std::vector<SessionPhase> phases() const;
   /// Events since the last call, or since time 0.
   std::vector<SessionEvent> take_events();
-  /// Over every signal written so far (docs/architecture.md).
+  /// Over every signal written so far (docs/contributing/architecture.md).
   std::string digest() const;
   std::uint64_t seed() const;
 

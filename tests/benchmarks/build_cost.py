@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints what building costs, in CPU seconds (user and system) without a compiler cache. Table of docs/performance.md.
+"""Prints what building costs, in CPU seconds (user and system) without a compiler cache. Table of docs/contributing/performance.md.
 
 usage: build_cost.py FOLDER [command] [tests] [sanitized] [touched]
 

@@ -76,7 +76,7 @@ test::LabFilterMaker fusing(DistanceFusion fusion) {
   return test::distance_filter(params);
 }
 
-/// As docs/localisation.md names the paper's: inertial unit as a fix, segments of a slice.
+/// As docs/papers/localisation.md names the paper's: inertial unit as a fix, segments of a slice.
 test::LabFilterMaker as_paper_c() {
   DistanceFilterParams params = test::reading_params(InertialReading::kPositionFix);
   params.fusion = DistanceFusion::kJoint;

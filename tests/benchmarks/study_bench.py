@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints what studies cost. Table of docs/performance.md.
+"""Prints what studies cost. Table of docs/contributing/performance.md.
 
 usage: study_bench.py [--build FOLDER] [loop] [scaling] [worlds] [many]
 

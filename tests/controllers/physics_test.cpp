@@ -67,7 +67,7 @@ TEST(PathFollowerOnThePhysicalRover, DrivesDubinsTurnsAndSkips) {
   expect_good({"rover.planner.order=skip"}, 0.03);
 }
 
-/// With the limit of paper B's table 1 it leaves the first of these hairpins: docs/paper_b.md.
+/// With the limit of paper B's table 1 it leaves the first of these hairpins: docs/papers/paper_b.md.
 TEST(PurePursuitOnThePhysicalRover, DrivesTheHairpinsWithoutALimitOfItsYawRate) {
   expect_good({"rover.controller={type: pure_pursuit, speed_mps: 1.5, min_turning_radius_m: 0}"},
               0.004);

@@ -1,5 +1,5 @@
 /// Paper B's mission through the whole kernel against the reference table of reading R1
-/// (docs/paper_b.md): ATD, OF and RA within 2 %.
+/// (docs/papers/paper_b.md): ATD, OF and RA within 2 %.
 
 #include <gtest/gtest.h>
 

@@ -119,7 +119,7 @@ bool goes_by_truth(const io::VehicleConfig& vehicle) {
 
 /// Papers A and B judge driving and flying on the true state; paper C's filters watch a flight by
 /// it. Everything else is to find its own way: who adds a scenario here says why in
-/// docs/scenario.md.
+/// docs/reference/scenario.md.
 TEST(ShippedScenarios, OnlyTheseGoByTheTruth) {
   const std::vector<std::string> expected = {"localisation_m100",
                                              "localisation_sensors_0",
@@ -170,7 +170,7 @@ TEST(Readme, ItsScenarioDrivesToTheEndWithinItsLimit) {
   EXPECT_LE(run.metric("rover", "cross_track_rms_m"), 0.05);
 }
 
-/// The listing of docs/plugins.md.
+/// The listing of docs/guides/plugins.md.
 TEST(TestKit, ItsListingPasses) {
   auto run = testing::SmallWorld()
                  .vehicle("rover", "diff_drive_rover")

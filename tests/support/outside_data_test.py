@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/outside_data.md names every folder of outside data that a test asks for, and no other."""
+"""docs/contributing/outside_data.md names every folder of outside data that a test asks for, and no other."""
 
 import pathlib
 import re
@@ -7,7 +7,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-page = (ROOT / "docs" / "outside_data.md").read_text()
+page = (ROOT / "docs" / "contributing" / "outside_data.md").read_text()
 told = set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE))
 asked = set()
 for source in [*ROOT.glob("tests/**/*_test.cpp"), *ROOT.glob("tests/**/*_check.py"), *ROOT.glob("tests/**/motion_test.cpp")]:
@@ -20,8 +20,8 @@ for source in [*ROOT.glob("tests/**/*_test.cpp"), *ROOT.glob("tests/**/*_check.p
             asked.add(path)
 
 for folder in sorted(asked - told):
-    print(f"docs/outside_data.md does not name {folder}, which a test asks for")
+    print(f"docs/contributing/outside_data.md does not name {folder}, which a test asks for")
 for folder in sorted(told - asked):
-    print(f"docs/outside_data.md names {folder}, which no test asks for")
+    print(f"docs/contributing/outside_data.md names {folder}, which no test asks for")
 print(f"{len(asked)} folders of outside data")
 sys.exit(asked != told)

@@ -49,7 +49,7 @@ def faults_of(text: str) -> list[str]:
 class Pages(unittest.TestCase):
     def test_pages_print_what_is_golden(self):
         marks = 0
-        for page in sorted((ROOT / "docs").glob("*.md")):
+        for page in sorted((ROOT / "docs").rglob("*.md")):
             text = page.read_text()
             marks += len(MARK.findall(text))
             self.assertEqual(faults_of(text), [], page.name)

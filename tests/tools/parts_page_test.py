@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/parts.md is what the command prints, and links to its headings find them.
+"""docs/reference/parts.md is what the command prints, and links to its headings find them.
 
 parts_page_test.py VINEROW
 """
@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "parts.md"
+PAGE = ROOT / "docs" / "reference" / "parts.md"
 
 
 def anchors_of(page: str) -> set[str]:
@@ -36,10 +36,10 @@ def main() -> int:
     kept = PAGE.read_text(encoding="utf-8")
     if printed != kept:
         diff = difflib.unified_diff(
-            kept.splitlines(), printed.splitlines(), "docs/parts.md", "vinerow list --markdown", n=0, lineterm=""
+            kept.splitlines(), printed.splitlines(), "docs/reference/parts.md", "vinerow list --markdown", n=0, lineterm=""
         )
         print(*list(diff)[:40], sep="\n")
-        print("docs/parts.md is out of date: run vinerow list --markdown > docs/parts.md")
+        print("docs/reference/parts.md is out of date: run vinerow list --markdown > docs/reference/parts.md")
         return 1
     lost = lost_links(anchors_of(printed))
     print(*lost, sep="\n")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Is docs/results.md complete, and does its table name only what exists?
+"""Is docs/papers/results.md complete, and does its table name only what exists?
 
     results_test.py VINEROW [LOCALISATION_STUDY]
 """
@@ -53,7 +53,7 @@ class Completeness(unittest.TestCase):
     def test_the_page_has_the_tables_text(self):
         page = Page(TABLE, lambda run, path: [], 0.0, skips=lambda run: True)
         write_page(page, 0, 0.0)
-        there = (ROOT / "docs" / "results.md").read_text()
+        there = (ROOT / "docs" / "papers" / "results.md").read_text()
         self.assertEqual(page.differences(there), [], "tools/results makes it anew")
 
 
@@ -130,7 +130,7 @@ class Names(unittest.TestCase):
                 self.assertTrue((ROOT / "docs/pictures" / picture).exists(), picture)
             for text in entry.texts():
                 for link in re.findall(r"\]\(([\w/.]+)(?:#[\w-]+)?\)", text):
-                    self.assertTrue((ROOT / "docs" / link).exists(), f"{entry.paper}, {entry.item}: {link}")
+                    self.assertTrue((ROOT / "docs" / "papers" / link).exists(), f"{entry.paper}, {entry.item}: {link}")
                 for file in re.findall(r"`((?:assets|tests|engine|controllers)/[\w/.]+)`", text):
                     self.assertTrue((ROOT / file).exists(), f"{entry.paper}, {entry.item}: {file}")
 

@@ -1,4 +1,4 @@
-/// The list of taken names in docs/scenario.md against the parts that there are.
+/// The list of taken names in docs/reference/scenario.md against the parts that there are.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ std::set<std::string> words_in(const std::string& text) {
 }
 
 TEST(TakenNames, AreThoseOfTheDocs) {
-  std::ifstream in(VINEROW_SOURCE_DIR "/docs/scenario.md");
+  std::ifstream in(VINEROW_SOURCE_DIR "/docs/reference/scenario.md");
   std::stringstream page;
   page << in.rdbuf();
   const std::string text = page.str();

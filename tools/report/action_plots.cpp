@@ -11,7 +11,7 @@
 namespace vinerow::tools::report {
 namespace {
 
-/// A vehicle slower than this has no slip worth a line (docs/architecture.md, slip_rms).
+/// A vehicle slower than this has no slip worth a line (docs/contributing/architecture.md, slip_rms).
 constexpr double kSlips_mps = 0.05;
 
 /// Angles are shown in degrees.

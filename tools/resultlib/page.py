@@ -1,4 +1,4 @@
-"""Writes docs/results.md of the table and the numbers, and compares such a page with other numbers."""
+"""Writes docs/papers/results.md of the table and the numbers, and compares such a page with other numbers."""
 
 import math
 import re
@@ -124,7 +124,7 @@ def command_of(run: Run) -> str:
     if run.kind == "study":
         return f"`vinerow study run assets/studies/{run.what}.yaml`"
     if run.kind == "map":
-        return f"`assets/scenarios/{run.what}.yaml` by `vinerow run`, `cloud`, `map` ([mapping.md](mapping.md))"
+        return f"`assets/scenarios/{run.what}.yaml` by `vinerow run`, `cloud`, `map` ([mapping.md](../guides/mapping.md))"
     if run.kind == "program":
         return f"`build/release/bin/{run.what} {' '.join(run.arguments)}`"
     return f"`build/release/bin/vinerow_bench --benchmark_filter='{run.what}'`"

@@ -84,7 +84,7 @@ class Programs:
         return output
 
     def _map(self, run: Run, work: Path) -> dict:
-        """The chain of docs/mapping.md: flight, cloud of its pictures, map of the cloud."""
+        """The chain of docs/guides/mapping.md: flight, cloud of its pictures, map of the cloud."""
         vinerow = self.program(run)
         self._call(vinerow, "run", run.scenario, "--quiet", "--no-pictures", "--seed", 1, "--out", work / "survey")
         self._call(vinerow, "cloud", run.scenario, "--log", work / "survey", "--out", work / "cloud.las")

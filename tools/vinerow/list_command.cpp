@@ -127,7 +127,7 @@ void add_list_command(CLI::App& app, int& exit_status) {
       ->allow_extra_args(false);
   command->add_flag("--full", arguments->full, "all parts with all their parameters");
   CLI::Option* markdown =
-      command->add_flag("--markdown", arguments->markdown, "as a page of tables (docs/parts.md)");
+      command->add_flag("--markdown", arguments->markdown, "as a page of tables (docs/reference/parts.md)");
   command->add_flag("--json", arguments->json, "as JSON, with all parameters")->excludes(markdown);
   command->callback([arguments, &exit_status] {
     list_parts(*arguments);

@@ -1,5 +1,5 @@
 #pragma once
-/// The page docs/parts.md: every part with its parameters, as Markdown.
+/// The page docs/reference/parts.md: every part with its parameters, as Markdown.
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The wind that one vehicle feels: mean wind by the world's height law, Dryden turbulence,
 /// 1-cosine gusts, shelter between the rows; and how dense the air is. Formulae, sources and
-/// figures: docs/wind.md.
+/// figures: docs/models/wind.md.
 ///
 /// Every part that wants the wind has a probe of its own: turbulence is drawn along the way of
 /// that vehicle through the air (frozen field), so neighbours do not share it. The mean wind and

@@ -1,7 +1,7 @@
 #pragma once
 /// An air-assisted sprayer with nozzles on both sides: liquid onto the true canopy, patch by patch,
 /// and what became of the rest. Physics of the spray: spray_jet.h; when sections open:
-/// section_switch.h; sources and figures: docs/payloads.md.
+/// section_switch.h; sources and figures: docs/models/payloads.md.
 ///
 /// At each tick an open nozzle gives off what flows in a period, as portions (`rays_per_nozzle`)
 /// whose directions, uniform over the solid angle between inner and outer cone, and whose moments

@@ -42,7 +42,7 @@ std::string find_fault_in_reach(const SprayerSettings& s) {
       s.sprayer.row_reach_m, s.sprayer.nozzle_offset_m);
 }
 
-// Sources: docs/payloads.md.
+// Sources: docs/models/payloads.md.
 const ParameterTable<SprayerSettings>& sprayer_table() {
   using S = SprayerSettings;
   using P = SprayerParams;

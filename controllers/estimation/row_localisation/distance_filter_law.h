@@ -3,7 +3,7 @@
 /// Navigation of UAVs in Agricultural Scenarios", Remote Sensing 14(6) 1374, 2022), section 3, in
 /// several readings: position from the inertial unit's velocity and attitude, satellite fixes, and
 /// echoes of range sensors off the rows of a map. Knows no signals. Equations, readings and
-/// figures: docs/localisation.md.
+/// figures: docs/papers/localisation.md.
 ///
 /// The filter runs at the rate of predict(); slower data are taken when they come, at their own
 /// time: they are compared with where the vehicle was. Data that are not finite, too old, that
@@ -44,7 +44,7 @@ enum class InertialReading {
 };
 
 /// Process noise of a reading: R1's and R2's are fitted to paper C's table 3 without a map
-/// (docs/localisation.md).
+/// (docs/papers/localisation.md).
 PositionKalmanParams kalman_params_of(InertialReading reading);
 
 enum class EchoAssociation {

@@ -9,7 +9,7 @@
 /// with d the reading, l the sensor in B, u its direction in W, v = R l + d u, z up, N_h the
 /// horizontal part of N, and bounds e_s of the reading, e_m of the map along N, e_psi of the
 /// heading. In place of paper C's eq. 10-12, which hold for sensors across the vehicle only and
-/// lose the side of the wall (arctan); docs/localisation.md.
+/// lose the side of the wall (arctan); docs/papers/localisation.md.
 
 #include "controllers/estimation/row_localisation/range_prediction.h"
 

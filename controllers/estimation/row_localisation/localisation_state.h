@@ -5,7 +5,7 @@
 /// The inertial unit's velocity is the process model: p' = v - b, where b is its slow error
 /// (first-order Gauss-Markov), as are the unit's heading error and the fixes' common error; the
 /// map's shift is constant. All errors in W (m, m/s, rad). Source of the measurement of a range:
-/// docs/localisation.md.
+/// docs/papers/localisation.md.
 
 #include <Eigen/Core>
 

@@ -9,7 +9,7 @@
 /// the stretch of row that the vehicle may be at; echoes that no wall explains are gated, doubtful
 /// ones weigh less (Huber); slow errors of velocity, heading, fixes and map are states; late data
 /// are compared with where the vehicle was; and one filter per alley finds the right one from a
-/// poor start. Figures: docs/localisation.md.
+/// poor start. Figures: docs/papers/localisation.md.
 
 #include <Eigen/Geometry>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 /// What a range sensor should read at a pose on the map, how that depends on the pose, and how well
-/// it is known. Source: ../../docs/localisation.md; paper C, section 3, with the slab of an echo
+/// it is known. Source: ../../docs/papers/localisation.md; paper C, section 3, with the slab of an echo
 /// taken from the facet's plane N.x = D in place of its eq. 10-12.
 
 #include <optional>

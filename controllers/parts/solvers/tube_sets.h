@@ -12,7 +12,7 @@
 ///
 /// Sources: Mammarella et al., "Cooperation of unmanned systems for agricultural applications: A
 /// case study in a vineyard", Biosystems Engineering 223, 2022, eq. 8-20, corrected as
-/// docs/trmpc.md tells; Mayne, Seron, Rakovic, "Robust model predictive control of constrained
+/// docs/papers/trmpc.md tells; Mayne, Seron, Rakovic, "Robust model predictive control of constrained
 /// linear systems with bounded disturbances", Automatica 41, 2005. For setting up controllers, not
 /// for their steps. ConfigError where sizes do not fit or a number is not finite.
 

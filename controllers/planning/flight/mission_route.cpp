@@ -329,7 +329,7 @@ PartSpec mission_route_spec() {
   spec.name = "mission_file";
   spec.description =
       "A mission from QGroundControl (.plan) or Mission Planner (QGC WPL 110), flown or driven leg "
-      "by leg; docs/survey.md lists the commands.";
+      "by leg; docs/guides/survey.md lists the commands.";
   spec.parameters = mission_route_table().specs();
   spec.reads = {"estimate"};
   spec.writes = {"plan"};

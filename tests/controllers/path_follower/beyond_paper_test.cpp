@@ -1,5 +1,5 @@
 // Our follower against the paper's law: same path, waypoint pitch, cycle, metric, seeds. The
-// factors to reach are those of the best rows an independent prototype found (docs/paper_b.md).
+// factors to reach are those of the best rows an independent prototype found (docs/papers/paper_b.md).
 
 #include <gtest/gtest.h>
 

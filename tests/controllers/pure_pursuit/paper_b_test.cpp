@@ -1,4 +1,4 @@
-// Paper B's numbers in the reading that docs/paper_b.md states. The expected values come from an
+// Paper B's numbers in the reading that docs/papers/paper_b.md states. The expected values come from an
 // independent prototype of that reading; those called "printed" are the paper's own.
 
 #include <gtest/gtest.h>

@@ -307,7 +307,7 @@ class Study(study_case.StudyCase):
         self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
 
     def test_the_examples_of_the_page(self):
-        rows = re.findall(r"^\| [^|]+ \| `(\{.*\})` \|$", (ROOT / "docs" / "studies.md").read_text(), re.MULTILINE)
+        rows = re.findall(r"^\| [^|]+ \| `(\{.*\})` \|$", (ROOT / "docs" / "guides" / "studies.md").read_text(), re.MULTILINE)
         self.assertEqual(len(rows), 6)
         for row in rows:
             scenario = "trmpc_stress" if "plane." in row else "orchard_rover" if "world.wind" not in row else "vineyard_rover"
@@ -372,19 +372,19 @@ echo 8""", squeue="true", scancel="true", sacct="echo COMPLETED", scontrol="echo
         self.assertEqual((left.exists(), working.exists()), (False, True))
 
     def test_shipped_studies(self):
-        page = (ROOT / "docs" / "studies.md").read_text()
+        page = (ROOT / "docs" / "guides" / "studies.md").read_text()
         files = sorted((ROOT / "assets" / "studies").glob("*.yaml"))
         self.assertGreaterEqual(len(files), 5)
         for file in files:
             told = self.study("check", file)
             cells = int(told.split("= ")[1].split()[0])
             self.assertRegex(page, rf"\| `{file.stem}` \| .* \| {cells} \|", "the page says how many cells it has")
-        # One that a user could type: paper B's, whose tables docs/results.md holds (tools/results --quick makes them anew).
+        # One that a user could type: paper B's, whose tables docs/papers/results.md holds (tools/results --quick makes them anew).
         self.assertLessEqual(len((ROOT / "assets" / "studies" / "orchard_lookahead.yaml").read_text().splitlines()), 30)
 
     def example(self, begin, end):
         """From one line of the page to another."""
-        page = (ROOT / "docs" / "studies.md").read_text()
+        page = (ROOT / "docs" / "guides" / "studies.md").read_text()
         return page[page.index(begin):page.index(end, page.index(begin))]
 
     def by_another(self, words, **more):

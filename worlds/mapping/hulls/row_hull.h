@@ -3,7 +3,7 @@
 ///
 /// Source: paper A, section 3.2 (Mammarella et al., Biosystems Engineering 223, 2022), after Comba
 /// et al., Biosystems Engineering 197 (2020): slices across the row, polygons of c corners, lofted
-/// to a low-complexity mesh, split at gaps. How it is solved is ours (docs/row_meshes.md): the
+/// to a low-complexity mesh, split at gaps. How it is solved is ours (docs/models/row_meshes.md): the
 /// sides of all polygons of a row look in the same c directions, so that corners match without
 /// twist, every side face is plane, and what is inside is told by c comparisons; where the faces
 /// lie is the least volume that leaves no more points outside than allowed.

@@ -6,7 +6,7 @@
 
 namespace vinerow::worlds {
 
-/// Takes `cloud`, gives a map: its folder (docs/mapping.md) with what each point is (map_points.h),
+/// Takes `cloud`, gives a map: its folder (docs/guides/mapping.md) with what each point is (map_points.h),
 /// and what a vehicle with `map: {type: cloud_map, folder: ...}` would be told of it.
 void register_cloud_map_job(Registry& registry);
 

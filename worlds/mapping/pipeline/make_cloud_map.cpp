@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kRasterCell_m = 0.1;
 constexpr double kHighest_m = 6.0;
-// Points per m2 below which ends are off, volumes are too small: docs/jobs.md.
+// Points per m2 below which ends are off, volumes are too small: docs/guides/jobs.md.
 constexpr double kThinForEnds_per_m2 = 60.0;
 constexpr double kThinForVolume_per_m2 = 900.0;
 
@@ -245,7 +245,7 @@ void report_rows(std::span<const RowHulls> hulls, std::span<const RowCanopy> can
   report.spacing_std_m = std::sqrt(squares / static_cast<double>(distances.size()));
 }
 
-/// docs/jobs.md, "How many points a map needs".
+/// docs/guides/jobs.md, "How many points a map needs".
 void note_density(CloudMapReport& report) {
   const double density_per_m2 = report.density_per_m2;
   if (density_per_m2 < kThinForEnds_per_m2) {

@@ -176,7 +176,7 @@ TEST_P(Consistency, TellsAFilterThatIsWrongAboutItsFixes) {
 
 TEST_P(Consistency, HalfAndTwiceTheNoiseThatItIsTold) {
   // Rms of the position and mean NEES of position, velocity and attitude at 60 s: the table of
-  // docs/localisation.md.
+  // docs/papers/localisation.md.
   const auto judge = [&](NoiseShare share) {
     double nees_sum = 0.0, squares = 0.0;
     for (int seed = 0; seed < kRuns; ++seed) {

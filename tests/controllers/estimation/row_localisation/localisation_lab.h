@@ -1,7 +1,7 @@
 #pragma once
 /// Flights along an alley of a made vineyard, on which any estimator's law can be tried: what its
 /// sensors would tell at 100 Hz, and how far off its estimate is. The reference study of paper C
-/// (docs/localisation.md).
+/// (docs/papers/localisation.md).
 
 #include <Eigen/Geometry>
 #include <functional>
@@ -114,7 +114,7 @@ LabScore study(const LabSetup& setup, int count, const LabFilterMaker& make,
 /// The distance filter. `has_map` false: satellite fixes and inertial unit only.
 LabFilterMaker distance_filter(const DistanceFilterParams& params, bool has_map = true);
 
-/// Parameters of the three readings (docs/localisation.md).
+/// Parameters of the three readings (docs/papers/localisation.md).
 DistanceFilterParams reading_params(InertialReading reading);
 
 }  // namespace vinerow::test

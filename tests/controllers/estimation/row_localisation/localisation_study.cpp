@@ -1,4 +1,4 @@
-// Prints the tables of docs/localisation.md: localisation_study [seeds [table ...]]
+// Prints the tables of docs/papers/localisation.md: localisation_study [seeds [table ...]]
 
 #include <fmt/format.h>
 

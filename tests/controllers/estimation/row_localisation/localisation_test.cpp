@@ -1,5 +1,5 @@
 // Accuracy and consistency of the distance filter in the reference world, over few seeds: what
-// docs/localisation.md says of it. The full tables: localisation_study.
+// docs/papers/localisation.md says of it. The full tables: localisation_study.
 
 #include <gtest/gtest.h>
 

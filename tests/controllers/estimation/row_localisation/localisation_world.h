@@ -1,7 +1,7 @@
 #pragma once
 /// A made vineyard for studies of localisation: straight rows on a slope with rough canopy walls,
 /// the low-complexity map of it, and how both differ. The world of paper C's reference study
-/// (docs/localisation.md): rows 2.5 m apart at azimuth -30 deg, grade 18 % along and 17 % across.
+/// (docs/papers/localisation.md): rows 2.5 m apart at azimuth -30 deg, grade 18 % along and 17 % across.
 ///
 /// Row coordinates: s along the rows from the block's origin, t to the left of it, h above ground.
 

@@ -1,4 +1,4 @@
-// The bank of filters on the map in the reference world: what docs/localisation.md says of it.
+// The bank of filters on the map in the reference world: what docs/papers/localisation.md says of it.
 
 #include <gtest/gtest.h>
 

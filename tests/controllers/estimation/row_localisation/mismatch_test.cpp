@@ -1,5 +1,5 @@
 // What becomes of the filters between rows when the noise is half or twice what they were told: the
-// table of docs/localisation.md. A filter is told by its settings and by what receivers and maps
+// table of docs/papers/localisation.md. A filter is told by its settings and by what receivers and maps
 // state of themselves; no vineyard keeps to that.
 
 #include <fmt/format.h>

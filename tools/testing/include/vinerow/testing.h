@@ -153,7 +153,7 @@ class SmallWorld {
   /// Judges every vehicle, beside all built-in metrics.
   SmallWorld& metric(PartSpec spec, PartFactory<Metric, MetricContext> make);
 
-  /// A phase of a mission (docs/missions.md): these vehicles at work.
+  /// A phase of a mission (docs/concepts/missions.md): these vehicles at work.
   /// @param keys  of the phase: "after: [survey], timeout_s: 60", "map: from build_map"
   SmallWorld& phase(const std::string& name, const std::vector<std::string>& vehicles,
                     const std::string& keys = "");

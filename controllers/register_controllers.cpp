@@ -27,7 +27,7 @@
 #include "controllers/trmpc/trmpc.h"
 #include "controllers/waypoint_guidance/waypoint_guidance.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void register_controllers(Registry& registry) {
   registry.add_estimator(error_state_kalman_spec(), make_error_state_kalman);
@@ -58,4 +58,4 @@ void register_controllers(Registry& registry) {
   registry.add_controller(trmpc_spec(), make_trmpc);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,8 +3,8 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void register_controllers(Registry& registry);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,16 +7,15 @@
 #include "vehicles/quadrotor/quadrotor.h"
 #include "vehicles/urdf_rover/urdf_rover.h"
 
-namespace vinerow {
+namespace vinerow::vehicles {
 
 void register_vehicles(Registry& registry) {
-  registry.add_vehicle(vehicles::diff_drive_rover_spec(), vehicles::make_diff_drive_rover);
-  registry.add_vehicle(vehicles::fixed_wing_spec(), vehicles::make_fixed_wing);
-  registry.add_vehicle(vehicles::four_wheel_steering_rover_spec(),
-                       vehicles::make_four_wheel_steering_rover);
-  registry.add_vehicle(vehicles::quadrotor_spec(), vehicles::make_quadrotor);
-  registry.add_vehicle(vehicles::urdf_rover_spec(), vehicles::make_urdf_rover);
+  registry.add_vehicle(diff_drive_rover_spec(), make_diff_drive_rover);
+  registry.add_vehicle(fixed_wing_spec(), make_fixed_wing);
+  registry.add_vehicle(four_wheel_steering_rover_spec(), make_four_wheel_steering_rover);
+  registry.add_vehicle(quadrotor_spec(), make_quadrotor);
+  registry.add_vehicle(urdf_rover_spec(), make_urdf_rover);
   register_payloads(registry);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::vehicles

@@ -3,9 +3,9 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::worlds {
 
 /// orchard, vineyard, surveyed, mesh.
 void register_worlds(Registry& registry);
 
-}  // namespace vinerow
+}  // namespace vinerow::worlds

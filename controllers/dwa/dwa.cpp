@@ -10,7 +10,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/math/pose.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 std::vector<SensorMounting> find_rangers(const ControllerContext& context) {
@@ -178,4 +178,4 @@ std::unique_ptr<Guidance> make_dwa(const ParameterSet& parameters,
   return std::make_unique<Dwa>(read_dwa_params(parameters, context), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec dwa_spec();
 /// @throws ConfigError for a vehicle without steered axles (SteeredVehicle) or max_speed_mps, or
@@ -14,4 +14,4 @@ PartSpec dwa_spec();
 std::unique_ptr<Guidance> make_dwa(const ParameterSet& parameters,
                                    const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kSlow_mps = 0.03;       // less is standing
@@ -226,4 +226,4 @@ LocalCommand DwaGuide::make_stop(const DwaState& state) const {
   return command;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

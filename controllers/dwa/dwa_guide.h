@@ -14,7 +14,7 @@
 #include "controllers/parts/ground_drive/stop_profile.h"
 #include "engine/api/messages/commands.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class DwaMode {
   kAssist,  ///< follow the plan where it is free
@@ -101,4 +101,4 @@ class DwaGuide {
   int news_count_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // Rounding of distances between cell centres: standing still must stay free.
@@ -180,4 +180,4 @@ DwaChoice DwaLaw::choose(const DwaState& state, const DwaTask& task) const {
   return best;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -21,7 +21,7 @@
 #include "controllers/dwa/local_path.h"
 #include "controllers/dwa/vehicle_room.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct DwaCost {
   double clearance_weight = 0.4;  ///< alpha, per m
@@ -134,4 +134,4 @@ class DwaLaw {
   RoomFinder rooms_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 std::string who(const ControllerContext& context) {
@@ -164,4 +164,4 @@ DiscOutline make_dwa_outline(const DwaPartParams& params, const ControllerContex
   return circles;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

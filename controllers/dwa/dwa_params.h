@@ -5,7 +5,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class DwaFootprint { kCircles, kPolygon, kCircle };
 
@@ -25,4 +25,4 @@ DwaPartParams read_dwa_params(const ParameterSet& parameters, const ControllerCo
 /// @throws ConfigError if the circles leave more of the outline uncovered than margin_m
 DiscOutline make_dwa_outline(const DwaPartParams& params, const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 #include "controllers/parts/paths/pose2.h"
 #include "engine/api/vehicle_kinds.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct RollingMotion {
   double course_rad = 0.0;       ///< direction of travel of the centre from the nose
@@ -37,4 +37,4 @@ inline AxleAngles turn_axles(const AxleAngles& now, const AxleAngles& target, do
           now.rear_rad + std::clamp(target.rear_rad - now.rear_rad, -most_rad, most_rad)};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

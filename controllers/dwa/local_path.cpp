@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void LocalPath::add(const Pose2& pose, double distance_m) {
   if (size_ == kCapacity) return;
@@ -56,4 +56,4 @@ void LocalPath::copy_moved(const LocalPath& from, double left_m) {
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

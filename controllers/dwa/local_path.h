@@ -6,7 +6,7 @@
 
 #include "controllers/parts/paths/pose2.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class LocalPath {
  public:
@@ -43,4 +43,4 @@ class LocalPath {
   int size_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

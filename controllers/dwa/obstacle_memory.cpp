@@ -7,7 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // An arc's points lie off the true surface by a little; free beams do not count so near an echo.
@@ -191,4 +191,4 @@ double ObstacleMemory::nearest_ahead_m(const Pose2& pose, double x_m, double hal
   return nearest_m;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

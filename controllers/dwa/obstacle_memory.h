@@ -26,7 +26,7 @@
 #include "engine/api/stepped_parts.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct ObstacleMemoryParams {
   double obstacle_range_m = 2.5;
@@ -111,4 +111,4 @@ class ObstacleMemory {
   int confirmed_count_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

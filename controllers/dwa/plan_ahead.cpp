@@ -7,7 +7,7 @@
 #include "engine/api/messages/path.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // The vehicle is looked for this far along the plan around where it was, and at first from its
@@ -112,4 +112,4 @@ bool PlanAhead::find_lane(const RoomFinder& rooms, const DiscOutline& outline, d
   return std::isfinite(best);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/parts/paths/path_curve.h"
 #include "engine/api/forward.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct PlanAheadParams {
   double fade_m = 1.2;              ///< a tracking error dies out over this length
@@ -68,4 +68,4 @@ class PlanAhead {
   int here_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

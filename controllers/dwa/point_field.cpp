@@ -5,7 +5,7 @@
 
 #include "engine/core/constants.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 constexpr float kFar = static_cast<float>(PointField::kReach_m);
 constexpr int kReachNodes = static_cast<int>(PointField::kReach_m / PointField::kSpacing_m) + 1;
@@ -54,4 +54,4 @@ double PointField::at(const Eigen::Vector2d& p_W) const {
   return distance_m >= kReach_m - 1e-5 ? kInfinity : distance_m;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class PointField {
  public:
@@ -33,4 +33,4 @@ class PointField {
   std::vector<float> distance_m_;  // x fastest; squared while building
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 constexpr double kStanding_mps = 0.05;
 // How many poses back the nearest one is looked for.
@@ -91,4 +91,4 @@ void Recovery::stand(Time now, double distance_m) {
   try_again(now, distance_m);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "controllers/dwa/local_path.h"
 #include "engine/core/time.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// The poses the vehicle came along. Fixed capacity: the last kCapacity * kPitch_m metres.
 class DrivenTrace {
@@ -86,4 +86,4 @@ class Recovery {
   Time until_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 
 #include "engine/core/constants.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr int kCoverDiscs = 3;
@@ -139,4 +139,4 @@ bool RoomFinder::meets(const DiscOutline& outline, const Eigen::Vector2d& p_W,
   return true;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

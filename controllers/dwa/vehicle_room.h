@@ -11,7 +11,7 @@
 #include "controllers/parts/paths/distance_field.h"
 #include "controllers/parts/paths/pose2.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A vehicle's outline as discs in B.
 class DiscOutline {
@@ -80,4 +80,4 @@ class RoomFinder {
   const PointField* unknown_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

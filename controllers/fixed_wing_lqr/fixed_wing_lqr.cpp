@@ -4,7 +4,7 @@
 #include "controllers/parts/aircraft/aircraft_weights.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 struct FixedWingLqrParams {
@@ -79,4 +79,4 @@ std::unique_ptr<Controller> make_fixed_wing_lqr(const ParameterSet& parameters,
                                         context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec fixed_wing_lqr_spec();
 
@@ -15,4 +15,4 @@ PartSpec fixed_wing_lqr_spec();
 std::unique_ptr<Controller> make_fixed_wing_lqr(const ParameterSet& parameters,
                                                 const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

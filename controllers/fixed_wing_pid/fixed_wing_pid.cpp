@@ -5,7 +5,7 @@
 #include "controllers/fixed_wing_pid/fixed_wing_pid_law.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 struct FixedWingPidParams {
@@ -111,4 +111,4 @@ std::unique_ptr<Controller> make_fixed_wing_pid(const ParameterSet& parameters,
       fixed_wing_pid_table().read(parameters, context.part + " (fixed_wing_pid)"), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// What integrators may learn at most: as much as asymmetry and a wrong model ask for.
@@ -61,4 +61,4 @@ void FixedWingPidLaw::learn(const AircraftControls& asked, const AircraftControl
              stops(asked.aileron_rad, left.aileron_rad, bank));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

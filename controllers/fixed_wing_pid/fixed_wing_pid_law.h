@@ -10,7 +10,7 @@
 #include "controllers/parts/aircraft/aircraft_ports.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct FixedWingGains {
   double height_per_s = 0.6;         ///< climb rate wanted per height error
@@ -53,4 +53,4 @@ class FixedWingPidLaw {
   double pitch_learnt_rad_ = 0.0, throttle_learnt_ = 0.0, aileron_learnt_rad_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 Eigen::Vector2d AxleGeometry::wheel_B(int wheel) const {
   return {wheel < 2 ? front_m : -rear_m, (wheel % 2 == 0 ? 0.5 : -0.5) * track_m};
@@ -47,4 +47,4 @@ double limit_speed(const Rolling& rolling, double speed_mps, double rim_max_mps)
   return fastest_mps > rim_max_mps ? speed_mps * (rim_max_mps / fastest_mps) : speed_mps;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -16,7 +16,7 @@
 
 #include "controllers/parts/ground_drive/axle_angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Wheels are counted front left, front right, rear left, rear right everywhere here.
 constexpr int kWheels = 4;
@@ -60,4 +60,4 @@ Rolling calc_rolling(const AxleGeometry& geometry, const AxleAngles& axles);
 /// The speed, made smaller if a wheel's rim would exceed its limit; curvature stays.
 double limit_speed(const Rolling& rolling, double speed_mps, double rim_max_mps);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

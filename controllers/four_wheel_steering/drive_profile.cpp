@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kStraight_per_m = 0.05;  // bends wider than 20 m are driven like straights
@@ -49,4 +49,4 @@ double DriveProfile::speed_at(const Path& path, int segment, double distance_m) 
   return std::min(here, stretch_speed(path, path.segment_at(ahead_m, segment), ahead_m));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "controllers/parts/paths/path_curve.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct DriveLimits {
   double speed_mps = 1.0;
@@ -39,4 +39,4 @@ class DriveProfile {
   std::vector<Stretch> stretches_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -2,7 +2,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // The ramp of a swing is not straight in the angle (tan), and feedback needs some of the rate too.
@@ -77,4 +77,4 @@ FourWheelParams read_four_wheel_params(const ParameterSet& parameters, const Ste
   return params;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/parameters.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct FourWheelParams {
   SteeringParams steering;
@@ -34,4 +34,4 @@ const ParameterTable<FourWheelParams>& four_wheel_table();
 FourWheelParams read_four_wheel_params(const ParameterSet& parameters, const SteeredDrive& vehicle,
                                        double cycle_s, const std::string& who);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

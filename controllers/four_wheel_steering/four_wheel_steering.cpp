@@ -22,7 +22,7 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 std::string describe(const ControllerContext& context) {
@@ -285,4 +285,4 @@ std::unique_ptr<Controller> make_four_wheel_steering(const ParameterSet& paramet
   return std::make_unique<FourWheelSteering>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

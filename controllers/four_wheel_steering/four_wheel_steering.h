@@ -6,7 +6,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec four_wheel_steering_spec();
 
@@ -15,4 +15,4 @@ PartSpec four_wheel_steering_spec();
 std::unique_ptr<Controller> make_four_wheel_steering(const ParameterSet& parameters,
                                                      const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

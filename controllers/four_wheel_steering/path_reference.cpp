@@ -6,7 +6,7 @@
 #include "engine/api/messages/path.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kSearchBehind_m = 0.5;  // a noisy position may lie behind the last one
@@ -66,4 +66,4 @@ double calc_slope_factor(const Eigen::Quaterniond& q_WB, double yaw_rad) {
   return cosine * cosine * cosine / n_z;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

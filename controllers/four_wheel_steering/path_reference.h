@@ -16,7 +16,7 @@
 #include "controllers/parts/paths/path_curve.h"
 #include "engine/api/forward.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Where a vehicle is on its path and what it is to drive there.
 struct PathReference {
@@ -54,4 +54,4 @@ class PathTracker {
 /// @param q_WB  attitude, its z the ground's normal  @param yaw_rad  direction of travel in plan
 double calc_slope_factor(const Eigen::Quaterniond& q_WB, double yaw_rad);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 constexpr double kCrawl_mps = 0.2;  // below, directions of the velocity are noise
 constexpr double kLargestSlip_rad = 0.35;
@@ -27,4 +27,4 @@ void SlipLearning::update(const Rolling& rolling, const Eigen::Vector2d& v_B, do
       std::clamp(curvature_per_m_, -kLargestCurvature_per_m, kLargestCurvature_per_m);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

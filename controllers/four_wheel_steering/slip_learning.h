@@ -12,7 +12,7 @@
 
 #include "controllers/four_wheel_steering/axle_geometry.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class SlipLearning {
  public:
@@ -33,4 +33,4 @@ class SlipLearning {
   double curvature_per_m_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

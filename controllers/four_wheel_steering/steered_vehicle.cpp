@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr std::array<const char*, 6> kActuators = {"axle_front_steer_rad", "axle_rear_steer_rad",
@@ -108,4 +108,4 @@ AxleAngles AxleState::predict(double dt_s) const {
   return {turn(actual_.front_rad, wanted_.front_rad), turn(actual_.rear_rad, wanted_.rear_rad)};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

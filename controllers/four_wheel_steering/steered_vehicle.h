@@ -7,7 +7,7 @@
 #include "engine/api/messages/commands.h"
 #include "engine/api/vehicle.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// The vehicle's record with what driving it takes besides; max_axle_steer_rad is cut to the range
 /// of both axles' actuators.
@@ -50,4 +50,4 @@ class AxleState {
   int front_ = -1, rear_ = -1;  ///< places in the encoders' values
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Range of gamma for which |sin g + a kappa| <= tan(max) cos g and the same with -b kappa, from
@@ -71,4 +71,4 @@ SteeringCommand steer(const AxleGeometry& geometry, const SteeringParams& params
   return command;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

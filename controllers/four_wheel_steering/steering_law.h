@@ -20,7 +20,7 @@
 
 #include "controllers/four_wheel_steering/axle_geometry.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class SteeringForm { kCorrected, kPrinted };
 
@@ -56,4 +56,4 @@ SteeringCommand steer(const AxleGeometry& geometry, const SteeringParams& params
 /// Largest curvature of the track that the axle limit allows, 1/m.
 double calc_largest_curvature(const AxleGeometry& geometry, double max_axle_rad);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // Names a minimiser of the printed cost without changing its value noticeably.
@@ -79,4 +79,4 @@ double WheelSpeedQp::cost(const Eigen::Vector4d& rim_mps) const {
   return miss * miss;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -22,7 +22,7 @@
 #include "controllers/four_wheel_steering/axle_geometry.h"
 #include "controllers/parts/solvers/qp.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class WheelSpeedForm { kTwoSided, kPrinted };
 
@@ -71,4 +71,4 @@ class WheelSpeedQp {
   Eigen::VectorXd f_, lower_, upper_, row_lower_, row_upper_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

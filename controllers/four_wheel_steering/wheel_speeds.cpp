@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 WheelSpeedParams with_form(WheelSpeedParams params, SpeedRule rule) {
@@ -54,4 +54,4 @@ const Eigen::Vector4d& WheelSpeeds::update(const Rolling& rolling, double speed_
   return rim_mps_;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

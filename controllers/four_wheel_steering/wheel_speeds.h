@@ -3,7 +3,7 @@
 
 #include "controllers/four_wheel_steering/wheel_speed_qp.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class SpeedRule {
   kQp,         ///< wheel_speed_qp.h as it must be
@@ -47,4 +47,4 @@ class WheelSpeeds {
   int iterations_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include "controllers/parts/aircraft/aircraft_mpc.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr const char* kType = "mpc_nominal";
@@ -41,4 +41,4 @@ std::unique_ptr<Controller> make_mpc_nominal(const ParameterSet& parameters,
   return make_aircraft_mpc(context, kType, params);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

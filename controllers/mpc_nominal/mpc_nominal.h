@@ -8,7 +8,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec mpc_nominal_spec();
 
@@ -16,4 +16,4 @@ PartSpec mpc_nominal_spec();
 std::unique_ptr<Controller> make_mpc_nominal(const ParameterSet& parameters,
                                              const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -14,7 +14,7 @@
 #include "engine/api/may_fail.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// All parameters of the controller; where two laws take one, it stands in the first of them.
@@ -198,4 +198,4 @@ std::unique_ptr<Controller> make_path_follower(const ParameterSet& parameters,
   return std::make_unique<PathFollower>(read_params(parameters, context), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

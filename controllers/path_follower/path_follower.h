@@ -7,7 +7,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec path_follower_spec();
 
@@ -15,4 +15,4 @@ PartSpec path_follower_spec();
 std::unique_ptr<Controller> make_path_follower(const ParameterSet& parameters,
                                                const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

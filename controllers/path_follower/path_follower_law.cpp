@@ -6,7 +6,7 @@
 #include "controllers/parts/paths/path_corners.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 constexpr double kSearchBehind_m = 0.5;  // a noisy position may lie behind the last one
 constexpr double kSearchAhead_m = 1.0;
@@ -152,4 +152,4 @@ VelocityCommand PathFollowerLaw::step(const Pose2& pose, const Sideslip& slide,
   return {speed_mps_, calc_yaw_rate(at, heading_error, slide, speed)};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

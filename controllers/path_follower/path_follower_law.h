@@ -28,7 +28,7 @@
 #include "controllers/path_follower/speed_profile.h"
 #include "engine/api/messages/commands.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Sideslip angle beta = -arm w / v + drift.
 struct Sideslip {
@@ -106,4 +106,4 @@ class PathFollowerLaw {
   double integral_m_ = 0.0;  ///< lateral offset that the integral stands for
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

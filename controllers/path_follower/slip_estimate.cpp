@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kKnee_radps = 0.15;  // yaw rate at which turning begins to tell something
@@ -52,4 +52,4 @@ void SlipEstimate::update(double asked_radps, double measured_radps, const Eigen
   slide_.drift_rad = std::clamp(slide_.drift_rad, -kLargestDrift_rad, kLargestDrift_rad);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 
 #include "controllers/path_follower/path_follower_law.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct SlipEstimateParams {
   double effectiveness = 1.0;  ///< eta at the start
@@ -44,4 +44,4 @@ class SlipEstimate {
   Eigen::Vector2d v_B_ = Eigen::Vector2d::Zero();
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "controllers/parts/paths/path_corners.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kSmooth_rad = 0.17;  // 10 deg: what is less is no corner
@@ -47,4 +47,4 @@ double SpeedProfile::speed_at(const Path& path, int segment, double distance_m) 
                   std::sqrt(stretch.end_mps * stretch.end_mps + 2.0 * acceleration_mps2_ * left_m));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "controllers/parts/paths/path_curve.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct SpeedLimits {
   double speed_mps = 7.0 / 3.6;
@@ -37,4 +37,4 @@ class SpeedProfile {
   std::vector<Stretch> stretches_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -13,7 +13,7 @@
 #include "engine/math/angles.h"
 #include "engine/math/deviation.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// The law's parameters as files have them, and what stands beside the law.
@@ -187,4 +187,4 @@ std::unique_ptr<Controller> make_pure_pursuit(const ParameterSet& parameters,
   return std::make_unique<PurePursuit>(read_params(parameters, context), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec pure_pursuit_spec();
 
@@ -14,4 +14,4 @@ PartSpec pure_pursuit_spec();
 std::unique_ptr<Controller> make_pure_pursuit(const ParameterSet& parameters,
                                               const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "engine/api/messages/path.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kSpotGain_per_s = 2.0;  // turning on the spot: yaw rate per heading error
@@ -133,4 +133,4 @@ VelocityCommand PurePursuitLaw::step(const Pose2& pose) {
   return command;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -31,7 +31,7 @@
 #include "engine/api/messages/commands.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct PurePursuitParams {
   double lookahead_m = 0.75;         ///< LD
@@ -99,4 +99,4 @@ class PurePursuitLaw {
 std::optional<double> intersect_circle(const Eigen::Vector2d& centre, double radius_m,
                                        const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

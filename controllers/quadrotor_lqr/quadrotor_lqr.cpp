@@ -4,7 +4,7 @@
 #include "controllers/quadrotor_lqr/quadrotor_lqr_law.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 struct QuadrotorLqrParams {
@@ -100,4 +100,4 @@ std::unique_ptr<Controller> make_quadrotor_lqr(const ParameterSet& parameters,
   return std::make_unique<QuadrotorLqr>(read_params(parameters, context), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "controllers/parts/solvers/riccati.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Weights of the wrench states, per acceleration: only so that no state is free.
@@ -134,4 +134,4 @@ Wrench QuadrotorLqrLaw::step(const TrajectoryPoint& at, const Odometry& odometry
   return wanted;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

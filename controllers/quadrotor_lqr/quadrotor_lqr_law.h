@@ -24,7 +24,7 @@
 #include "controllers/parts/rotorcraft/hover_frame.h"
 #include "controllers/parts/rotorcraft/rotor_prediction.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct LqrParams {
   /// Weights of squared errors. Horizontal, vertical:
@@ -75,4 +75,4 @@ class QuadrotorLqrLaw {
   Eigen::VectorXd error_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kLeastLift = 0.3;
@@ -60,4 +60,4 @@ void FlightTargets::lead_back(double excess_m) {
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

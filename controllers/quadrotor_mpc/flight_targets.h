@@ -12,7 +12,7 @@
 
 #include "controllers/parts/rotorcraft/hover_frame.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class FlightTargets {
  public:
@@ -39,4 +39,4 @@ class FlightTargets {
   Eigen::Vector2d missed_mps2_ = Eigen::Vector2d::Zero();
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 bool LimitWatch::keeps(const FlightDeviation& deviation, double share) const {
   return deviation.tilt_rad <= share * limits_.tilt_rad &&
@@ -45,4 +45,4 @@ std::string LimitWatch::describe(const FlightDeviation& deviation) const {
   return text;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

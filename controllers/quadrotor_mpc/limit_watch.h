@@ -5,7 +5,7 @@
 
 #include "controllers/quadrotor_mpc/quadrotor_mpc_params.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// What the limits are about, now.
 struct FlightDeviation {
@@ -36,4 +36,4 @@ class LimitWatch {
   double left_at_s_ = 0.0, outside_s_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

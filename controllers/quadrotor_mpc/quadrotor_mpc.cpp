@@ -10,7 +10,7 @@
 #include "engine/api/messages/event.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr const char* kType = "quadrotor_mpc";
@@ -193,4 +193,4 @@ std::unique_ptr<Controller> make_quadrotor_mpc(const ParameterSet& parameters,
   return std::make_unique<QuadrotorMpc>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

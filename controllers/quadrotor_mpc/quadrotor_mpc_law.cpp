@@ -5,7 +5,7 @@
 
 #include "controllers/parts/solvers/discretise.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kPull_m = 2.0;
@@ -103,4 +103,4 @@ const Wrench& QuadrotorMpcLaw::step(const Odometry& odometry,
   return wanted_;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -22,7 +22,7 @@
 #include "controllers/quadrotor_mpc/flight_targets.h"
 #include "controllers/quadrotor_mpc/quadrotor_mpc_params.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// The problem that the law solves, for the constructor and for tests.
 LinearMpcProblem make_quadrotor_problem(const RotorcraftModel& craft, const RotorMixer& mixer,
@@ -73,4 +73,4 @@ class QuadrotorMpcLaw {
   std::vector<double> speeds_radps_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

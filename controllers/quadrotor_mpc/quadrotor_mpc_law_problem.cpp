@@ -11,7 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr int kStates = HoverModel::kStatesWithLag;
@@ -85,4 +85,4 @@ LinearMpcProblem make_quadrotor_problem(const RotorcraftModel& craft, const Roto
   return problem;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -2,7 +2,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 const ParameterTable<QuadrotorMpcParams>& quadrotor_mpc_table() {
   using P = QuadrotorMpcParams;
@@ -48,4 +48,4 @@ const ParameterTable<QuadrotorMpcParams>& quadrotor_mpc_table() {
   return table;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Weights of the cost, per tick of 0.05 s; other periods scale them, so that the cost per second
 /// stays. Axes of H: along the wanted heading, left, up.
@@ -41,4 +41,4 @@ struct QuadrotorMpcParams {
 /// All but period_s.
 const ParameterTable<QuadrotorMpcParams>& quadrotor_mpc_table();
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// The shortest turn from the z axis of q_WB to that of `wanted`, in B. Opposite axes: about x.
@@ -48,4 +48,4 @@ Eigen::Vector3d calc_wanted_rates(const Eigen::Quaterniond& q_WB, const Eigen::Q
   return rates;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -11,7 +11,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct AttitudeParams {
   double tilt_p_per_s = 8.0;
@@ -28,4 +28,4 @@ Eigen::Quaterniond calc_wanted_attitude(const Eigen::Vector3d& F_W, double yaw_r
 Eigen::Vector3d calc_wanted_rates(const Eigen::Quaterniond& q_WB, const Eigen::Quaterniond& wanted,
                                   double yaw_rate_radps, const AttitudeParams& params);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "controllers/quadrotor_pid/axis_gains.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PositionLaw::PositionLaw(const RotorcraftModel& craft, const PositionParams& params)
     : craft_(craft), params_(params) {}
@@ -73,4 +73,4 @@ void PositionLaw::integrate(const Eigen::Vector3d& v_error, const Eigen::Vector3
   integral_ += growth;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

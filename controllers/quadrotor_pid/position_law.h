@@ -15,7 +15,7 @@
 #include "controllers/parts/rotorcraft/rotorcraft.h"
 #include "engine/api/messages/flight.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct PositionParams {
   /// Gains: horizontal, vertical.
@@ -55,4 +55,4 @@ class PositionLaw {
   bool has_before_ = false;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "controllers/quadrotor_pid/rate_law.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// What files say; the limits are shared by the loops.
@@ -157,4 +157,4 @@ std::unique_ptr<Controller> make_quadrotor_pid(const ParameterSet& parameters,
       quadrotor_pid_table().read(parameters, context.part + " (quadrotor_pid)"), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

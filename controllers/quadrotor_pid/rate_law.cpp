@@ -4,7 +4,7 @@
 
 #include "controllers/quadrotor_pid/axis_gains.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 RateLaw::RateLaw(const RotorcraftModel& craft, const RateParams& params)
     : craft_(craft), params_(params) {}
@@ -44,4 +44,4 @@ Eigen::Vector3d RateLaw::step(const Eigen::Vector3d& wanted_radps, const Eigen::
   return limited;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -11,7 +11,7 @@
 
 #include "controllers/parts/rotorcraft/rotorcraft.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct RateParams {
   /// Gains about x and y (the first) and z.
@@ -43,4 +43,4 @@ class RateLaw {
   bool has_before_ = false;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

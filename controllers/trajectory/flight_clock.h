@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class FlightClock {
  public:
@@ -71,4 +71,4 @@ inline double calc_clock_rate(double away_m, double wait_m) {
   return std::clamp(2.0 - away_m / wait_m, 0.0, 1.0);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

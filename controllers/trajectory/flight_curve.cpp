@@ -4,7 +4,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kShortest_m = 1e-6;
@@ -76,4 +76,4 @@ std::vector<CurveRun> make_curve_runs(const PlannedPath& plan, double sharp_rad)
   return runs;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "engine/api/forward.h"
 #include "engine/api/messages/path.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Between two points of a plan.
 struct CurvePiece {
@@ -40,4 +40,4 @@ struct CurveRun {
 /// @returns empty where the plan has no length
 std::vector<CurveRun> make_curve_runs(const PlannedPath& plan, double sharp_rad);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

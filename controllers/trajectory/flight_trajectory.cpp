@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // The vehicle begins to turn when it is this far above the ground.
@@ -192,4 +192,4 @@ double FlightTrajectory::time_of(double distance_m) const {
   return high_s;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

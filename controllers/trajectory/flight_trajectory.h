@@ -10,7 +10,7 @@
 #include "engine/api/messages/flight.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Holding a place before the last run, the landing.
 struct FlightHold {
@@ -79,4 +79,4 @@ class FlightTrajectory {
   double end_height_m_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -1,7 +1,7 @@
 #pragma once
 /// Feels the ground: the vehicle stands although it should go down.
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class LandingWatch {
  public:
@@ -38,4 +38,4 @@ class LandingWatch {
   double over_s_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

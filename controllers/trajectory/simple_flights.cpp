@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // Nearer than this a vehicle is at a place.
@@ -59,4 +59,4 @@ PlannedPath make_hover_plan(const Eigen::Vector3d& start_W, const Eigen::Vector3
   return flight;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

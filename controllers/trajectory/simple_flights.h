@@ -3,7 +3,7 @@
 
 #include "engine/api/messages/path.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// True where a plan says itself how to take off or land.
 bool has_vertical(const PlannedPath& plan);
@@ -18,4 +18,4 @@ PlannedPath lift_plan(const PlannedPath& plan, const Eigen::Vector3d& start_W, d
 /// Straight up to hover_W's height, straight to it, straight down to the height it started from.
 PlannedPath make_hover_plan(const Eigen::Vector3d& start_W, const Eigen::Vector3d& hover_W);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

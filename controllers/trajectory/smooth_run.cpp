@@ -6,7 +6,7 @@
 #include "controllers/parts/paths/box_filter.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kStep_m = 0.05;
@@ -58,4 +58,4 @@ SmoothRun::Sample SmoothRun::at(double at_m) const {
   return sample;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

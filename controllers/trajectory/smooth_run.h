@@ -11,7 +11,7 @@
 #include "controllers/trajectory/flight_curve.h"
 #include "controllers/trajectory/uniform_spline.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class SmoothRun {
  public:
@@ -46,4 +46,4 @@ class SmoothRun {
   std::vector<double> speeds_mps_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "controllers/parts/paths/box_filter.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kStep_s = 0.02;
@@ -162,4 +162,4 @@ double TimeLaw::time_of(double distance_m) const {
   return high_s;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 
 #include "controllers/trajectory/smooth_run.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Limits of the vehicle's motion.
 struct TrajectoryLimits {
@@ -44,4 +44,4 @@ class TimeLaw {
   UniformSpline<double> spline_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -14,7 +14,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Phase = ReferenceTrajectory::Phase;
@@ -205,4 +205,4 @@ std::unique_ptr<Guidance> make_trajectory(const ParameterSet& parameters,
   return std::make_unique<Trajectory>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

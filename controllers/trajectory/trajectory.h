@@ -8,7 +8,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec trajectory_spec();
 
@@ -16,4 +16,4 @@ PartSpec trajectory_spec();
 std::unique_ptr<Guidance> make_trajectory(const ParameterSet& parameters,
                                           const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

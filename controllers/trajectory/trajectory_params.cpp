@@ -8,7 +8,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 namespace {
 
@@ -132,4 +132,4 @@ TrajectoryParams read_trajectory_params(const ParameterSet& parameters,
   return params;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct TrajectoryParams {
   int horizon = 20;
@@ -30,4 +30,4 @@ const ParameterTable<TrajectoryParams>& trajectory_table();
 TrajectoryParams read_trajectory_params(const ParameterSet& parameters,
                                         const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 template <class T>
 class UniformSpline {
@@ -53,4 +53,4 @@ class UniformSpline {
   std::vector<T> points_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

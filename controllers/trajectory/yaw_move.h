@@ -6,7 +6,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct YawMove {
   double start_s = 0.0;
@@ -41,4 +41,4 @@ inline YawMove make_yaw_move(double start_s, double from_rad, double to_rad, dou
   return {start_s, duration_s, from_rad, turn_rad};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

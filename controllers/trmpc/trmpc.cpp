@@ -7,7 +7,7 @@
 #include "controllers/parts/aircraft/aircraft_mpc.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr const char* kType = "trmpc";
@@ -94,4 +94,4 @@ std::unique_ptr<Controller> make_trmpc(const ParameterSet& parameters,
   return make_aircraft_mpc(context, kType, read(parameters, context.part + " (" + kType + ")"));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec trmpc_spec();
 
@@ -16,4 +16,4 @@ PartSpec trmpc_spec();
 std::unique_ptr<Controller> make_trmpc(const ParameterSet& parameters,
                                        const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

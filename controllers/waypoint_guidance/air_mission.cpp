@@ -7,7 +7,7 @@
 
 #include "controllers/parts/aircraft/wind_triangle.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 using Phase = AirReference::Phase;
 
@@ -232,4 +232,4 @@ void AirMission::tell(bool is_bad, std::string text) {
   is_bad_news_ = is_bad;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

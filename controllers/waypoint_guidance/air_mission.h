@@ -20,7 +20,7 @@
 #include "controllers/waypoint_guidance/waypoint_guidance_params.h"
 #include "engine/api/messages/flight.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class AirMission {
  public:
@@ -138,4 +138,4 @@ class AirMission {
   bool is_bad_news_ = false;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

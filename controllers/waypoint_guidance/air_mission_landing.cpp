@@ -7,7 +7,7 @@
 #include "controllers/parts/aircraft/wind_triangle.h"
 #include "controllers/waypoint_guidance/air_mission.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 namespace {
 
@@ -222,4 +222,4 @@ std::optional<Eigen::Vector2d> AirMission::touchdown() const {
   return Eigen::Vector2d(final_.front().frame.to_W().head<2>());
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

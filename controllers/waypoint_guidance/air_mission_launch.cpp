@@ -7,7 +7,7 @@
 #include "controllers/parts/aircraft/wind_triangle.h"
 #include "controllers/waypoint_guidance/air_mission.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void AirMission::launch(const GuidanceState& state) {
   stage_ = Stage::kLaunch;
@@ -131,4 +131,4 @@ void AirMission::lay_transit(const GuidanceState& state) {
   pilot_.aim(legs_.front().frame);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// In W; plan view where it is two numbers.
 struct GuidanceState {
@@ -39,4 +39,4 @@ inline double unwrap_near(double angle_rad, double near_rad) {
   return near_rad + wrap_angle(angle_rad - near_rad);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 struct Waypoint {
@@ -158,4 +158,4 @@ HeightPoint calc_height(const std::vector<FlightLeg>& legs, std::size_t leg, dou
   return {frame.height_m(along_m), is_inside ? frame.slope() : 0.0};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

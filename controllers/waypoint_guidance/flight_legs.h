@@ -11,7 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A sharper corner is a way back: no tangent leads from leg to leg, the waypoint is flown over.
 inline constexpr double kReversal_rad = 150.0 * kPi / 180.0;
@@ -57,4 +57,4 @@ struct HeightPoint {
 HeightPoint calc_height(const std::vector<FlightLeg>& legs, std::size_t leg, double along_m,
                         double kink_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/parts/aircraft/wind_triangle.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 double TurnLimits::radius_m(double airspeed_mps) const {
   return airspeed_mps * airspeed_mps / (gravity_mps2 * std::tan(bank_rad));
@@ -60,4 +60,4 @@ PredictedTurn predict_turn(HeadingGenerator generator, const Eigen::Vector2d& po
   return turn;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

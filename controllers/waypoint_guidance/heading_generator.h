@@ -12,7 +12,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct TurnLimits {
   double gain_per_s = 1.0;  ///< k
@@ -60,4 +60,4 @@ PredictedTurn predict_turn(HeadingGenerator generator, const Eigen::Vector2d& po
                            double wanted_rad, double end_rad, const Eigen::Vector2d& wind,
                            double airspeed_mps);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class HeightReference {
  public:
@@ -34,4 +34,4 @@ class HeightReference {
   double rate_mps_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

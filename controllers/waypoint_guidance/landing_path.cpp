@@ -5,7 +5,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Half the width of the means: shorter waves than twice this no aircraft follows.
@@ -97,4 +97,4 @@ double LandingPath::steepest_fall() const {
   return fall;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

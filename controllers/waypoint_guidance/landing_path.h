@@ -11,7 +11,7 @@
 
 #include "controllers/waypoint_guidance/landing_slope.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Height of the ground as the vehicle's map has it; nothing where it has none.
 using GroundBelow = std::function<std::optional<double>(const Eigen::Vector2d&)>;
@@ -59,4 +59,4 @@ class LandingPath {
   std::vector<double> ground_, path_;  // every kStep_m from the line's begin
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 
 #include "controllers/waypoint_guidance/flight_legs.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class LandingSlope {
  public:
@@ -46,4 +46,4 @@ class LandingSlope {
   double flare_length_m_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

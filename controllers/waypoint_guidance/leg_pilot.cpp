@@ -5,7 +5,7 @@
 
 #include "controllers/parts/aircraft/wind_triangle.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 double calc_corner_rad(const std::vector<FlightLeg>& legs, std::size_t leg) {
@@ -156,4 +156,4 @@ WantedCourse LegPilot::ask_law(const LegFrame& frame, const GuidanceState& state
   return {course_rad_ + wrap_angle(std::atan2(way.y(), way.x()) - frame.course_rad()), 0.0};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -16,7 +16,7 @@
 #include "controllers/waypoint_guidance/flight_legs.h"
 #include "controllers/waypoint_guidance/heading_generator.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct LegPilotOptions {
   bool is_smooth = true;
@@ -77,4 +77,4 @@ class LegPilot {
 double calc_fly_by_m(const TurnLimits& limits, double corner_rad, double ground_speed_mps,
                      double airspeed_mps);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

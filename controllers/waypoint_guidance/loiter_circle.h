@@ -6,7 +6,7 @@
 
 #include "controllers/waypoint_guidance/air_state.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct LoiterCircle {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
@@ -35,4 +35,4 @@ struct LoiterCircle {
   }
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -14,7 +14,7 @@
 #include "engine/api/scene_query.h"
 #include "engine/api/sees_ground.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 bool is_finite(const Odometry& odometry) {
@@ -201,4 +201,4 @@ std::unique_ptr<Guidance> make_waypoint_guidance(const ParameterSet& parameters,
   return std::make_unique<WaypointGuidance>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,10 +7,10 @@
 
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec waypoint_guidance_spec();
 std::unique_ptr<Guidance> make_waypoint_guidance(const ParameterSet& parameters,
                                                  const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// As files have them: what is absent beside the parameters follows from the vehicle.
@@ -226,4 +226,4 @@ WaypointGuidanceParams read_waypoint_guidance_params(const ParameterSet& paramet
   return params;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "engine/api/stepped_parts.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct WaypointGuidanceParams {
   enum class End { kLand, kLoiter, kStop };
@@ -50,4 +50,4 @@ std::vector<ParameterSpec> waypoint_guidance_parameters();
 WaypointGuidanceParams read_waypoint_guidance_params(const ParameterSet& parameters,
                                                      const ControllerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::io {
+namespace vinerow {
 
 struct LocalFrame::Impl {
   GeographicLib::LocalCartesian projection;
@@ -53,4 +53,4 @@ Geodetic LocalFrame::to_geodetic(const Eigen::Vector3d& p_W) const {
   return {rad_from_deg(latitude_deg), rad_from_deg(longitude_deg), altitude_m};
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow

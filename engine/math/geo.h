@@ -6,7 +6,7 @@
 
 #include "engine/math/geo_origin.h"
 
-namespace vinerow::io {
+namespace vinerow {
 
 /// A point on or above the WGS84 ellipsoid.
 struct Geodetic {
@@ -39,4 +39,4 @@ class LocalFrame {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace vinerow::io
+}  // namespace vinerow

@@ -10,7 +10,7 @@
 #include "engine/math/angles.h"
 #include "engine/metrics/spread.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 constexpr std::array<const char*, 4> kOutside = {"outside_lon_states", "outside_lon_inputs",
@@ -173,4 +173,4 @@ std::unique_ptr<Metric> make_air_tracking(const ParameterSet&, const MetricConte
   return std::make_unique<AirTracking>(context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

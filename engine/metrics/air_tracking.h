@@ -24,11 +24,11 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 const std::vector<MetricNumber>& air_tracking_numbers();
 PartSpec air_tracking_spec();
 std::unique_ptr<Metric> make_air_tracking(const ParameterSet& parameters,
                                           const MetricContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -13,7 +13,7 @@
 #include "engine/metrics/spread.h"
 #include "engine/metrics/tenths.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 using Eigen::Vector2d;
@@ -218,4 +218,4 @@ std::unique_ptr<Metric> make_alley_place(const ParameterSet&, const MetricContex
   return std::make_unique<AlleyPlace>(context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -22,11 +22,11 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 const std::vector<MetricNumber>& alley_place_numbers();
 PartSpec alley_place_spec();
 std::unique_ptr<Metric> make_alley_place(const ParameterSet& parameters,
                                          const MetricContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

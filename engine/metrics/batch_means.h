@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 class BatchMeans {
  public:
@@ -68,4 +68,4 @@ class BatchMeans {
   double batch_sum_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

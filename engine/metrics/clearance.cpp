@@ -11,7 +11,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/metrics/spread.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 /// What stands in a row.
@@ -141,4 +141,4 @@ std::unique_ptr<Metric> make_clearance(const ParameterSet& parameters,
   return std::make_unique<Clearance>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

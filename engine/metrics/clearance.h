@@ -17,11 +17,11 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 const std::vector<MetricNumber>& clearance_numbers();
 PartSpec clearance_spec();
 std::unique_ptr<Metric> make_clearance(const ParameterSet& parameters,
                                        const MetricContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

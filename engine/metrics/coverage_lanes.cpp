@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 using Eigen::Vector2d;
@@ -88,4 +88,4 @@ std::vector<double> side_overlaps(const std::vector<PictureFootprint>& footprint
   return overlaps;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

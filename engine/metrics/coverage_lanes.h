@@ -6,7 +6,7 @@
 
 #include "engine/math/polygon.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 struct PictureFootprint {
   Polygon polygon_W;  ///< convex, counter-clockwise
@@ -20,4 +20,4 @@ struct PictureFootprint {
 /// sides of it. Empty for fewer than two lanes.
 std::vector<double> side_overlaps(const std::vector<PictureFootprint>& footprints);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

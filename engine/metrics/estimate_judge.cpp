@@ -6,7 +6,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 ln 0.05
@@ -155,4 +155,4 @@ double chi_square_quantile(double degrees_of_freedom, double z) {
   return degrees_of_freedom * std::pow(1.0 - a + z * std::sqrt(a), 3);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -12,7 +12,7 @@
 #include "engine/metrics/metric_numbers.h"
 #include "engine/metrics/spread.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 class EstimateJudge {
  public:
@@ -94,4 +94,4 @@ std::vector<MetricNumber> judge_numbers(const EstimateJudge::Prefixes& prefixes)
 /// @param z  the normal quantile of the wanted probability
 double chi_square_quantile(double degrees_of_freedom, double z);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -12,7 +12,7 @@
 #include "engine/math/deviation.h"
 #include "engine/metrics/estimate_judge.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 struct EstimationParams {
@@ -143,4 +143,4 @@ std::unique_ptr<Metric> make_estimation(const ParameterSet& parameters,
   return std::make_unique<Estimation>(estimation_table().read(parameters, ""), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -32,11 +32,11 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 const std::vector<MetricNumber>& estimation_numbers();
 PartSpec estimation_spec();
 std::unique_ptr<Metric> make_estimation(const ParameterSet& parameters,
                                         const MetricContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -6,7 +6,7 @@
 
 #include "engine/metrics/spread.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 struct Extremes {
   double min = std::numeric_limits<double>::infinity();
@@ -20,4 +20,4 @@ struct Extremes {
   double max_or_nan() const { return min <= max ? max : kNotMeasured; }
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -12,7 +12,7 @@
 #include "engine/metrics/extremes.h"
 #include "engine/metrics/spread.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 /// A reference that gains or loses less speed than this is at its row speed: climbing over the
@@ -189,4 +189,4 @@ std::unique_ptr<Metric> make_flight(const ParameterSet&, const MetricContext& co
   return std::make_unique<Flight>(context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

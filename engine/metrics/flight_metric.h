@@ -26,10 +26,10 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 const std::vector<MetricNumber>& flight_numbers();
 PartSpec flight_spec();
 std::unique_ptr<Metric> make_flight(const ParameterSet& parameters, const MetricContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -80,4 +80,4 @@ const MetricNumber* find_number(const std::vector<MetricNumber>& numbers, std::s
   return found == numbers.end() ? nullptr : &*found;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

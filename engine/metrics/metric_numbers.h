@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 struct MetricNumber {
   /// As in results(); "<wheel>" stands for one name or another: "slip_max_<wheel>".
@@ -39,4 +39,4 @@ std::vector<std::string> written(const std::vector<MetricNumber>& numbers);
 /// The one that declares a result of this name; nullptr: none does.
 const MetricNumber* find_number(const std::vector<MetricNumber>& numbers, std::string_view name);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -10,7 +10,7 @@
 #include "engine/metrics/spread.h"
 #include "engine/metrics/tenths.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 class PathDeviation final : public Metric {
@@ -154,4 +154,4 @@ std::unique_ptr<Metric> make_path_deviation(const ParameterSet&, const MetricCon
   return std::make_unique<PathDeviation>();
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

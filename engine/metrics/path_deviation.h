@@ -19,11 +19,11 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 const std::vector<MetricNumber>& path_deviation_numbers();
 PartSpec path_deviation_spec();
 std::unique_ptr<Metric> make_path_deviation(const ParameterSet& parameters,
                                             const MetricContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

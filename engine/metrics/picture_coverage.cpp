@@ -11,7 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/metrics/coverage_lanes.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 using Eigen::Vector2d;
@@ -254,4 +254,4 @@ CoverageMap map_coverage(const std::vector<LaneShot>& shots, const CoverageOptio
   return map;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -25,7 +25,7 @@
 #include "engine/math/polygon.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 /// A picture and the lane it was taken on; -1: between lanes.
 struct LaneShot {
@@ -80,4 +80,4 @@ CoverageMap map_coverage(const std::vector<LaneShot>& shots, const CoverageOptio
 /// Seen from above, counter-clockwise. Empty where the shot is not on the ground.
 Polygon footprint_W(const CameraShot& shot);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

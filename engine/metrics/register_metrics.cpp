@@ -13,7 +13,7 @@
 #include "engine/metrics/travel.h"
 #include "engine/metrics/wheel_slip.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 namespace {
 
@@ -47,4 +47,4 @@ const MetricNumber* find_metric_number(const std::string& type, std::string_view
   return nullptr;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

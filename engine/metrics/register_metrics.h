@@ -5,7 +5,7 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 /// Adds the built-in metrics.
 void register_metrics(Registry& registry);
@@ -14,4 +14,4 @@ void register_metrics(Registry& registry);
 /// is a plug-in's.
 const MetricNumber* find_metric_number(const std::string& type, std::string_view name);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

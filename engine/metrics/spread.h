@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 /// What a metric says where it had nothing to measure.
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
@@ -28,4 +28,4 @@ struct Spread {
   double max_or_nan() const { return count ? max : kNotMeasured; }
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -11,7 +11,7 @@
 #include "engine/api/plan_stretch.h"
 #include "engine/api/world_model.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 /// Room for more than an hour at one picture per second; later ones take more memory.
@@ -136,4 +136,4 @@ std::unique_ptr<Metric> make_survey_coverage(const ParameterSet& parameters,
   return std::make_unique<SurveyMetric>(survey_metric_table().read(parameters, ""), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

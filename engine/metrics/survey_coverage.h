@@ -12,7 +12,7 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/picture_coverage.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 PartSpec survey_coverage_spec();
 /// Of its parameters; the parcel is empty where none is given.
@@ -23,4 +23,4 @@ CoverageOptions read_coverage_options(const ParameterSet& parameters);
 std::unique_ptr<Metric> make_survey_coverage(const ParameterSet& parameters,
                                              const MetricContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -7,7 +7,7 @@
 
 #include "engine/metrics/spread.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 class Tenths {
  public:
@@ -35,4 +35,4 @@ class Tenths {
   double last_ = kNotMeasured;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

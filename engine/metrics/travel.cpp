@@ -5,7 +5,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/metrics/spread.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 class Travel final : public Metric {
@@ -119,4 +119,4 @@ std::unique_ptr<Metric> make_travel(const ParameterSet&, const MetricContext& co
   return std::make_unique<Travel>(context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

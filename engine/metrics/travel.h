@@ -13,10 +13,10 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 const std::vector<MetricNumber>& travel_numbers();
 PartSpec travel_spec();
 std::unique_ptr<Metric> make_travel(const ParameterSet& parameters, const MetricContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

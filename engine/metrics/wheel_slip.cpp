@@ -9,7 +9,7 @@
 #include "engine/api/plan_stretch.h"
 #include "engine/metrics/spread.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 namespace {
 
 constexpr double kStanding_mps = 0.05;
@@ -149,4 +149,4 @@ std::unique_ptr<Metric> make_wheel_slip(const ParameterSet&, const MetricContext
   return std::make_unique<WheelSlip>(context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

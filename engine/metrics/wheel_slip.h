@@ -20,11 +20,11 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/metric_numbers.h"
 
-namespace vinerow {
+namespace vinerow::metrics {
 
 const std::vector<MetricNumber>& wheel_slip_numbers();
 PartSpec wheel_slip_spec();
 std::unique_ptr<Metric> make_wheel_slip(const ParameterSet& parameters,
                                         const MetricContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::metrics

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace vinerow {
+namespace vinerow::playback {
 
 std::string canopy_json(const std::string& vehicle, const std::string& payload,
                         const CanopyCoverage& coverage) {
@@ -26,4 +26,4 @@ std::string canopy_json(const std::string& vehicle, const std::string& payload,
   return text + "]}\n";
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

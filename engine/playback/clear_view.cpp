@@ -6,7 +6,7 @@
 #include "engine/api/mesh.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 namespace {
 
 using Eigen::AlignedBox2d;
@@ -125,4 +125,4 @@ render::Camera find_clear_view(const std::vector<render::Camera>& candidates, do
   return *best;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

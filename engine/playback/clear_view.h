@@ -11,7 +11,7 @@
 #include "engine/render/cameras.h"
 #include "engine/render/scene.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 
 /// What a camera should show.
 struct Subject {
@@ -42,4 +42,4 @@ std::vector<render::ChaseOptions> chase_candidates(const render::ChaseOptions& a
 render::Camera find_clear_view(const std::vector<render::Camera>& candidates, double aspect,
                                const Subject& subject, const SceneQuery& scene);
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

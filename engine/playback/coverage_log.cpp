@@ -14,7 +14,7 @@
 #include "engine/playback/run_frames.h"
 #include "engine/sim/simulation.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 namespace {
 
 using nlohmann::ordered_json;
@@ -23,23 +23,24 @@ using nlohmann::ordered_json;
 constexpr double kTrackPitch_m = 0.5;
 
 /// The parameters of the scenario's metric `survey`; its defaults where it names none.
-ParameterSet survey_metric_parameters(const io::Scenario& scenario) {
-  for (const io::NamedPart& metric : scenario.metrics) {
-    if (metric.part.type == survey_coverage_spec().name) return metric.part.parameters;
+ParameterSet survey_metric_parameters(const scenario::Scenario& scenario) {
+  for (const scenario::NamedPart& metric : scenario.metrics) {
+    if (metric.part.type == metrics::survey_coverage_spec().name) return metric.part.parameters;
   }
-  return ParameterSet(survey_coverage_spec().parameters, survey_coverage_spec().name);
+  return ParameterSet(metrics::survey_coverage_spec().parameters,
+                      metrics::survey_coverage_spec().name);
 }
 
-std::vector<LaneShot> read_shots(const record::LogReader& log, const std::string& topic,
-                                 const VehicleTrace& trace) {
+std::vector<metrics::LaneShot> read_shots(const record::LogReader& log, const std::string& topic,
+                                          const VehicleTrace& trace) {
   PlanStretch plan;
   std::size_t plans_seen = 0;
-  std::vector<LaneShot> shots;
+  std::vector<metrics::LaneShot> shots;
   log.read<CameraShot>(topic, [&](Time t, const CameraShot& shot) {
     while (plans_seen < trace.plan.times.size() && trace.plan.times[plans_seen] <= t) {
       plan.take_over(trace.plan.values[plans_seen++]);
     }
-    LaneShot taken{shot, 0};
+    metrics::LaneShot taken{shot, 0};
     if (plan.has_plan() && !trace.truth.empty()) {
       const Odometry truth = trace.truth_at(t);
       taken.lane = plan.lane(truth.X_WB.p, truth.X_WB.q * truth.v_WB_B);
@@ -59,10 +60,10 @@ std::vector<Eigen::Vector2d> track_of(const VehicleTrace& trace) {
 }
 
 /// Around all pictures.
-Polygon hull_of(const std::vector<LaneShot>& shots) {
+Polygon hull_of(const std::vector<metrics::LaneShot>& shots) {
   Polygon corners;
-  for (const LaneShot& taken : shots) {
-    const Polygon footprint = footprint_W(taken.shot);
+  for (const metrics::LaneShot& taken : shots) {
+    const Polygon footprint = metrics::footprint_W(taken.shot);
     corners.insert(corners.end(), footprint.begin(), footprint.end());
   }
   return convex_hull(std::move(corners));
@@ -92,16 +93,16 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
   }
   if (!has_shots) return {};
 
-  const io::Scenario scenario = scenario_of_log(log, registry);
+  const scenario::Scenario scenario = scenario_of_log(log, registry);
   const ParameterSet parameters = survey_metric_parameters(scenario);
-  CoverageOptions options = read_coverage_options(parameters);
+  metrics::CoverageOptions options = metrics::read_coverage_options(parameters);
   options.cell_m = choice.cell_m.value_or(options.cell_m);
   if (!choice.parcel_W.empty()) options.parcel_W = choice.parcel_W;
   const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
   if (options.parcel_W.empty()) options.parcel_W = world->rows->boundary_W;
 
   std::vector<std::string> names;
-  for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  for (const scenario::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   const LogTrace trace = read_trace(reader, names);
   std::vector<SurveyCoverage> all;
   for (const std::string& name : names) {
@@ -121,7 +122,7 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
       }
       one.options = options;
       if (one.options.parcel_W.empty()) one.options.parcel_W = hull_of(one.shots);
-      one.map = map_coverage(one.shots, one.options);
+      one.map = metrics::map_coverage(one.shots, one.options);
       all.push_back(std::move(one));
     }
   }
@@ -130,11 +131,11 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
 
 std::string coverage_json(const SurveyCoverage& coverage) {
   ordered_json numbers, parcel = ordered_json::array(), pictures = ordered_json::array();
-  for (const MetricNumber& number : coverage_numbers()) {
+  for (const metrics::MetricNumber& number : metrics::coverage_numbers()) {
     numbers[number.name] = json_of(coverage.map.numbers.at(number.name));
   }
   for (const Eigen::Vector2d& p : coverage.options.parcel_W) parcel.push_back({p.x(), p.y()});
-  for (const LaneShot& taken : coverage.shots) {
+  for (const metrics::LaneShot& taken : coverage.shots) {
     const CameraShot& shot = taken.shot;
     const Eigen::Quaterniond& q = shot.X_WS.q;
     ordered_json corners = nullptr;
@@ -162,4 +163,4 @@ std::string coverage_json(const SurveyCoverage& coverage) {
          "\n";
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

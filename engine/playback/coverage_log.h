@@ -9,18 +9,18 @@
 #include "engine/api/registry.h"
 #include "engine/metrics/picture_coverage.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 
 /// What the pictures of one camera showed.
 struct SurveyCoverage {
   std::string scenario;
   std::string vehicle;
   std::string camera;  ///< name of the sensor
-  std::vector<LaneShot> shots;
+  std::vector<metrics::LaneShot> shots;
   std::vector<Eigen::Vector2d> track_W;              ///< of the vehicle, from above
   std::vector<std::array<Eigen::Vector2d, 2>> rows;  ///< straight pieces of the world's plant rows
-  CoverageOptions options;
-  CoverageMap map;
+  metrics::CoverageOptions options;
+  metrics::CoverageMap map;
 };
 
 /// What to take instead of what the scenario's metric `survey` says; without either: the parcel of
@@ -40,4 +40,4 @@ std::vector<SurveyCoverage> read_coverage(const std::filesystem::path& log,
 /// Numbers, parcel, and of every picture its place, lane, GSD and corners on the ground, as JSON.
 std::string coverage_json(const SurveyCoverage& coverage);
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

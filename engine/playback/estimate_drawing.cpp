@@ -6,7 +6,7 @@
 #include "engine/math/angles.h"
 #include "engine/math/decomposition.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 namespace {
 
 constexpr double kInside95 = 5.991464547107979;  // chi-square of 2 degrees: -2 ln 0.05
@@ -148,4 +148,4 @@ std::vector<render::Polyline> draw_estimate(const Trace<Odometry>& trace, Time t
   return lines;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

@@ -9,7 +9,7 @@
 #include "engine/playback/log_trace.h"
 #include "engine/render/scene.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 
 /// Lines hover this much above what they follow, so that grass does not swallow them.
 inline constexpr double kHover_m = 0.06;
@@ -39,4 +39,4 @@ std::vector<render::Polyline> draw_estimate(const Trace<Odometry>& trace, Time t
                                             const EstimateLook& look,
                                             const std::function<double(double, double)>& ground_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

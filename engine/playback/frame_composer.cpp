@@ -16,7 +16,7 @@
 #include "engine/playback/vehicle_colours.h"
 #include "engine/render/cameras.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 namespace {
 
 const Eigen::Vector3f kPlanColour{0.05f, 0.45f, 1.0f};
@@ -44,7 +44,7 @@ double trail_length_m(const std::vector<Eigen::Vector3d>& points) {
 
 }  // namespace
 
-FrameComposer::FrameComposer(const io::Scenario& scenario, const WorldModel& world,
+FrameComposer::FrameComposer(const scenario::Scenario& scenario, const WorldModel& world,
                              const std::vector<std::unique_ptr<Vehicle>>& vehicles,
                              const LogTrace& trace, ComposerOptions options)
     : scenario_(scenario),
@@ -99,7 +99,7 @@ std::optional<ShotView> view_of(const Trace<CameraShot>& shots) {
   return std::nullopt;
 }
 
-const Trace<CameraShot>& FrameComposer::shots_of(const io::CameraConfig& camera) const {
+const Trace<CameraShot>& FrameComposer::shots_of(const scenario::CameraConfig& camera) const {
   return trace_of(camera.vehicle).shots.at(camera.sensor);
 }
 
@@ -107,8 +107,9 @@ const VehicleTrace& FrameComposer::trace_of(const std::string& vehicle) const {
   return trace_.vehicles.at(vehicle);
 }
 
-bool FrameComposer::looks_out_of(const io::CameraConfig& camera, const std::string& vehicle) {
-  return (camera.kind == io::CameraKind::kOnBoard || camera.kind == io::CameraKind::kShots) &&
+bool FrameComposer::looks_out_of(const scenario::CameraConfig& camera, const std::string& vehicle) {
+  return (camera.kind == scenario::CameraKind::kOnBoard ||
+          camera.kind == scenario::CameraKind::kShots) &&
          camera.vehicle == vehicle;
 }
 
@@ -124,17 +125,18 @@ double FrameComposer::ground_m(double x, double y) const {
   return ground_ ? ground_->height_m(x, y).value_or(0.0) : 0.0;
 }
 
-render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, double aspect) const {
+render::Camera FrameComposer::place(const scenario::CameraConfig& camera, Time t,
+                                    double aspect) const {
   const bool follows = !camera.vehicle.empty() && !trace_of(camera.vehicle).truth.empty();
   const Pose X_WB = follows ? trace_of(camera.vehicle).truth_at(t).X_WB : Pose{};
   switch (camera.kind) {
-    case io::CameraKind::kChase:
+    case scenario::CameraKind::kChase:
       return place_chase(camera, t, aspect);
-    case io::CameraKind::kOnBoard:
+    case scenario::CameraKind::kOnBoard:
       return render::on_board_camera(
           X_WB, {quaternion_from_rpy({0.0, camera.pitch_rad, camera.yaw_rad}), camera.offset_B},
           camera.fov_rad);
-    case io::CameraKind::kTop: {
+    case scenario::CameraKind::kTop: {
       if (camera.height_m <= 0.0 || !(follows || camera.centre_W)) {
         return render::top_camera(camera.show_grid ? parcel_W_ : extent_W_, aspect);
       }
@@ -146,12 +148,12 @@ render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, doub
       const Eigen::Vector3d half(0.5 * camera.height_m * aspect, 0.5 * camera.height_m, 1.0);
       return render::top_camera(Eigen::AlignedBox3d(centre - half, centre + half), aspect, 0.0);
     }
-    case io::CameraKind::kShots: {
+    case scenario::CameraKind::kShots: {
       const Trace<CameraShot>& shots = shots_of(camera);
       return render::on_board_camera(shots.values[shots.index_at(t)].X_WS, Pose{},
                                      2.0 * std::atan(view_of(shots)->along));
     }
-    case io::CameraKind::kFixed:
+    case scenario::CameraKind::kFixed:
       break;
   }
   const Eigen::Vector3d eye =
@@ -161,7 +163,7 @@ render::Camera FrameComposer::place(const io::CameraConfig& camera, Time t, doub
   return render::look_at(eye, target, camera.fov_rad);
 }
 
-render::Camera FrameComposer::place_chase(const io::CameraConfig& camera, Time t,
+render::Camera FrameComposer::place_chase(const scenario::CameraConfig& camera, Time t,
                                           double aspect) const {
   const Trace<Odometry>& truth = trace_of(camera.vehicle).truth;
   const Pose X_WB = truth.empty() ? Pose{} : odometry_at(truth, t).X_WB;
@@ -202,7 +204,7 @@ render::Camera FrameComposer::place_chase(const io::CameraConfig& camera, Time t
 std::vector<Eigen::Vector3d> FrameComposer::points_at(std::size_t vehicle, Time t) const {
   const VehicleTrace& trace = trace_of(scenario_.vehicles[vehicle].name);
   std::vector<Eigen::Vector3d> points =
-      vinerow::points_of(vehicles_[vehicle]->links(), trace.links_at(t));
+      vinerow::playback::points_of(vehicles_[vehicle]->links(), trace.links_at(t));
   if (points.empty() && !trace.truth.empty()) points.push_back(trace.truth_at(t).X_WB.p);
   return points;
 }
@@ -211,21 +213,22 @@ bool FrameComposer::works(const std::string& vehicle, Time t) const {
   return work_at(scenario_, vehicle, t, options_.phases).has_value();
 }
 
-void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::Frame& frame) const {
+void FrameComposer::add_trails(const scenario::CameraConfig& camera, Time t,
+                               render::Frame& frame) const {
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
-    const io::VehicleConfig& config = scenario_.vehicles[v];
+    const scenario::VehicleConfig& config = scenario_.vehicles[v];
     const Trace<Odometry>& truth = trace_of(config.name).truth;
     if (truth.empty() || looks_out_of(camera, config.name)) continue;
     // A map shows all of the work that is being done. Aslant an old trail is a line in the sky that
     // belongs to nothing, but beside an estimate's it is as long as that.
-    const bool fades = camera.kind != io::CameraKind::kTop && !camera.show_estimate;
+    const bool fades = camera.kind != scenario::CameraKind::kTop && !camera.show_estimate;
     const auto work = work_at(scenario_, config.name, t, options_.phases);
     if (!work) continue;
     Time from = work->begin;
     if (fades) from = std::max(from, t - duration_from_s(kTrailGone_s));
     render::Polyline trail;
     trail.colour = vehicle_colour(v).rgb;
-    trail.width_px = camera.kind == io::CameraKind::kTop ? 3.0f : 4.0f;
+    trail.width_px = camera.kind == scenario::CameraKind::kTop ? 3.0f : 4.0f;
     trail.alpha = kTrailAlpha;
     const double down_m = vehicles_[v]->description().height_above_ground_m - kHover_m;
     const std::size_t end = truth.index_at(t);
@@ -258,11 +261,11 @@ void FrameComposer::add_trails(const io::CameraConfig& camera, Time t, render::F
   }
 }
 
-void FrameComposer::add_markers(const io::CameraConfig& camera, Time t,
+void FrameComposer::add_markers(const scenario::CameraConfig& camera, Time t,
                                 render::Frame& frame) const {
-  const bool is_map = camera.kind == io::CameraKind::kTop;
+  const bool is_map = camera.kind == scenario::CameraKind::kTop;
   // Others follow their vehicle; estimates have marks of their own.
-  if (!(is_map || camera.kind == io::CameraKind::kFixed) || camera.show_estimate) return;
+  if (!(is_map || camera.kind == scenario::CameraKind::kFixed) || camera.show_estimate) return;
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
     const std::string& name = scenario_.vehicles[v].name;
     if (trace_of(name).truth.empty()) continue;
@@ -281,10 +284,10 @@ void FrameComposer::add_markers(const io::CameraConfig& camera, Time t,
   }
 }
 
-void FrameComposer::add_caption(const io::CameraConfig& camera, Time t,
+void FrameComposer::add_caption(const scenario::CameraConfig& camera, Time t,
                                 render::Frame& frame) const {
   frame.caption.push_back(picture_title(scenario_));
-  if (camera.kind == io::CameraKind::kShots) {
+  if (camera.kind == scenario::CameraKind::kShots) {
     const Trace<CameraShot>& shots = shots_of(camera);
     const CameraShot& shot = shots.values[shots.index_at(t)];
     frame.caption.push_back(fmt::format("picture {} · {:.1f} m to the ground, {:.1f} mm per pixel",
@@ -403,12 +406,12 @@ void FrameComposer::add_scans(Time t, render::Frame& frame) const {
   }
 }
 
-render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) const {
+render::Frame FrameComposer::compose(const scenario::CameraConfig& camera, Time t) const {
   render::Frame frame;
   frame.width = scenario_.pictures.width;
   frame.height = scenario_.pictures.height;
   frame.samples = scenario_.pictures.samples;
-  const bool is_shot = camera.kind == io::CameraKind::kShots;
+  const bool is_shot = camera.kind == scenario::CameraKind::kShots;
   if (is_shot) {
     const ShotView view = *view_of(shots_of(camera));
     frame.width = static_cast<int>(std::lround(frame.height * view.across / view.along));
@@ -434,8 +437,8 @@ render::Frame FrameComposer::compose(const io::CameraConfig& camera, Time t) con
   }
   add_markers(camera, t, frame);
   add_caption(camera, t, frame);
-  frame.show_scale = camera.kind == io::CameraKind::kTop;
+  frame.show_scale = camera.kind == scenario::CameraKind::kTop;
   return frame;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

@@ -14,7 +14,7 @@
 #include "engine/scenario/scenario.h"
 #include "engine/sim/standing_ground.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 
 /// Tangents of half the angles of view of a survey camera, from where its corners met the ground.
 struct ShotView {
@@ -34,37 +34,37 @@ struct ComposerOptions {
 class FrameComposer {
  public:
   /// @param vehicles  same order as scenario.vehicles; only their links are used
-  FrameComposer(const io::Scenario& scenario, const WorldModel& world,
+  FrameComposer(const scenario::Scenario& scenario, const WorldModel& world,
                 const std::vector<std::unique_ptr<Vehicle>>& vehicles, const LogTrace& trace,
                 ComposerOptions options = {});
 
   /// @param camera  one of kind shots shows the last picture taken until t; @pre view_of() knows
   /// the camera's view
-  render::Frame compose(const io::CameraConfig& camera, Time t) const;
+  render::Frame compose(const scenario::CameraConfig& camera, Time t) const;
 
  private:
-  render::Camera place(const io::CameraConfig& camera, Time t, double aspect) const;
-  render::Camera place_chase(const io::CameraConfig& camera, Time t, double aspect) const;
+  render::Camera place(const scenario::CameraConfig& camera, Time t, double aspect) const;
+  render::Camera place_chase(const scenario::CameraConfig& camera, Time t, double aspect) const;
   /// Points spread over a vehicle at t.
   std::vector<Eigen::Vector3d> points_at(std::size_t vehicle, Time t) const;
-  void add_trails(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
-  void add_markers(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
-  void add_caption(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
+  void add_trails(const scenario::CameraConfig& camera, Time t, render::Frame& frame) const;
+  void add_markers(const scenario::CameraConfig& camera, Time t, render::Frame& frame) const;
+  void add_caption(const scenario::CameraConfig& camera, Time t, render::Frame& frame) const;
   void add_plans(Time t, render::Frame& frame) const;
   bool works(const std::string& vehicle, Time t) const;
   void add_trees(Time t, render::Frame& frame) const;
   void add_map_edges(render::Frame& frame) const;
-  void add_estimates(const io::CameraConfig& camera, Time t, render::Frame& frame) const;
+  void add_estimates(const scenario::CameraConfig& camera, Time t, render::Frame& frame) const;
   void add_rays(Time t, render::Frame& frame) const;
   void add_scans(Time t, render::Frame& frame) const;
   /// Whether a camera is on the vehicle and sees it from inside.
-  static bool looks_out_of(const io::CameraConfig& camera, const std::string& vehicle);
-  const Trace<CameraShot>& shots_of(const io::CameraConfig& camera) const;
+  static bool looks_out_of(const scenario::CameraConfig& camera, const std::string& vehicle);
+  const Trace<CameraShot>& shots_of(const scenario::CameraConfig& camera) const;
   double ground_m(double x, double y) const;
   bool flies(const std::string& vehicle) const;
   const VehicleTrace& trace_of(const std::string& vehicle) const;
 
-  const io::Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   const WorldModel& world_;
   const std::vector<std::unique_ptr<Vehicle>>& vehicles_;
   const LogTrace& trace_;
@@ -79,4 +79,4 @@ class FrameComposer {
       grid_;  // of the log or else the world; null: neither has one
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

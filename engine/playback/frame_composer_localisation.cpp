@@ -9,7 +9,7 @@
 #include "engine/playback/estimate_drawing.h"
 #include "engine/playback/frame_composer.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 namespace {
 
 /// Estimates of the first vehicle, then of its observers and of further vehicles; more start again.
@@ -70,7 +70,7 @@ void FrameComposer::add_map_edges(render::Frame& frame) const {
   if (has_any) frame.legend.push_back({"map", kMapColour});
 }
 
-void FrameComposer::add_estimates(const io::CameraConfig& camera, Time t,
+void FrameComposer::add_estimates(const scenario::CameraConfig& camera, Time t,
                                   render::Frame& frame) const {
   struct Shown {
     std::string vehicle, signal;
@@ -78,7 +78,7 @@ void FrameComposer::add_estimates(const io::CameraConfig& camera, Time t,
   };
   std::vector<Shown> shown;
   for (std::size_t v = 0; v < scenario_.vehicles.size(); ++v) {
-    const io::VehicleConfig& config = scenario_.vehicles[v];
+    const scenario::VehicleConfig& config = scenario_.vehicles[v];
     EstimateLook look;
     look.down_m = vehicles_[v]->description().height_above_ground_m - kTrailHover_m;
     look.is_map = frame.camera.orthographic;
@@ -89,7 +89,7 @@ void FrameComposer::add_estimates(const io::CameraConfig& camera, Time t,
     }
     // Without an estimator the estimate is the truth.
     if (config.estimator) shown.push_back({config.name, "estimate", look});
-    for (const io::NamedPart& observer : config.observers) {
+    for (const scenario::NamedPart& observer : config.observers) {
       shown.push_back({config.name, observer.name, look});
     }
   }
@@ -123,4 +123,4 @@ void FrameComposer::add_estimates(const io::CameraConfig& camera, Time t,
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <sstream>
 
-namespace vinerow {
+namespace vinerow::playback {
 namespace {
 
 /// As many characters fill two thirds of a picture of 16:9.
@@ -30,7 +30,7 @@ std::string title_of_name(const std::string& name) {
   return capitalised(in_words(name));
 }
 
-std::string picture_title(const io::Scenario& scenario) {
+std::string picture_title(const scenario::Scenario& scenario) {
   std::string title = scenario.description;
   for (const char* end : {". ", ": ", " - ", "\n"}) title = title.substr(0, title.find(end));
   while (!title.empty() && (title.back() == '.' || title.back() == ' ')) title.pop_back();
@@ -59,14 +59,14 @@ std::string clock_text(Time t) {
   return fmt::format("{:02d}:{:02d}.{}", tenths / 600, tenths / 10 % 60, tenths % 10);
 }
 
-std::vector<std::string> phases_at(const io::Scenario& scenario,
+std::vector<std::string> phases_at(const scenario::Scenario& scenario,
                                    const std::map<std::string, PhaseSpan>& spans, Time t) {
   std::vector<std::string> running;
-  for (const io::PhaseConfig& phase : scenario.phases) {
+  for (const scenario::PhaseConfig& phase : scenario.phases) {
     const auto span = spans.find(phase.name);
     if (span != spans.end() && span->second.contains(t)) running.push_back(in_words(phase.name));
   }
   return running;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

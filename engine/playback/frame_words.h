@@ -9,14 +9,14 @@
 #include "engine/playback/phase_moments.h"
 #include "engine/scenario/scenario.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 
 /// "cooperative_small" -> "Cooperative small".
 std::string title_of_name(const std::string& name);
 
 /// The description's first sentence, or what stands before its colon or dash, where that is short
 /// enough for a picture, else the name in words: "Paper C in open loop", "Cooperative small".
-std::string picture_title(const io::Scenario& scenario);
+std::string picture_title(const scenario::Scenario& scenario);
 
 /// Keyword of the text in a frame's file that says what of it shows which vehicle.
 inline constexpr const char* kSeenKey = "vinerow:seen";
@@ -29,7 +29,7 @@ std::map<std::string, double> parse_seen(const std::string& text);
 std::string clock_text(Time t);
 
 /// Names of the phases that run at t, with underscores as spaces, in the scenario's order.
-std::vector<std::string> phases_at(const io::Scenario& scenario,
+std::vector<std::string> phases_at(const scenario::Scenario& scenario,
                                    const std::map<std::string, PhaseSpan>& spans, Time t);
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

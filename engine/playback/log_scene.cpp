@@ -15,7 +15,7 @@
 #include "engine/api/world_model.h"
 #include "engine/sim/vehicle_runtime.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 namespace {
 
 using Eigen::Vector3d;
@@ -334,4 +334,4 @@ std::map<std::string, std::string> frames_of_readings(const Simulation& simulati
   return frames;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

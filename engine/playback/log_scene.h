@@ -9,7 +9,7 @@
 #include "engine/record/scene_message.h"
 #include "engine/sim/simulation.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 
 /// Bounds of a scene: a log that is many times larger for its decoration would help nobody.
 struct SceneLimits {
@@ -40,4 +40,4 @@ std::vector<record::StaticTransform> sensor_transforms(const Simulation& simulat
 /// Frame of a sensor's readings, and of what it would have read without error, by signal.
 std::map<std::string, std::string> frames_of_readings(const Simulation& simulation);
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

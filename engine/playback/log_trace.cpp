@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vinerow {
+namespace vinerow::playback {
 namespace {
 
 /// The two samples around an instant and how far it is from the first to the second, 0 to 1.
@@ -119,4 +119,4 @@ LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>
   return trace;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

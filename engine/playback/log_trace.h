@@ -15,7 +15,7 @@
 #include "engine/math/pose.h"
 #include "engine/record/log_reader.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 
 /// Samples of one signal in rising time.
 template <class T>
@@ -72,4 +72,4 @@ struct TraceWishes {
 LogTrace read_trace(const record::LogReader& log, const std::vector<std::string>& vehicles,
                     const TraceWishes& wishes = {});
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

@@ -5,7 +5,7 @@
 #include "engine/api/messages/commands.h"
 #include "engine/sim/phase_report.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 std::map<std::string, PhaseSpan> read_phase_spans(const record::LogReader& reader) {
   std::map<std::string, PhaseSpan> spans;
   if (!reader.has_topic("/run/phases")) return spans;
@@ -20,11 +20,11 @@ std::map<std::string, PhaseSpan> read_phase_spans(const record::LogReader& reade
   return spans;
 }
 
-std::optional<PhaseSpan> work_at(const io::Scenario& scenario, const std::string& vehicle, Time t,
-                                 const std::map<std::string, PhaseSpan>& spans) {
+std::optional<PhaseSpan> work_at(const scenario::Scenario& scenario, const std::string& vehicle,
+                                 Time t, const std::map<std::string, PhaseSpan>& spans) {
   if (scenario.phases.empty()) return PhaseSpan{Time{}, std::nullopt};
   std::optional<PhaseSpan> latest;
-  for (const io::PhaseConfig& phase : scenario.phases) {
+  for (const scenario::PhaseConfig& phase : scenario.phases) {
     const auto& who = phase.vehicles;
     const auto span = spans.find(phase.name);
     if (std::find(who.begin(), who.end(), vehicle) == who.end() || span == spans.end()) continue;
@@ -34,12 +34,13 @@ std::optional<PhaseSpan> work_at(const io::Scenario& scenario, const std::string
   return latest;
 }
 
-std::set<Time> moment_times(const io::Scenario& scenario, const io::CameraConfig& camera,
+std::set<Time> moment_times(const scenario::Scenario& scenario,
+                            const scenario::CameraConfig& camera,
                             const std::map<std::string, PhaseSpan>& spans) {
   std::set<Time> times;
   const bool follows =
-      camera.kind == io::CameraKind::kChase || camera.kind == io::CameraKind::kOnBoard;
-  for (const io::PhaseMoment& moment : scenario.pictures.moments) {
+      camera.kind == scenario::CameraKind::kChase || camera.kind == scenario::CameraKind::kOnBoard;
+  for (const scenario::PhaseMoment& moment : scenario.pictures.moments) {
     const auto span = spans.find(moment.phase);
     if (span == spans.end()) continue;
     const Time t = span->second.begin + duration_from_s(moment.after_s);
@@ -48,4 +49,4 @@ std::set<Time> moment_times(const io::Scenario& scenario, const io::CameraConfig
   return times;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

@@ -10,7 +10,7 @@
 #include "engine/record/log_reader.h"
 #include "engine/scenario/scenario.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 
 /// From a phase's first state that is not "waiting" to its first that is not "running" either.
 struct PhaseSpan {
@@ -25,12 +25,13 @@ std::map<std::string, PhaseSpan> read_phase_spans(const record::LogReader& reade
 
 /// The latest phase that a vehicle works in at t. Without a mission vehicles work all the time,
 /// from the log's first instant on. @returns nullopt while the vehicle stands parked
-std::optional<PhaseSpan> work_at(const io::Scenario& scenario, const std::string& vehicle, Time t,
-                                 const std::map<std::string, PhaseSpan>& spans);
+std::optional<PhaseSpan> work_at(const scenario::Scenario& scenario, const std::string& vehicle,
+                                 Time t, const std::map<std::string, PhaseSpan>& spans);
 
 /// Instants of a camera's frames. What follows a vehicle, behind it or on board, has none while
 /// that vehicle stands parked: no phase of its runs.
-std::set<Time> moment_times(const io::Scenario& scenario, const io::CameraConfig& camera,
+std::set<Time> moment_times(const scenario::Scenario& scenario,
+                            const scenario::CameraConfig& camera,
                             const std::map<std::string, PhaseSpan>& spans);
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

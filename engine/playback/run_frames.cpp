@@ -19,20 +19,21 @@
 #include "engine/render/scene.h"
 #include "engine/sim/simulation.h"
 
-namespace vinerow {
+namespace vinerow::playback {
 namespace {
 
-std::vector<io::CameraConfig> chosen_cameras(const io::Scenario& scenario,
-                                             const std::vector<std::string>& wanted) {
+std::vector<scenario::CameraConfig> chosen_cameras(const scenario::Scenario& scenario,
+                                                   const std::vector<std::string>& wanted) {
   if (wanted.empty()) return scenario.pictures.cameras;
-  std::vector<io::CameraConfig> chosen;
+  std::vector<scenario::CameraConfig> chosen;
   std::vector<std::string> known;
-  for (const io::CameraConfig& camera : scenario.pictures.cameras) known.push_back(camera.name);
+  for (const scenario::CameraConfig& camera : scenario.pictures.cameras)
+    known.push_back(camera.name);
   for (const std::string& name : wanted) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end() && name == "chase" && !scenario.vehicles.empty()) {
       // As a scenario without cameras has it: behind the first vehicle.
-      io::CameraConfig chase;
+      scenario::CameraConfig chase;
       chase.name = name;
       chase.vehicle = scenario.vehicles.front().name;
       chosen.push_back(chase);
@@ -49,9 +50,9 @@ std::vector<io::CameraConfig> chosen_cameras(const io::Scenario& scenario,
 }
 
 /// What the cameras show that is not always read.
-TraceWishes wishes_of(const std::vector<io::CameraConfig>& cameras) {
+TraceWishes wishes_of(const std::vector<scenario::CameraConfig>& cameras) {
   TraceWishes wishes;
-  for (const io::CameraConfig& camera : cameras) {
+  for (const scenario::CameraConfig& camera : cameras) {
     wishes.scans |= camera.show_sensor_rays;
     wishes.estimates |= camera.show_estimate;
     wishes.map_edges |= camera.show_map;
@@ -62,9 +63,9 @@ TraceWishes wishes_of(const std::vector<io::CameraConfig>& cameras) {
 /// Frames more often than that make a film.
 constexpr double kFilmPeriod_s = 2.0;
 
-bool has_chase(const std::vector<io::CameraConfig>& cameras) {
-  return std::any_of(cameras.begin(), cameras.end(), [](const io::CameraConfig& camera) {
-    return camera.kind == io::CameraKind::kChase;
+bool has_chase(const std::vector<scenario::CameraConfig>& cameras) {
+  return std::any_of(cameras.begin(), cameras.end(), [](const scenario::CameraConfig& camera) {
+    return camera.kind == scenario::CameraKind::kChase;
   });
 }
 
@@ -87,7 +88,7 @@ void check_span(const PictureOptions& options, const LogTrace& trace) {
 
 /// Instants of the frames of all cameras, in order, each once. Instants after the log's end are
 /// left out.
-std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOptions& options,
+std::set<Time> frame_times(const scenario::PicturesConfig& pictures, const PictureOptions& options,
                            const LogTrace& trace) {
   std::set<Time> times;
   const auto add = [&](double t_s) {
@@ -108,11 +109,11 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
   if (every_s > 0.0) {
     const double first_s = options.from_s.value_or(0.0);
     const double span_s = std::min(trace.last.s(), options.to_s.value_or(trace.last.s())) - first_s;
-    if (span_s / every_s > io::kMostPictureInstants) {
+    if (span_s / every_s > scenario::kMostPictureInstants) {
       throw ConfigError(
           fmt::format("a frame every {:.9g} s is {:.0f} instants of {:.9g} s, must be at most "
                       "{:.0f}",
-                      every_s, span_s / every_s, span_s, io::kMostPictureInstants));
+                      every_s, span_s / every_s, span_s, scenario::kMostPictureInstants));
     }
     const auto count = static_cast<std::int64_t>(std::floor(span_s / every_s + 1e-9));
     for (std::int64_t k = 0; k <= count; ++k) add(first_s + static_cast<double>(k) * every_s);
@@ -130,9 +131,9 @@ std::set<Time> frame_times(const io::PicturesConfig& pictures, const PictureOpti
 
 /// Instants of one camera's frames. Of a camera of kind shots: when its pictures were taken, or the
 /// given instants from the first picture on where the schedule is not the scenario's.
-std::set<Time> times_of(const io::CameraConfig& camera, const std::set<Time>& schedule,
+std::set<Time> times_of(const scenario::CameraConfig& camera, const std::set<Time>& schedule,
                         bool own_schedule, const LogTrace& trace) {
-  if (camera.kind != io::CameraKind::kShots) return schedule;
+  if (camera.kind != scenario::CameraKind::kShots) return schedule;
   const auto& shots = trace.vehicles.at(camera.vehicle).shots;
   const auto found = shots.find(camera.sensor);
   if (found == shots.end() || !view_of(found->second)) return {};
@@ -147,27 +148,28 @@ std::set<Time> times_of(const io::CameraConfig& camera, const std::set<Time>& sc
   return times;
 }
 
-io::Scenario scenario_in(const record::LogReader& reader, const std::filesystem::path& log,
-                         const Registry& registry, const io::Overrides& overrides = {}) {
+scenario::Scenario scenario_in(const record::LogReader& reader, const std::filesystem::path& log,
+                               const Registry& registry,
+                               const scenario::Overrides& overrides = {}) {
   const auto found = reader.info().attachments.find("scenario.resolved.yaml");
   if (found == reader.info().attachments.end()) {
     throw ConfigError(fmt::format("{}: holds no scenario.resolved.yaml, so its world is not known",
                                   log.string()));
   }
-  return io::parse_scenario(found->second, log.parent_path(), registry, overrides);
+  return scenario::parse_scenario(found->second, log.parent_path(), registry, overrides);
 }
 
 }  // namespace
 
-io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
-                             const io::Overrides& overrides) {
+scenario::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
+                                   const scenario::Overrides& overrides) {
   return scenario_in(record::LogReader(log), log, registry, overrides);
 }
 
-std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& scenario,
+std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const scenario::Scenario& scenario,
                                                            const Registry& registry) {
   std::vector<std::unique_ptr<Vehicle>> vehicles;
-  for (const io::VehicleConfig& config : scenario.vehicles) {
+  for (const scenario::VehicleConfig& config : scenario.vehicles) {
     VehicleContext context;
     context.vehicle = context.part = config.name;
     context.seed = scenario.seed;
@@ -182,10 +184,10 @@ std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& s
 PictureReport render_log(const std::filesystem::path& log, const std::filesystem::path& out,
                          const Registry& registry, const PictureOptions& options) {
   const record::LogReader reader(log);
-  io::Scenario scenario = scenario_in(reader, log, registry, options.overrides);
+  scenario::Scenario scenario = scenario_in(reader, log, registry, options.overrides);
   scenario.pictures.width = options.width.value_or(scenario.pictures.width);
   scenario.pictures.height = options.height.value_or(scenario.pictures.height);
-  const std::vector<io::CameraConfig> cameras = chosen_cameras(scenario, options.cameras);
+  const std::vector<scenario::CameraConfig> cameras = chosen_cameras(scenario, options.cameras);
 
   const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
   PictureReport report;
@@ -196,7 +198,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   }
   const std::vector<std::unique_ptr<Vehicle>> vehicles = vehicles_of_scenario(scenario, registry);
   std::vector<std::string> names;
-  for (const io::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  for (const scenario::VehicleConfig& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   const LogTrace trace = read_trace(reader, names, wishes_of(cameras));
   check_span(options, trace);
   const bool own_schedule = options.times_s || options.every_s;
@@ -209,10 +211,10 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   std::vector<std::set<Time>> times_by_camera;
   std::set<Time> times;
   int total = 0;
-  for (const io::CameraConfig& camera : cameras) {
+  for (const scenario::CameraConfig& camera : cameras) {
     std::set<Time>& own =
         times_by_camera.emplace_back(times_of(camera, schedule, own_schedule, trace));
-    if (!own_schedule && camera.kind != io::CameraKind::kShots) {
+    if (!own_schedule && camera.kind != scenario::CameraKind::kShots) {
       for (const Time t : moment_times(scenario, camera, spans)) {
         if (t <= trace.last) own.insert(t);
       }
@@ -225,7 +227,7 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   const auto start = std::chrono::steady_clock::now();
   if (options.progress) options.progress(0, total);
   int taken = 0;
-  const auto draw = [&](const io::CameraConfig& camera, Time t) {
+  const auto draw = [&](const scenario::CameraConfig& camera, Time t) {
     const render::Frame frame = composer.compose(camera, t);
     const render::Image image = (*renderer)->draw(frame);
     if (options.take_frame) {
@@ -268,4 +270,4 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
   return report;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

@@ -12,11 +12,11 @@
 #include "engine/api/vehicle.h"
 #include "engine/scenario/scenario.h"
 
-namespace vinerow {
-
-namespace render {
+namespace vinerow::render {
 struct Image;
 }
+
+namespace vinerow::playback {
 
 /// What to draw otherwise than the scenario in the log says.
 struct PictureOptions {
@@ -27,7 +27,7 @@ struct PictureOptions {
   std::optional<double> to_s;    ///< no frame after
   std::optional<int> width;
   std::optional<int> height;
-  io::Overrides overrides;  ///< written over the log's scenario: cameras of one's own
+  scenario::Overrides overrides;  ///< written over the log's scenario: cameras of one's own
   /// Takes each frame in place of a file.
   std::function<void(const render::Image&)> take_frame;
   std::function<void(int done, int total)> progress;
@@ -48,11 +48,11 @@ PictureReport render_log(const std::filesystem::path& log, const std::filesystem
                          const Registry& registry, const PictureOptions& options);
 
 /// The scenario that a log holds. @param overrides  written over it and checked like it
-io::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
-                             const io::Overrides& overrides = {});
+scenario::Scenario scenario_of_log(const std::filesystem::path& log, const Registry& registry,
+                                   const scenario::Overrides& overrides = {});
 
 /// A scenario's vehicles, built and not spawned: their links and descriptions, in its order.
-std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const io::Scenario& scenario,
+std::vector<std::unique_ptr<Vehicle>> vehicles_of_scenario(const scenario::Scenario& scenario,
                                                            const Registry& registry);
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

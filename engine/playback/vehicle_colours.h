@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <string>
 
-namespace vinerow {
+namespace vinerow::playback {
 
 struct VehicleColour {
   Eigen::Vector3f rgb;   ///< 0..1, over grass and on dark pages
@@ -37,4 +37,4 @@ inline std::string hex_colour(const Eigen::Vector3f& rgb) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(rgb.x()), byte(rgb.y()), byte(rgb.z()));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::playback

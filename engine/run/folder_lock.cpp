@@ -10,7 +10,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::run {
 
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
@@ -40,4 +40,4 @@ void DiskReserve::give_back() {
   descriptor_ = -1;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::run

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 
-namespace vinerow {
+namespace vinerow::run {
 
 /// The folder belongs to this object until it goes, or its process does. Nothing is left behind.
 /// Where the file system knows no locks (some network mounts) there is none.
@@ -35,4 +35,4 @@ class DiskReserve {
   int descriptor_ = -1;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::run

@@ -6,7 +6,7 @@
 
 #include "engine/sim/judge.h"
 
-namespace vinerow {
+namespace vinerow::run {
 namespace {
 
 /// Text in XML 1.0: markup escaped, control characters that XML does not allow left out.
@@ -101,4 +101,4 @@ std::string junit_xml(const std::string& scenario, const RunResult& result) {
   return xml + "  </testsuite>\n</testsuites>\n";
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::run

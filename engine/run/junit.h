@@ -5,7 +5,7 @@
 
 #include "engine/run/run.h"
 
-namespace vinerow {
+namespace vinerow::run {
 
 /// One suite named after the scenario: a case for each phase (class "phases") and each criterion of
 /// the run (class "criteria"), and one for the run itself. Failed phases and criteria are
@@ -14,4 +14,4 @@ namespace vinerow {
 /// @returns the XML text, UTF-8
 std::string junit_xml(const std::string& scenario, const RunResult& result);
 
-}  // namespace vinerow
+}  // namespace vinerow::run

@@ -27,7 +27,7 @@
 #include "engine/sim/simulation.h"
 #include "engine/sim/vehicle_runtime.h"
 
-namespace vinerow {
+namespace vinerow::run {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -47,20 +47,20 @@ class LogObserver final : public RunObserver {
  public:
   LogObserver(const Simulation& simulation, const std::filesystem::path& file)
       : recorder_(file, options_of(simulation.scenario()), metadata_of(simulation.scenario())) {
-    const io::RecordConfig& config = simulation.scenario().record;
+    const scenario::RecordConfig& config = simulation.scenario().record;
     recorder_.add_attachment("scenario.resolved.yaml", "application/yaml",
                              simulation.scenario().resolved_yaml);
-    const std::map<std::string, std::string> frames = frames_of_readings(simulation);
+    const std::map<std::string, std::string> frames = playback::frames_of_readings(simulation);
     for (const auto& signal : simulation.bus().signals()) {
       if (signal->writer().empty()) continue;
       const auto frame = frames.find(signal->name());
       recorder_.add_signal(*signal, shortest_period(*signal, config),
                            frame != frames.end() ? frame->second : "", is_true_scan(*signal));
     }
-    recorder_.add_static_transforms(sensor_transforms(simulation));
-    std::vector<record::SceneEntity> scene = world_scene(simulation.world());
+    recorder_.add_static_transforms(playback::sensor_transforms(simulation));
+    std::vector<record::SceneEntity> scene = playback::world_scene(simulation.world());
     for (const auto& vehicle : simulation.vehicles()) {
-      for (auto& link : vehicle_scene(vehicle->name(), vehicle->vehicle().links())) {
+      for (auto& link : playback::vehicle_scene(vehicle->name(), vehicle->vehicle().links())) {
         scene.push_back(std::move(link));
       }
     }
@@ -75,12 +75,12 @@ class LogObserver final : public RunObserver {
   void finish() { recorder_.finish(); }
 
  private:
-  static record::RecorderOptions options_of(const io::Scenario& scenario) {
+  static record::RecorderOptions options_of(const scenario::Scenario& scenario) {
     record::RecorderOptions options;
     options.compression = scenario.record.compression;
     return options;
   }
-  static std::map<std::string, std::string> metadata_of(const io::Scenario& scenario) {
+  static std::map<std::string, std::string> metadata_of(const scenario::Scenario& scenario) {
     return {{"scenario", scenario.name},
             {"seed", std::to_string(scenario.seed)},
             {"vinerow", program_version()},
@@ -91,7 +91,7 @@ class LogObserver final : public RunObserver {
   static bool is_true_scan(const SignalBase& signal) {
     return std::string_view(signal.type()) == LaserScan::kType && signal.name().ends_with("_truth");
   }
-  static Duration shortest_period(const SignalBase& signal, const io::RecordConfig& config) {
+  static Duration shortest_period(const SignalBase& signal, const scenario::RecordConfig& config) {
     const std::string& name = signal.name();
     const bool is_observed = std::string_view(signal.type()) == Odometry::kType &&
                              signal.writer().find(".observers.") != std::string::npos;
@@ -175,9 +175,9 @@ void step_to_end(Session& session, const RunOptions& options, Clock::time_point 
 }
 
 /// The criteria that can be judged before the run: a job's numbers are known after it.
-std::vector<io::Criterion> of_vehicles(const io::Scenario& scenario) {
-  std::vector<io::Criterion> criteria;
-  for (const io::Criterion& criterion : scenario.criteria) {
+std::vector<scenario::Criterion> of_vehicles(const scenario::Scenario& scenario) {
+  std::vector<scenario::Criterion> criteria;
+  for (const scenario::Criterion& criterion : scenario.criteria) {
     const std::string owner = criterion.metric.substr(0, criterion.metric.find('.'));
     const bool is_job =
         std::any_of(scenario.phases.begin(), scenario.phases.end(),
@@ -189,9 +189,10 @@ std::vector<io::Criterion> of_vehicles(const io::Scenario& scenario) {
 
 /// Numbers that a job did not come to give are not measured, so that its criteria are not met.
 std::map<std::string, std::map<std::string, double>> with_missing_numbers(
-    const io::Scenario& scenario, std::map<std::string, std::map<std::string, double>> metrics,
+    const scenario::Scenario& scenario,
+    std::map<std::string, std::map<std::string, double>> metrics,
     const std::vector<PhaseReport>& phases) {
-  for (const io::Criterion& criterion : scenario.criteria) {
+  for (const scenario::Criterion& criterion : scenario.criteria) {
     const std::size_t dot = criterion.metric.find('.');
     const std::string owner = criterion.metric.substr(0, dot);
     for (const PhaseReport& phase : phases) {
@@ -236,7 +237,7 @@ std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
       if (!coverage) continue;
       std::filesystem::create_directories(folder, failed);
       files.push_back(folder / fmt::format("{}_{}.json", vehicle->name(), name));
-      write_whole_file(files.back(), canopy_json(vehicle->name(), name, *coverage));
+      write_whole_file(files.back(), playback::canopy_json(vehicle->name(), name, *coverage));
     }
   }
   return files;
@@ -244,7 +245,7 @@ std::vector<std::filesystem::path> write_canopy(const Simulation& simulation,
 
 /// A run that is built, with what can be refused before its first step refused.
 /// @throws ConfigError
-Session open_run(const io::Scenario& scenario, const Registry& registry,
+Session open_run(const scenario::Scenario& scenario, const Registry& registry,
                  const std::filesystem::path& products, std::shared_ptr<RunShelf> shelf) {
   SessionOptions options;
   options.products = products;
@@ -267,7 +268,7 @@ std::vector<std::string> without_plan(const Simulation& simulation) {
 }
 
 /// What the run came to: numbers, verdicts, status.
-void judge_run(const io::Scenario& scenario, const Session& session, RunResult& result) {
+void judge_run(const scenario::Scenario& scenario, const Session& session, RunResult& result) {
   const Simulation& simulation = session.simulation();
   result.simulated_s = session.now().s();
   result.digest = session.digest();
@@ -293,7 +294,7 @@ void judge_run(const io::Scenario& scenario, const Session& session, RunResult& 
 
 void draw_pictures(const std::filesystem::path& log, const Registry& registry,
                    const RunOptions& options, RunResult& result) {
-  PictureOptions drawing;
+  playback::PictureOptions drawing;
   drawing.progress = options.picture_progress;
   drawing.interrupted = options.interrupted;
   if (options.interrupted && options.interrupted()) {
@@ -301,7 +302,8 @@ void draw_pictures(const std::filesystem::path& log, const Registry& registry,
     return;
   }
   try {
-    const PictureReport pictures = render_log(log, options.out / "frames", registry, drawing);
+    const playback::PictureReport pictures =
+        playback::render_log(log, options.out / "frames", registry, drawing);
     result.pictures = pictures.files;
     result.picture_note = pictures.note;
     result.write_failure = pictures.write_failure;
@@ -320,7 +322,7 @@ std::string end_by(EndKind kind) {
 void step_and_judge(Session& session, const RunOptions& options, LogObserver* log,
                     RunResult& result) {
   Simulation& simulation = session.simulation();
-  const io::Scenario& scenario = session.scenario();
+  const scenario::Scenario& scenario = session.scenario();
   const auto break_off = [&](const SimulationError& error) {
     result.status = RunStatus::kBrokenOff;
     result.error = error.what();
@@ -350,7 +352,8 @@ void step_and_judge(Session& session, const RunOptions& options, LogObserver* lo
 
 }  // namespace
 
-std::vector<std::string> rehearse_run(const io::Scenario& scenario, const Registry& registry) {
+std::vector<std::string> rehearse_run(const scenario::Scenario& scenario,
+                                      const Registry& registry) {
   constexpr Duration kLongest{10'000'000'000};
   Session session = open_run(scenario, registry, {}, nullptr);
   std::vector<std::string> notes = session.simulation().world().notes;
@@ -368,7 +371,7 @@ std::vector<std::string> rehearse_run(const io::Scenario& scenario, const Regist
   return notes;
 }
 
-RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
+RunResult run_scenario(const scenario::Scenario& scenario, const Registry& registry,
                        const RunOptions& options) {
   const bool writes = !options.out.empty();
   Session session =
@@ -429,4 +432,4 @@ RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
   return result;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::run

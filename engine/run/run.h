@@ -15,8 +15,10 @@
 #include "engine/sim/phase_report.h"
 
 namespace vinerow {
-
 class RunShelf;
+}
+
+namespace vinerow::run {
 
 /// Exit status of `vinerow run` (docs/contributing/architecture.md).
 enum class RunStatus { kAllMet = 0, kCriterionFailed = 1, kBadInput = 2, kBrokenOff = 3 };
@@ -73,14 +75,14 @@ struct RunResult {
 /// planner has made its plan, at most 10 simulated seconds.
 /// @returns notes for people: those of the world, and which planner has no plan yet
 /// @throws ConfigError, SimulationError as run_scenario()
-std::vector<std::string> rehearse_run(const io::Scenario& scenario, const Registry& registry);
+std::vector<std::string> rehearse_run(const scenario::Scenario& scenario, const Registry& registry);
 
 /// Runs a scenario and, where options.out names a folder, writes its files; each of them, but log
 /// and events, is there whole or not at all. Verdict and summary are written before pictures are
 /// drawn, and once more behind them.
 /// @throws ConfigError on bad input found while building or planning, or if another run has the
 ///   folder; WriteError where the run cannot even begin to write
-RunResult run_scenario(const io::Scenario& scenario, const Registry& registry,
+RunResult run_scenario(const scenario::Scenario& scenario, const Registry& registry,
                        const RunOptions& options);
 
-}  // namespace vinerow
+}  // namespace vinerow::run

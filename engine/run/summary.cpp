@@ -9,7 +9,7 @@
 #include "engine/api/abi_version.h"
 #include "engine/api/world_model.h"
 
-namespace vinerow {
+namespace vinerow::run {
 namespace {
 
 using nlohmann::ordered_json;
@@ -80,9 +80,9 @@ ordered_json crashes_json(const RunResult& result) {
 }
 
 /// What every vehicle acts on: its estimator, and what it takes from the truth ("state": all).
-ordered_json estimation_json(const io::Scenario& scenario) {
+ordered_json estimation_json(const scenario::Scenario& scenario) {
   ordered_json list = ordered_json::object();
-  for (const io::VehicleConfig& vehicle : scenario.vehicles) {
+  for (const scenario::VehicleConfig& vehicle : scenario.vehicles) {
     ordered_json of_truth = ordered_json::array();
     if (!vehicle.estimator || vehicle.estimator->type == "truth") {
       of_truth.push_back("state");
@@ -139,7 +139,7 @@ std::string program_version() {
 }
 
 std::string summary_json(const RunResult& result, Simulation& simulation) {
-  const io::Scenario& scenario = simulation.scenario();
+  const scenario::Scenario& scenario = simulation.scenario();
   ordered_json summary;
   summary["scenario"] = scenario.name;
   summary["status"] = status_name(result);
@@ -178,4 +178,4 @@ std::string summary_json(const RunResult& result, Simulation& simulation) {
   return summary.dump(2) + "\n";
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::run

@@ -7,7 +7,7 @@
 #include "engine/run/run.h"
 #include "engine/sim/simulation.h"
 
-namespace vinerow {
+namespace vinerow::run {
 
 /// @returns the JSON text. @param simulation  for costs and notes; its metrics are taken from
 /// `result`
@@ -16,4 +16,4 @@ std::string summary_json(const RunResult& result, Simulation& simulation);
 /// Version of this program, "0.1.0".
 std::string program_version();
 
-}  // namespace vinerow
+}  // namespace vinerow::run

@@ -4,7 +4,7 @@
 
 #include "engine/core/suggest.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 std::string list_known(std::span<const std::string> names, std::size_t most) {
   if (names.empty()) return "none";
@@ -12,4 +12,4 @@ std::string list_known(std::span<const std::string> names, std::size_t most) {
   return fmt::format("{} and {} more", join(names.first(most)), names.size() - most);
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

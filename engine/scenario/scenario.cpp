@@ -16,7 +16,7 @@
 #include "engine/scenario/scenario_phases.h"
 #include "engine/scenario/yaml_include.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 /// Reads the merged tree key by key into a Scenario and its resolved text.
 class ScenarioReader {
  public:
-  ScenarioReader(const YamlNode& root, const SourceMark& file, const Registry& registry)
+  ScenarioReader(const io::YamlNode& root, const io::SourceMark& file, const Registry& registry)
       : root_(root), file_(file), context_{registry, root, Duration{0}} {}
 
   Scenario read(const std::string& default_name) {
@@ -36,7 +36,8 @@ class ScenarioReader {
     read_physics();
     for (const StructuralKey& key : scenario_keys()) {
       if (key.spec.required && !root_.has(key.spec.name)) {
-        fail_at(file_, fmt::format("{} must be given ({})", key.spec.name, key.spec.description));
+        io::fail_at(file_,
+                    fmt::format("{} must be given ({})", key.spec.name, key.spec.description));
       }
     }
     resolved_.put("plugins", read_plugins());
@@ -48,7 +49,7 @@ class ScenarioReader {
     read_metrics();
     read_limits();
     read_record();
-    YamlNode pictures = yaml_mapping();
+    io::YamlNode pictures = io::yaml_mapping();
     scenario_.pictures = read_pictures(root_.find_entry("pictures"), vehicle_names_, pictures);
     scenario_.pictures.moments = read_moments(scenario_.pictures.moment_texts,
                                               mark_of("pictures", "moments"), scenario_.phases);
@@ -58,24 +59,27 @@ class ScenarioReader {
     scenario_.resolved_yaml =
         "# Written by vinerow: includes and overrides applied, defaults written out, paths "
         "absolute.\n" +
-        to_yaml(resolved_);
+        io::to_yaml(resolved_);
     return std::move(scenario_);
   }
 
  private:
   void check_version() const {
-    const YamlNode* version = root_.find("vinerow");
+    const io::YamlNode* version = root_.find("vinerow");
     if (!version) {
-      fail_at(file_, fmt::format("vinerow must be given: the version of the file format, which is "
-                                 "{} ('vinerow: {}')",
-                                 kFormatVersion, kFormatVersion));
+      io::fail_at(file_,
+                  fmt::format("vinerow must be given: the version of the file format, which is "
+                              "{} ('vinerow: {}')",
+                              kFormatVersion, kFormatVersion));
     }
-    const YamlScalar value = version->is_scalar() ? scalar_value(*version) : YamlScalar(0.0);
+    const io::YamlScalar value =
+        version->is_scalar() ? io::scalar_value(*version) : io::YamlScalar(0.0);
     const auto* number = std::get_if<std::int64_t>(&value);
     if (!number || *number != kFormatVersion) {
-      fail_at(version->mark, fmt::format("vinerow = {}, this program reads version {} of the file "
-                                         "format",
-                                         shown(*version), kFormatVersion));
+      io::fail_at(version->mark,
+                  fmt::format("vinerow = {}, this program reads version {} of the file "
+                              "format",
+                              io::shown(*version), kFormatVersion));
     }
   }
 
@@ -90,13 +94,13 @@ class ScenarioReader {
     scenario_.name = values.name;
     if (scenario_.name.empty()) {
       scenario_.name = default_name;
-      resolved_.put("name", yaml_text(default_name));
+      resolved_.put("name", io::yaml_text(default_name));
     } else if (!is_valid_name(scenario_.name)) {
       // Folders and files are named after it.
-      fail_at(root_.find("name")->mark,
-              fmt::format("name = '{}', must be made of letters, digits, '_' and '-' and start "
-                          "with a letter or '_' (results go to runs/<name>)",
-                          scenario_.name));
+      io::fail_at(root_.find("name")->mark,
+                  fmt::format("name = '{}', must be made of letters, digits, '_' and '-' and start "
+                              "with a letter or '_' (results go to runs/<name>)",
+                              scenario_.name));
     }
     scenario_.description = values.description;
     scenario_.seed = values.seed;
@@ -109,14 +113,14 @@ class ScenarioReader {
   ParameterSet read_group(const char* name) {
     const auto key = std::find_if(scenario_keys().begin(), scenario_keys().end(),
                                   [&](const auto& k) { return k.spec.name == name; });
-    const YamlEntry* entry = root_.find_entry(name);
+    const io::YamlEntry* entry = root_.find_entry(name);
     if (entry) {
       require_mapping(entry->value, name, "{" + key->spec.fields.front().name + ": ...}");
       check_keys(entry->value, name, names_of(key->spec.fields), "", &context_);
     }
     ReadParameters read =
-        read_parameters(entry ? entry->value : yaml_mapping(), entry ? entry->mark : file_, name,
-                        key->spec.fields, name);
+        read_parameters(entry ? entry->value : io::yaml_mapping(), entry ? entry->mark : file_,
+                        name, key->spec.fields, name);
     resolved_.put(name, std::move(read.resolved));
     return std::move(read.values);
   }
@@ -124,16 +128,17 @@ class ScenarioReader {
   void check_picture_count() const {
     const double every_s = scenario_.pictures.every_s;
     if (!(every_s > 0.0) || scenario_.duration_s / every_s <= kMostPictureInstants) return;
-    fail_at(mark_of("pictures", "every_s"),
-            fmt::format("pictures.every_s = {} s makes {:.0f} frames of each camera in {} s, must "
-                        "make at most {:.0f}",
-                        every_s, scenario_.duration_s / every_s, scenario_.duration_s,
-                        kMostPictureInstants));
+    io::fail_at(
+        mark_of("pictures", "every_s"),
+        fmt::format("pictures.every_s = {} s makes {:.0f} frames of each camera in {} s, must "
+                    "make at most {:.0f}",
+                    every_s, scenario_.duration_s / every_s, scenario_.duration_s,
+                    kMostPictureInstants));
   }
 
-  SourceMark mark_of(const char* group, const char* key) const {
-    const YamlNode* node = root_.find(group);
-    const YamlNode* value = node ? node->find(key) : nullptr;
+  io::SourceMark mark_of(const char* group, const char* key) const {
+    const io::YamlNode* node = root_.find(group);
+    const io::YamlNode* value = node ? node->find(key) : nullptr;
     return value ? value->mark : file_;
   }
 
@@ -142,46 +147,47 @@ class ScenarioReader {
     const Duration step = duration_from_s(step_s);
     // The step counts nanoseconds; what rounding to double may cost is far below one of them.
     if (step.ns <= 0 || std::abs(step.s() - step_s) > 1e-6 * 1e-9) {
-      fail_at(mark_of("physics", "step_s"),
-              fmt::format("physics.step_s = {} s, must be a whole number of nanoseconds", step_s));
+      io::fail_at(
+          mark_of("physics", "step_s"),
+          fmt::format("physics.step_s = {} s, must be a whole number of nanoseconds", step_s));
     }
     scenario_.physics_step = step;
     context_.physics_step = step;
   }
 
-  YamlNode read_plugins() {
-    YamlNode written = yaml_list();
-    const YamlEntry* entry = root_.find_entry("plugins");
+  io::YamlNode read_plugins() {
+    io::YamlNode written = io::yaml_list();
+    const io::YamlEntry* entry = root_.find_entry("plugins");
     if (!entry) return written;
     if (!entry->value.is_list()) {
-      fail_at(entry->value.mark,
-              fmt::format("plugins = {}, must be a list of shared libraries", shown(entry->value)));
+      io::fail_at(entry->value.mark, fmt::format("plugins = {}, must be a list of shared libraries",
+                                                 io::shown(entry->value)));
     }
     for (std::size_t i = 0; i < entry->value.items.size(); ++i) {
-      const YamlNode& item = entry->value.items[i];
+      const io::YamlNode& item = entry->value.items[i];
       const std::string path = fmt::format("plugins[{}]", i);
-      if (!item.is_scalar() || !std::holds_alternative<std::string>(scalar_value(item))) {
-        fail_at(item.mark,
-                fmt::format("{} = {}, must be the path of a shared library", path, shown(item)));
+      if (!item.is_scalar() || !std::holds_alternative<std::string>(io::scalar_value(item))) {
+        io::fail_at(item.mark, fmt::format("{} = {}, must be the path of a shared library", path,
+                                           io::shown(item)));
       }
       scenario_.plugins.emplace_back(read_path(item, path, true));
-      written.items.push_back(yaml_text(scenario_.plugins.back().string()));
+      written.items.push_back(io::yaml_text(scenario_.plugins.back().string()));
     }
     return written;
   }
 
-  friend std::vector<fs::path> read_plugin_list(const YamlNode& root);
+  friend std::vector<fs::path> read_plugin_list(const io::YamlNode& root);
 
   void read_vehicles() {
-    const YamlEntry& entry = *root_.find_entry("vehicles");
-    YamlNode located = entry.value;
+    const io::YamlEntry& entry = *root_.find_entry("vehicles");
+    io::YamlNode located = entry.value;
     if (located.is_null()) located.mark = entry.mark;
     require_mapping(located, "vehicles", "{rover: {type: ...}}");
-    YamlNode written = yaml_mapping();
-    for (const YamlEntry& vehicle : entry.value.entries) {
+    io::YamlNode written = io::yaml_mapping();
+    for (const io::YamlEntry& vehicle : entry.value.entries) {
       check_name(vehicle, "vehicles", "vehicle");
       if (vehicle.value.is_null()) continue;
-      YamlNode one;
+      io::YamlNode one;
       scenario_.vehicles.push_back(read_vehicle(vehicle, "vehicles." + vehicle.key, context_, one));
       vehicle_names_.push_back(vehicle.key);
       written.put(vehicle.key, std::move(one));
@@ -190,8 +196,8 @@ class ScenarioReader {
   }
 
   void read_metrics() {
-    YamlNode metrics = yaml_mapping();
-    if (const YamlEntry* entry = root_.find_entry("metrics")) {
+    io::YamlNode metrics = io::yaml_mapping();
+    if (const io::YamlEntry* entry = root_.find_entry("metrics")) {
       metrics = entry->value;
       if (metrics.is_null()) metrics.mark = entry->mark;
     } else {
@@ -200,23 +206,23 @@ class ScenarioReader {
         const bool needs_the_user = std::any_of(spec.parameters.begin(), spec.parameters.end(),
                                                 [](const auto& p) { return p.required; });
         if (needs_the_user) continue;
-        YamlNode part = yaml_mapping();
-        part.put("type", yaml_text(type));
+        io::YamlNode part = io::yaml_mapping();
+        part.put("type", io::yaml_text(type));
         metrics.put(type, std::move(part));
       }
     }
-    YamlNode written;
+    io::YamlNode written;
     scenario_.metrics = read_named_parts(metrics, "metrics", PartKind::kMetric, context_, written);
     resolved_.put("metrics", std::move(written));
   }
 
   void read_mission() {
-    YamlNode written;
+    io::YamlNode written;
     scenario_.phases =
         read_phases(root_.find_entry("phases"), scenario_.vehicles, context_, written);
     // A scenario without a mission says nothing of one.
     if (!scenario_.phases.empty()) resolved_.put("phases", std::move(written));
-    const YamlEntry* traffic = root_.find_entry("traffic");
+    const io::YamlEntry* traffic = root_.find_entry("traffic");
     scenario_.traffic =
         read_traffic(read_group("traffic"), mark_of("traffic", "reserve_alleys"), vehicle_names_);
     if (!traffic) resolved_.erase("traffic");
@@ -227,7 +233,7 @@ class ScenarioReader {
     for (const PhaseConfig& phase : scenario_.phases) {
       if (phase.job) scope.owners.push_back(phase.name);
     }
-    YamlNode written;
+    io::YamlNode written;
     scenario_.criteria = read_criteria(root_.find_entry("criteria"), "criteria", scope, written);
     resolved_.put("criteria", std::move(written));
   }
@@ -240,15 +246,15 @@ class ScenarioReader {
                mark_of("record", "truth_rate_Hz"), "record.truth_rate_Hz");
   }
 
-  const YamlNode& root_;
-  SourceMark file_;
+  const io::YamlNode& root_;
+  io::SourceMark file_;
   ReadContext context_;
   Scenario scenario_;
-  YamlNode resolved_ = yaml_mapping();
+  io::YamlNode resolved_ = io::yaml_mapping();
   std::vector<std::string> vehicle_names_;
 };
 
-std::vector<fs::path> read_plugin_list(const YamlNode& root) {
+std::vector<fs::path> read_plugin_list(const io::YamlNode& root) {
   const Registry empty;
   ScenarioReader reader(root, root.mark, empty);
   static_cast<void>(reader.read_plugins());
@@ -277,7 +283,7 @@ fs::path folder_of(const fs::path& file) {
 }  // namespace
 
 std::vector<fs::path> load_plugin_list(const fs::path& file, const Overrides& overrides) {
-  YamlNode root = load_yaml_with_includes(file);
+  io::YamlNode root = load_yaml_with_includes(file);
   apply_overrides(root, of_plugins(overrides), folder_of(file));
   return read_plugin_list(root);
 }
@@ -286,7 +292,7 @@ ScenarioSource::ScenarioSource(const fs::path& file)
     : file_(file), tree_(load_yaml_with_includes(file)) {}
 
 Scenario ScenarioSource::load(const Registry& registry, const Overrides& overrides) const {
-  YamlNode root = tree_;
+  io::YamlNode root = tree_;
   apply_overrides(root, overrides, folder_of(file_));
   Scenario scenario =
       ScenarioReader(root, {file_.string(), 0}, registry).read(file_.stem().string());
@@ -302,16 +308,16 @@ Scenario parse_scenario(const std::string& yaml, const fs::path& folder, const R
                         const Overrides& overrides) {
   // The folder of a file that is named without one is empty: the current folder.
   const fs::path absolute_folder = fs::absolute(fs::path(".") / folder).lexically_normal();
-  YamlNode root = parse_yaml(yaml, "scenario", absolute_folder);
-  const SourceMark whole{"scenario", 0};
-  if (root.is_null()) fail_at(whole, "the file is empty; a scenario starts with 'vinerow: 1'");
+  io::YamlNode root = io::parse_yaml(yaml, "scenario", absolute_folder);
+  const io::SourceMark whole{"scenario", 0};
+  if (root.is_null()) io::fail_at(whole, "the file is empty; a scenario starts with 'vinerow: 1'");
   if (!root.is_mapping()) {
-    fail_at(root.mark,
-            fmt::format("the file holds {}, must be a mapping ('key: value' lines)", shown(root)));
+    io::fail_at(root.mark, fmt::format("the file holds {}, must be a mapping ('key: value' lines)",
+                                       io::shown(root)));
   }
   resolve_includes(root, "");
   apply_overrides(root, overrides, absolute_folder);
   return ScenarioReader(root, whole, registry).read("scenario");
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -15,7 +15,7 @@
 #include "engine/io/files/yaml.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// A part as named in a scenario: `type`, `rate_Hz`, and its parameters at the same level.
 struct PartConfig {
@@ -25,7 +25,7 @@ struct PartConfig {
   /// metrics. 0 also where the kind has no rate.
   double rate_Hz = 0.0;
   ParameterSet parameters;
-  SourceMark where;
+  io::SourceMark where;
 };
 
 /// How a vehicle starts. Either a pose, a spawn point of the world, or an alley's entrance.
@@ -37,7 +37,7 @@ struct SpawnConfig {
       alley;  ///< start on this alley's centre line, `offset_m` before its first point
   double offset_m = 0.0;
   bool reverse = false;  ///< start at the alley's last point, driving towards the first
-  SourceMark where;
+  io::SourceMark where;
 };
 
 struct NamedPart {
@@ -64,7 +64,7 @@ struct VehicleConfig {
   std::optional<PartConfig> guidance;
   std::optional<PartConfig> controller;
   std::vector<NamedPart> payloads;  ///< in file order
-  SourceMark where;
+  io::SourceMark where;
 };
 
 enum class CameraKind { kFixed, kChase, kTop, kOnBoard, kShots };
@@ -92,14 +92,14 @@ struct CameraConfig {
   bool show_map = false;          ///< the row meshes of vehicles' own maps
   std::string sensor = "camera";  ///< shots: whose pictures are drawn
   int every = 10;                 ///< shots: those whose index is a multiple of it
-  SourceMark where;
+  io::SourceMark where;
 };
 
 /// A moment of a mission: so long after a phase began.
 struct PhaseMoment {
   std::string phase;
   double after_s = 0.0;
-  SourceMark where;
+  io::SourceMark where;
 };
 
 /// Frames of one camera at regular intervals that are drawn without asking whether that was meant.
@@ -132,7 +132,7 @@ struct Criterion {
   std::string metric;  ///< "<vehicle>.<metric>"
   std::optional<double> min;
   std::optional<double> max;
-  SourceMark where;
+  io::SourceMark where;
 };
 
 /// A product that a phase takes: `map: from build_map`, or `pictures: from survey/plane/camera`
@@ -142,7 +142,7 @@ struct ProductSource {
   std::string phase;  ///< that gives it
   std::string item;   ///< "plane/camera"; "" where the phase gives one alone
   ProductKind kind = ProductKind::kMap;
-  SourceMark where;
+  io::SourceMark where;
 };
 
 /// What becomes of a mission in which a phase fails. What waits for that phase is blocked.
@@ -172,14 +172,14 @@ struct PhaseConfig {
   std::optional<WeatherWindow> weather;
   /// Metrics are "<vehicle>.<metric>", those of a job its numbers.
   std::vector<Criterion> criteria;
-  SourceMark where;
+  io::SourceMark where;
 };
 
 /// Who shares the alleys, so that nobody meets another between the rows.
 struct TrafficConfig {
   std::vector<std::string> vehicles;  ///< first served first; empty: alleys are not reserved
   double stop_before_m = 1.0;         ///< before an alley that another one has
-  SourceMark where;
+  io::SourceMark where;
 };
 
 struct Scenario {
@@ -207,7 +207,7 @@ struct Scenario {
 /// its own folder.
 struct OverrideValue {
   std::string path;  ///< "rover.controller.lookahead_m"; `vehicles.` may be left out
-  YamlNode value;
+  io::YamlNode value;
 };
 
 /// Values applied over the file: first `values`, then `sets`, each in order.
@@ -231,11 +231,11 @@ class ScenarioSource {
   /// Overrides and checks. @throws ConfigError with "file:line: key = value, ..." in one sentence
   Scenario load(const Registry& registry, const Overrides& overrides = {}) const;
   /// The file with its includes merged in.
-  const YamlNode& tree() const { return tree_; }
+  const io::YamlNode& tree() const { return tree_; }
 
  private:
   std::filesystem::path file_;
-  YamlNode tree_;
+  io::YamlNode tree_;
 };
 
 /// The same for one scenario of a file.
@@ -248,4 +248,4 @@ Scenario parse_scenario(const std::string& yaml, const std::filesystem::path& fo
 /// JSON Schema (draft 2020-12) of scenario files for exactly the parts in the registry.
 std::string scenario_json_schema(const Registry& registry);
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

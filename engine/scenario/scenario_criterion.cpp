@@ -6,25 +6,26 @@
 #include "engine/scenario/scenario_keys.h"
 #include "engine/scenario/scenario_part.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 /// "rover.cross_track_rms_m", or "rows" where a job's own number is meant.
-void check_metric(const std::string& metric, const SourceMark& mark, const std::string& path,
+void check_metric(const std::string& metric, const io::SourceMark& mark, const std::string& path,
                   const CriterionScope& scope) {
   if (scope.plain && !metric.empty()) return;
   const std::size_t dot = metric.find('.');
   if (dot == std::string::npos || dot == 0 || dot + 1 == metric.size()) {
-    fail_at(mark, fmt::format("{}.metric = '{}', must be <vehicle>.<metric>, e.g. "
-                              "{}.cross_track_rms_m",
-                              path, metric, scope.owners.empty() ? "rover" : scope.owners.front()));
+    io::fail_at(mark,
+                fmt::format("{}.metric = '{}', must be <vehicle>.<metric>, e.g. "
+                            "{}.cross_track_rms_m",
+                            path, metric, scope.owners.empty() ? "rover" : scope.owners.front()));
   }
   check_vehicle(metric.substr(0, dot), scope.owners, mark,
                 fmt::format("{}.metric = '{}'", path, metric));
 }
 
-Criterion read_criterion(const YamlNode& node, const std::string& path, const CriterionScope& scope,
-                         YamlNode& written) {
+Criterion read_criterion(const io::YamlNode& node, const std::string& path,
+                         const CriterionScope& scope, io::YamlNode& written) {
   require_mapping(node, path, "{metric: rover.cross_track_rms_m, max: 0.05}");
   check_keys(node, path, names_of(criterion_table().specs()), "", nullptr);
   ReadParameters read =
@@ -37,11 +38,11 @@ Criterion read_criterion(const YamlNode& node, const std::string& path, const Cr
   criterion.max = params.max;
   check_metric(criterion.metric, node.find("metric")->mark, path, scope);
   if (!criterion.min && !criterion.max) {
-    fail_at(node.mark, fmt::format("{}: min or max must be given", path));
+    io::fail_at(node.mark, fmt::format("{}: min or max must be given", path));
   }
   if (criterion.min && criterion.max && *criterion.min > *criterion.max) {
-    fail_at(node.mark,
-            fmt::format("{}: min = {} is above max = {}", path, *criterion.min, *criterion.max));
+    io::fail_at(node.mark, fmt::format("{}: min = {} is above max = {}", path, *criterion.min,
+                                       *criterion.max));
   }
   criterion.name = params.name.value_or("");
   if (criterion.name.empty()) {
@@ -50,24 +51,24 @@ Criterion read_criterion(const YamlNode& node, const std::string& path, const Cr
     if (criterion.max) criterion.name += fmt::format(" <= {}", *criterion.max);
   }
   written = std::move(read.resolved);
-  written.put("name", yaml_text(criterion.name));
+  written.put("name", io::yaml_text(criterion.name));
   return criterion;
 }
 
 }  // namespace
 
-std::vector<Criterion> read_criteria(const YamlEntry* entry, const std::string& path,
-                                     const CriterionScope& scope, YamlNode& written) {
-  written = yaml_list();
+std::vector<Criterion> read_criteria(const io::YamlEntry* entry, const std::string& path,
+                                     const CriterionScope& scope, io::YamlNode& written) {
+  written = io::yaml_list();
   std::vector<Criterion> criteria;
   if (!entry) return criteria;
   if (!entry->value.is_list()) {
-    fail_at(entry->mark, fmt::format("{} = {}, must be a list of entries like {{metric: "
-                                     "rover.cross_track_rms_m, max: 0.05}}",
-                                     path, shown(entry->value)));
+    io::fail_at(entry->mark, fmt::format("{} = {}, must be a list of entries like {{metric: "
+                                         "rover.cross_track_rms_m, max: 0.05}}",
+                                         path, io::shown(entry->value)));
   }
   for (std::size_t i = 0; i < entry->value.items.size(); ++i) {
-    YamlNode one;
+    io::YamlNode one;
     criteria.push_back(
         read_criterion(entry->value.items[i], fmt::format("{}[{}]", path, i), scope, one));
     written.items.push_back(std::move(one));
@@ -75,4 +76,4 @@ std::vector<Criterion> read_criteria(const YamlEntry* entry, const std::string& 
   return criteria;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -7,7 +7,7 @@
 #include "engine/scenario/scenario.h"
 #include "engine/scenario/scenario_reader.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// Whose metrics criteria may name.
 struct CriterionScope {
@@ -16,7 +16,7 @@ struct CriterionScope {
 };
 
 /// A list of criteria. @param entry  nullptr: none. @param written  the resolved list
-std::vector<Criterion> read_criteria(const YamlEntry* entry, const std::string& path,
-                                     const CriterionScope& scope, YamlNode& written);
+std::vector<Criterion> read_criteria(const io::YamlEntry* entry, const std::string& path,
+                                     const CriterionScope& scope, io::YamlNode& written);
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -10,7 +10,7 @@
 #include "engine/scenario/scenario_reader.h"
 #include "engine/scenario/yaml_include.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 /// Longer lists of known keys hide the answer rather than give it.
@@ -42,9 +42,9 @@ struct Home {
   std::vector<std::string> keys;
 };
 
-void add_part_home(const YamlNode* node, PartKind kind, const std::string& path,
+void add_part_home(const io::YamlNode* node, PartKind kind, const std::string& path,
                    const Registry& registry, std::vector<Home>& homes) {
-  const YamlNode* type = node ? node->find("type") : nullptr;
+  const io::YamlNode* type = node ? node->find("type") : nullptr;
   if (!type || !type->is_scalar()) return;
   const std::vector<std::string> known = registry.names(kind);
   if (std::find(known.begin(), known.end(), type->text) == known.end()) return;
@@ -54,7 +54,7 @@ void add_part_home(const YamlNode* node, PartKind kind, const std::string& path,
 /// Every mapping of the scenario that has keys of its own, in file order.
 std::vector<Home> all_homes(const ReadContext& context) {
   std::vector<Home> homes;
-  const YamlNode& root = context.root;
+  const io::YamlNode& root = context.root;
   std::vector<std::string> top;
   for (const StructuralKey& key : scenario_keys()) {
     top.push_back(key.spec.name);
@@ -62,19 +62,19 @@ std::vector<Home> all_homes(const ReadContext& context) {
   }
   homes.push_back({"", top});
   add_part_home(root.find("world"), PartKind::kWorld, "world", context.registry, homes);
-  const YamlNode* vehicles = root.find("vehicles");
+  const io::YamlNode* vehicles = root.find("vehicles");
   if (!vehicles) return homes;
-  for (const YamlEntry& vehicle : vehicles->entries) {
+  for (const io::YamlEntry& vehicle : vehicles->entries) {
     const std::string path = "vehicles." + vehicle.key;
     add_part_home(&vehicle.value, PartKind::kVehicle, path, context.registry, homes);
     std::vector<std::string> own;
     for (const StructuralKey& key : vehicle_keys()) {
       own.push_back(key.spec.name);
-      const YamlNode* node = vehicle.value.find(key.spec.name);
+      const io::YamlNode* node = vehicle.value.find(key.spec.name);
       if (key.shape == KeyShape::kPart) {
         add_part_home(node, key.part_kind, path + "." + key.spec.name, context.registry, homes);
       } else if (key.shape == KeyShape::kNamedParts && node) {
-        for (const YamlEntry& entry : node->entries) {
+        for (const io::YamlEntry& entry : node->entries) {
           add_part_home(&entry.value, key.part_kind, path + "." + key.spec.name + "." + entry.key,
                         context.registry, homes);
         }
@@ -146,35 +146,37 @@ std::string likely_key(const std::string& wrong, const std::vector<std::string>&
   return nearest;
 }
 
-void check_keys(const YamlNode& mapping, const std::string& path,
+void check_keys(const io::YamlNode& mapping, const std::string& path,
                 const std::vector<std::string>& known, const std::string& owner,
                 const ReadContext* context) {
-  for (const YamlEntry& entry : mapping.entries) {
+  for (const io::YamlEntry& entry : mapping.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     std::vector<std::string> sorted = known;
     std::sort(sorted.begin(), sorted.end());
     std::string hint = context ? belongs_hint(entry.key, *context) : "";
     const std::string likely = likely_key(entry.key, sorted);
     if (hint.empty() && !likely.empty()) hint = fmt::format("; did you mean '{}'?", likely);
-    fail_at(entry.mark, fmt::format("{}: unknown key{}{} (known: {})", join_path(path, entry.key),
-                                    owner.empty() ? "" : " of " + owner, hint,
-                                    list_known(sorted, kMaxListedKeys)));
+    io::fail_at(
+        entry.mark,
+        fmt::format("{}: unknown key{}{} (known: {})", join_path(path, entry.key),
+                    owner.empty() ? "" : " of " + owner, hint, list_known(sorted, kMaxListedKeys)));
   }
 }
 
-void check_name(const YamlEntry& entry, const std::string& path, const char* what) {
+void check_name(const io::YamlEntry& entry, const std::string& path, const char* what) {
   if (is_valid_name(entry.key)) return;
-  fail_at(entry.mark,
-          fmt::format("{}: the name of a {} is made of letters, digits, '_' and '-' and "
-                      "starts with a letter or '_'",
-                      join_path(path, entry.key), what));
+  io::fail_at(entry.mark,
+              fmt::format("{}: the name of a {} is made of letters, digits, '_' and '-' and "
+                          "starts with a letter or '_'",
+                          join_path(path, entry.key), what));
 }
 
-void require_mapping(const YamlNode& node, const std::string& path, const std::string& example) {
+void require_mapping(const io::YamlNode& node, const std::string& path,
+                     const std::string& example) {
   if (!node.is_mapping()) {
-    fail_at(node.mark,
-            fmt::format("{} = {}, must be a mapping like {}", path, shown(node), example));
+    io::fail_at(node.mark,
+                fmt::format("{} = {}, must be a mapping like {}", path, io::shown(node), example));
   }
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

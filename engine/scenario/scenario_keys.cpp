@@ -5,7 +5,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/core/suggest.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 StructuralKey parameter(ParameterSpec spec) {
@@ -309,7 +309,7 @@ SpawnConfig read_spawn_form(const std::string& form, const ParameterSet& values)
   return spawn;
 }
 
-std::string spawn_form_of(const YamlNode& spawn) {
+std::string spawn_form_of(const io::YamlNode& spawn) {
   for (const SpawnForm& form : spawn_forms()) {
     for (const ParameterSpec& field : form.fields) {
       if (spawn.has(field.name)) return form.name;
@@ -487,4 +487,4 @@ const std::vector<std::string>& reserved_signal_names() {
   return names;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -12,7 +12,7 @@
 #include "engine/io/files/yaml.h"
 #include "engine/scenario/scenario.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// The version of the file format that this program reads (`vinerow: 1`).
 constexpr std::int64_t kFormatVersion = 1;
@@ -81,7 +81,7 @@ const std::vector<SpawnForm>& spawn_forms();
 /// Where the vehicle starts by the values of the form's fields.
 SpawnConfig read_spawn_form(const std::string& form, const ParameterSet& values);
 /// Name of the first form of which the mapping has a key, or "".
-std::string spawn_form_of(const YamlNode& spawn);
+std::string spawn_form_of(const io::YamlNode& spawn);
 /// "{alley, offset_m, reverse}, {x_m, y_m, yaw_deg} or {point}".
 std::string spawn_forms_text();
 
@@ -111,4 +111,4 @@ bool is_valid_name(const std::string& name);
 /// Signals of the kernel and of a vehicle's parts, after which no sensor or observer may be called.
 const std::vector<std::string>& reserved_signal_names();
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

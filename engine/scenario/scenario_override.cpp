@@ -9,19 +9,19 @@
 #include "engine/scenario/scenario_keys.h"
 #include "engine/scenario/yaml_include.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
-std::vector<std::string> split_path(const std::string& path, const SourceMark& mark) {
+std::vector<std::string> split_path(const std::string& path, const io::SourceMark& mark) {
   std::vector<std::string> keys;
   std::size_t begin = 0;
   while (true) {
     const std::size_t end = path.find('.', begin);
     keys.push_back(path.substr(begin, end - begin));
     if (keys.back().empty()) {
-      fail_at(mark, fmt::format("the path '{}' has an empty key; write it like "
-                                "rover.controller.rate_Hz",
-                                path));
+      io::fail_at(mark, fmt::format("the path '{}' has an empty key; write it like "
+                                    "rover.controller.rate_Hz",
+                                    path));
     }
     if (end == std::string::npos) return keys;
     begin = end + 1;
@@ -29,40 +29,41 @@ std::vector<std::string> split_path(const std::string& path, const SourceMark& m
 }
 
 /// Puts `vehicles` in front where the path starts with a vehicle's name.
-void complete_path(std::vector<std::string>& keys, const YamlNode& root, const SourceMark& mark) {
+void complete_path(std::vector<std::string>& keys, const io::YamlNode& root,
+                   const io::SourceMark& mark) {
   std::vector<std::string> known;
   for (const StructuralKey& key : scenario_keys()) {
     if (key.spec.name == keys.front()) return;
     known.push_back(key.spec.name);
   }
-  if (const YamlNode* vehicles = root.find("vehicles")) {
+  if (const io::YamlNode* vehicles = root.find("vehicles")) {
     if (vehicles->has(keys.front())) {
       keys.insert(keys.begin(), "vehicles");
       return;
     }
-    for (const YamlEntry& vehicle : vehicles->entries) known.push_back(vehicle.key);
+    for (const io::YamlEntry& vehicle : vehicles->entries) known.push_back(vehicle.key);
   }
-  fail_at(mark, fmt::format("unknown path '{}'{} (known: {})", keys.front(),
-                            did_you_mean(keys.front(), known), join(known)));
+  io::fail_at(mark, fmt::format("unknown path '{}'{} (known: {})", keys.front(),
+                                did_you_mean(keys.front(), known), join(known)));
 }
 
-YamlNode& list_item(YamlNode& list, const std::string& key, const std::string& path,
-                    const SourceMark& mark) {
+io::YamlNode& list_item(io::YamlNode& list, const std::string& key, const std::string& path,
+                        const io::SourceMark& mark) {
   std::size_t index = 0;
   const auto result = std::from_chars(key.data(), key.data() + key.size(), index);
   const bool whole = result.ec == std::errc() && result.ptr == key.data() + key.size();
   if (!whole || index >= list.items.size()) {
-    fail_at(mark, list.items.empty()
-                      ? fmt::format("{} is an empty list, which has no entry '{}'", path, key)
-                      : fmt::format("{} is a list, its entries are 0 to {}, not '{}'", path,
-                                    list.items.size() - 1, key));
+    io::fail_at(mark, list.items.empty()
+                          ? fmt::format("{} is an empty list, which has no entry '{}'", path, key)
+                          : fmt::format("{} is a list, its entries are 0 to {}, not '{}'", path,
+                                        list.items.size() - 1, key));
   }
   return list.items[index];
 }
 
-void set_value(YamlNode& root, const std::vector<std::string>& keys, YamlNode value) {
-  const SourceMark mark = value.mark;
-  YamlNode* node = &root;
+void set_value(io::YamlNode& root, const std::vector<std::string>& keys, io::YamlNode value) {
+  const io::SourceMark mark = value.mark;
+  io::YamlNode* node = &root;
   std::string path;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const bool last = i + 1 == keys.size();
@@ -73,11 +74,11 @@ void set_value(YamlNode& root, const std::vector<std::string>& keys, YamlNode va
       continue;
     }
     if (node->is_null()) {
-      *node = yaml_mapping();
+      *node = io::yaml_mapping();
       node->mark = mark;
     }
     if (!node->is_mapping()) {
-      fail_at(mark, fmt::format("{} = {} has no key '{}'", path, shown(*node), keys[i]));
+      io::fail_at(mark, fmt::format("{} = {} has no key '{}'", path, io::shown(*node), keys[i]));
     }
     // A source that belonged to the value before would be wrong for the new one.
     if (last && keys[i] == "value" && is_sourced_value(*node)) node->erase("source");
@@ -92,7 +93,7 @@ void set_value(YamlNode& root, const std::vector<std::string>& keys, YamlNode va
       return;
     }
     if (!node->has(keys[i])) {
-      YamlNode created = yaml_mapping();
+      io::YamlNode created = io::yaml_mapping();
       created.mark = mark;
       node->put(keys[i], std::move(created));
     }
@@ -100,37 +101,37 @@ void set_value(YamlNode& root, const std::vector<std::string>& keys, YamlNode va
   }
 }
 
-void mark_all(YamlNode& node, const SourceMark& mark) {
+void mark_all(io::YamlNode& node, const io::SourceMark& mark) {
   node.mark = mark;
-  for (YamlNode& item : node.items) mark_all(item, mark);
-  for (YamlEntry& entry : node.entries) {
+  for (io::YamlNode& item : node.items) mark_all(item, mark);
+  for (io::YamlEntry& entry : node.entries) {
     entry.mark = mark;
     mark_all(entry.value, mark);
   }
 }
 
 /// @param value  with its marks
-void apply_value(YamlNode& root, const std::string& path, YamlNode value) {
-  const SourceMark mark = value.mark;
+void apply_value(io::YamlNode& root, const std::string& path, io::YamlNode value) {
+  const io::SourceMark mark = value.mark;
   std::vector<std::string> keys = split_path(path, mark);
   complete_path(keys, root, mark);
   if (keys.back() == "include")
-    fail_at(mark, "include cannot be set; name the file in the scenario");
+    io::fail_at(mark, "include cannot be set; name the file in the scenario");
   resolve_includes(value, "");
   set_value(root, keys, std::move(value));
 }
 
-void apply_set(YamlNode& root, const std::string& set, const std::filesystem::path& folder) {
-  const SourceMark mark{fmt::format("--set {}", set), 0};
+void apply_set(io::YamlNode& root, const std::string& set, const std::filesystem::path& folder) {
+  const io::SourceMark mark{fmt::format("--set {}", set), 0};
   const std::size_t equals = set.find('=');
   if (equals == std::string::npos || equals == 0) {
-    fail_at(mark, "must have the form path=value, e.g. rover.controller.lookahead_m=0.5");
+    io::fail_at(mark, "must have the form path=value, e.g. rover.controller.lookahead_m=0.5");
   }
-  YamlNode value;
+  io::YamlNode value;
   try {
-    value = parse_yaml(set.substr(equals + 1), mark.file, folder);
+    value = io::parse_yaml(set.substr(equals + 1), mark.file, folder);
   } catch (const ConfigError&) {
-    fail_at(mark, fmt::format("the value '{}' is not valid YAML", set.substr(equals + 1)));
+    io::fail_at(mark, fmt::format("the value '{}' is not valid YAML", set.substr(equals + 1)));
   }
   mark_all(value, mark);
   apply_value(root, set.substr(0, equals), std::move(value));
@@ -138,16 +139,16 @@ void apply_set(YamlNode& root, const std::string& set, const std::filesystem::pa
 
 }  // namespace
 
-void apply_overrides(YamlNode& root, const Overrides& overrides,
+void apply_overrides(io::YamlNode& root, const Overrides& overrides,
                      const std::filesystem::path& folder) {
   for (const OverrideValue& value : overrides.values) apply_value(root, value.path, value.value);
   for (const std::string& set : overrides.sets) apply_set(root, set, folder);
   if (overrides.seed) {
-    YamlNode seed = yaml_text(std::to_string(*overrides.seed));
+    io::YamlNode seed = io::yaml_text(std::to_string(*overrides.seed));
     seed.quoted = false;
     seed.mark = {"--seed", 0};
     root.put("seed", std::move(seed));
   }
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

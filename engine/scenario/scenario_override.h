@@ -6,14 +6,14 @@
 #include "engine/io/files/yaml.h"
 #include "engine/scenario/scenario.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// Writes all overrides into the merged scenario, in order. What they say is checked afterwards
 /// with everything else; the marks of the written values name the `--set` text. A relative path in
 /// a value starts at `folder`.
 /// @throws ConfigError naming the `--set` text: no '=', bad YAML, unknown start of the path, index
 /// out of range
-void apply_overrides(YamlNode& root, const Overrides& overrides,
+void apply_overrides(io::YamlNode& root, const Overrides& overrides,
                      const std::filesystem::path& folder);
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

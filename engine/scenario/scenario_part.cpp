@@ -12,7 +12,7 @@
 #include "engine/scenario/scenario_keys.h"
 #include "engine/scenario/yaml_include.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 bool is_known(const std::string& name, const std::vector<std::string>& known) {
@@ -24,32 +24,34 @@ std::string with_article(PartKind kind) {
 }
 
 /// The spec of the type that a part names.
-const PartSpec& read_type(const YamlEntry& entry, const std::string& path, PartKind kind,
+const PartSpec& read_type(const io::YamlEntry& entry, const std::string& path, PartKind kind,
                           const ReadContext& context) {
   const std::vector<std::string> known = context.registry.names(kind);
-  const YamlNode* type = entry.value.find("type");
+  const io::YamlNode* type = entry.value.find("type");
   if (!type) {
-    fail_at(entry.mark, fmt::format("{}.type must be given, one of: {}", path,
-                                    known.empty() ? "none is known" : join(known)));
+    io::fail_at(entry.mark, fmt::format("{}.type must be given, one of: {}", path,
+                                        known.empty() ? "none is known" : join(known)));
   }
-  if (!type->is_scalar() || !std::holds_alternative<std::string>(scalar_value(*type))) {
-    fail_at(type->mark, fmt::format("{}.type = {}, must be one of: {}", path, shown(*type),
-                                    known.empty() ? "none is known" : join(known)));
+  if (!type->is_scalar() || !std::holds_alternative<std::string>(io::scalar_value(*type))) {
+    io::fail_at(type->mark, fmt::format("{}.type = {}, must be one of: {}", path, io::shown(*type),
+                                        known.empty() ? "none is known" : join(known)));
   }
   if (is_known(type->text, known)) return context.registry.spec(kind, type->text);
   for (const PartKind other : kAllPartKinds) {
     if (!is_known(type->text, context.registry.names(other))) continue;
-    fail_at(type->mark, fmt::format("{}.type = '{}' is {}, must be {} (known: {})", path,
-                                    type->text, with_article(other), with_article(kind),
-                                    known.empty() ? "none" : join(known)));
+    io::fail_at(type->mark, fmt::format("{}.type = '{}' is {}, must be {} (known: {})", path,
+                                        type->text, with_article(other), with_article(kind),
+                                        known.empty() ? "none" : join(known)));
   }
-  fail_at(type->mark,
-          fmt::format("{}.type = {}: unknown {}{} (known: {})", path, shown(*type), to_string(kind),
-                      did_you_mean(type->text, known), known.empty() ? "none" : join(known)));
+  io::fail_at(
+      type->mark,
+      fmt::format("{}.type = {}: unknown {}{} (known: {})", path, io::shown(*type), to_string(kind),
+                  did_you_mean(type->text, known), known.empty() ? "none" : join(known)));
 }
 
-SpawnConfig read_spawn(const YamlEntry& entry, const std::string& path, YamlNode& resolved) {
-  const YamlNode& node = entry.value;
+SpawnConfig read_spawn(const io::YamlEntry& entry, const std::string& path,
+                       io::YamlNode& resolved) {
+  const io::YamlNode& node = entry.value;
   require_mapping(node, path, "{alley: 0}");
   std::vector<std::string> known;
   std::vector<std::string> given_forms;
@@ -68,7 +70,8 @@ SpawnConfig read_spawn(const YamlEntry& entry, const std::string& path, YamlNode
     const std::string what = given_forms.empty()
                                  ? "is empty"
                                  : fmt::format("gives {} at once", join(given_forms, " and "));
-    fail_at(entry.mark, fmt::format("{} {}, must be one of {}", path, what, spawn_forms_text()));
+    io::fail_at(entry.mark,
+                fmt::format("{} {}, must be one of {}", path, what, spawn_forms_text()));
   }
   const std::string form_name = spawn_form_of(node);
   const auto form = std::find_if(spawn_forms().begin(), spawn_forms().end(),
@@ -80,7 +83,7 @@ SpawnConfig read_spawn(const YamlEntry& entry, const std::string& path, YamlNode
   SpawnConfig spawn = read_spawn_form(form_name, read.values);
   spawn.where = entry.mark;
   if (form_name == "point" && spawn.point.empty()) {
-    fail_at(node.find("point")->mark, path + ".point = '', must be the name of a spawn point");
+    io::fail_at(node.find("point")->mark, path + ".point = '', must be the name of a spawn point");
   }
   return spawn;
 }
@@ -101,11 +104,11 @@ std::optional<PartConfig>& slot_of(VehicleConfig& vehicle, PartKind kind) {
 }
 
 /// A sensor or an observer gives its signal its name.
-void check_signal_name(const YamlEntry& entry, const std::string& path, const char* what) {
+void check_signal_name(const io::YamlEntry& entry, const std::string& path, const char* what) {
   if (is_known(entry.key, reserved_signal_names())) {
-    fail_at(entry.mark,
-            fmt::format("{}: {} cannot have the name of another signal ({})",
-                        join_path(path, entry.key), what, join(reserved_signal_names())));
+    io::fail_at(entry.mark,
+                fmt::format("{}: {} cannot have the name of another signal ({})",
+                            join_path(path, entry.key), what, join(reserved_signal_names())));
   }
 }
 
@@ -122,7 +125,7 @@ bool works_on_readings(PartKind kind) {
 }
 
 /// Parts take the names of the signals they read as free texts.
-void check_wires(const YamlEntry& entry, const std::string& path, PartKind kind,
+void check_wires(const io::YamlEntry& entry, const std::string& path, PartKind kind,
                  const std::vector<ParameterSpec>& fields, const ParameterSet& values) {
   if (!works_on_readings(kind)) return;
   for (const ParameterSpec& field : fields) {
@@ -134,11 +137,12 @@ void check_wires(const YamlEntry& entry, const std::string& path, PartKind kind,
     }
     for (const std::string& name : names) {
       if (!is_truth_signal(name)) continue;
-      const YamlEntry* given = entry.value.find_entry(field.name);
-      fail_at(given ? given->mark : entry.mark,
-              fmt::format("{} = '{}' is the truth, which no part of a vehicle reads by name; must "
-                          "be the name of a sensor's signal",
-                          join_path(path, field.name), name));
+      const io::YamlEntry* given = entry.value.find_entry(field.name);
+      io::fail_at(
+          given ? given->mark : entry.mark,
+          fmt::format("{} = '{}' is the truth, which no part of a vehicle reads by name; must "
+                      "be the name of a sensor's signal",
+                      join_path(path, field.name), name));
     }
   }
 }
@@ -153,16 +157,16 @@ void check_observer_names(const VehicleConfig& vehicle, const std::string& path)
   for (const NamedPart& payload : vehicle.payloads) {
     const auto [other, is_free] = taken.emplace(payload.name, "a payload");
     if (is_free) continue;
-    fail_at(payload.part.where, fmt::format("{}.payloads.{}: its signal has the name of {}", path,
-                                            payload.name, other->second));
+    io::fail_at(payload.part.where, fmt::format("{}.payloads.{}: its signal has the name of {}",
+                                                path, payload.name, other->second));
   }
   for (const NamedPart& observer : vehicle.observers) {
     for (const auto& [local, signal] : observer_signals(observer.name)) {
       const auto [other, is_free] = taken.emplace(signal, "the observer '" + observer.name + "'");
       if (is_free) continue;
-      fail_at(observer.part.where,
-              fmt::format("{}.observers.{}: its signal '{}' has the name of {}", path,
-                          observer.name, signal, other->second));
+      io::fail_at(observer.part.where,
+                  fmt::format("{}.observers.{}: its signal '{}' has the name of {}", path,
+                              observer.name, signal, other->second));
     }
   }
 }
@@ -189,7 +193,7 @@ void check_part_signals(const VehicleConfig& vehicle, const std::string& path,
                          const char* what) {
     const auto found = writers.find(signal);
     if (found == writers.end()) return;
-    fail_at(
+    io::fail_at(
         part.part.where,
         fmt::format("{}.{}.{}: {} cannot have the name of a signal that {} writes ({}); give "
                     "it another name",
@@ -220,10 +224,10 @@ std::vector<std::string> fixed_signals(const PartSpec& spec) {
   return signals;
 }
 
-ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kind,
+ReadPart read_part(const io::YamlEntry& entry, const std::string& path, PartKind kind,
                    const ReadContext& context, const std::vector<std::string>& extra_keys) {
   const std::vector<std::string> types = context.registry.names(kind);
-  YamlNode located = entry.value;
+  io::YamlNode located = entry.value;
   if (located.is_null()) located.mark = entry.mark;
   require_mapping(located, path,
                   fmt::format("{{type: {}}}", types.empty() ? "..." : types.front()));
@@ -241,15 +245,15 @@ ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kin
   ReadPart part;
   part.config.type = spec.name;
   part.config.where = entry.mark;
-  part.resolved.put("type", yaml_text(spec.name));
+  part.resolved.put("type", io::yaml_text(spec.name));
   if (rated) {
     ReadParameters rate =
         read_parameters(entry.value, entry.mark, path, {rate_field(kind, spec)}, spec.name);
-    for (YamlEntry& written : rate.resolved.entries) {
+    for (io::YamlEntry& written : rate.resolved.entries) {
       part.resolved.put(written.key, std::move(written.value));
     }
     if (const std::optional<double> rate_Hz = rate_table().read(rate.values, "").rate_Hz) {
-      const YamlEntry* given = entry.value.find_entry("rate_Hz");
+      const io::YamlEntry* given = entry.value.find_entry("rate_Hz");
       part.config.rate_Hz = *rate_Hz;
       check_rate(part.config.rate_Hz, context.physics_step, given ? given->mark : entry.mark,
                  join_path(path, "rate_Hz"));
@@ -260,7 +264,7 @@ ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kin
   }
   ReadParameters read =
       read_parameters(entry.value, entry.mark, path, fields, path + " (" + spec.name + ")");
-  for (YamlEntry& written : read.resolved.entries) {
+  for (io::YamlEntry& written : read.resolved.entries) {
     part.resolved.put(written.key, std::move(written.value));
   }
   check_wires(entry, path, kind, fields, read.values);
@@ -268,22 +272,22 @@ ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kin
   return part;
 }
 
-std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::string& path,
+std::vector<NamedPart> read_named_parts(const io::YamlNode& mapping, const std::string& path,
                                         PartKind kind, const ReadContext& context,
-                                        YamlNode& resolved) {
+                                        io::YamlNode& resolved) {
   require_mapping(mapping, path, "{name: {type: ...}}");
   std::vector<NamedPart> parts;
-  resolved = yaml_mapping();
-  for (const YamlEntry& entry : mapping.entries) {
+  resolved = io::yaml_mapping();
+  for (const io::YamlEntry& entry : mapping.entries) {
     check_name(entry, path, to_string(kind));
     if (kind == PartKind::kSensor) check_signal_name(entry, path, "a sensor");
     if (kind == PartKind::kEstimator) check_signal_name(entry, path, "an observer");
     if (kind == PartKind::kPayload) check_signal_name(entry, path, "a payload");
     if (kind != PartKind::kMetric && entry.key.ends_with("_truth")) {
-      fail_at(entry.mark,
-              fmt::format("{}: a name cannot end in '_truth', which marks what a sensor "
-                          "would have read without error",
-                          join_path(path, entry.key)));
+      io::fail_at(entry.mark,
+                  fmt::format("{}: a name cannot end in '_truth', which marks what a sensor "
+                              "would have read without error",
+                              join_path(path, entry.key)));
     }
     if (entry.value.is_null()) continue;
     ReadPart part = read_part(entry, join_path(path, entry.key), kind, context);
@@ -293,8 +297,8 @@ std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::stri
   return parts;
 }
 
-VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
-                           const ReadContext& context, YamlNode& resolved) {
+VehicleConfig read_vehicle(const io::YamlEntry& entry, const std::string& path,
+                           const ReadContext& context, io::YamlNode& resolved) {
   std::vector<std::string> own_keys;
   for (const StructuralKey& key : vehicle_keys()) own_keys.push_back(key.spec.name);
   ReadPart part = read_part(entry, path, PartKind::kVehicle, context, own_keys);
@@ -309,20 +313,20 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
     if (key.shape == KeyShape::kParameter) {
       ReadParameters read = read_parameters(entry.value, entry.mark, path, {key.spec}, path);
       vehicle.on_crash = vehicle_table().read(read.values, "").on_crash;
-      for (YamlEntry& written : read.resolved.entries) {
+      for (io::YamlEntry& written : read.resolved.entries) {
         resolved.put(written.key, std::move(written.value));
       }
       continue;
     }
-    const YamlEntry* given = entry.value.find_entry(key.spec.name);
+    const io::YamlEntry* given = entry.value.find_entry(key.spec.name);
     if (!given || (key.removable && given->value.is_null())) {
       if (key.spec.required) {
-        fail_at(entry.mark,
-                fmt::format("{} must be given, one of {}", key_path, spawn_forms_text()));
+        io::fail_at(entry.mark,
+                    fmt::format("{} must be given, one of {}", key_path, spawn_forms_text()));
       }
       continue;
     }
-    YamlNode written;
+    io::YamlNode written;
     if (key.shape == KeyShape::kSpawn) {
       vehicle.spawn = read_spawn(*given, key_path, written);
     } else if (key.shape == KeyShape::kNamedParts) {
@@ -343,11 +347,11 @@ VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
 }
 
 void check_vehicle(const std::string& vehicle, const std::vector<std::string>& vehicles,
-                   const SourceMark& mark, const std::string& path) {
+                   const io::SourceMark& mark, const std::string& path) {
   if (is_known(vehicle, vehicles)) return;
-  fail_at(mark,
-          fmt::format("{}: unknown vehicle '{}'{} (known: {})", path, vehicle,
-                      did_you_mean(vehicle, vehicles), vehicles.empty() ? "none" : join(vehicles)));
+  io::fail_at(mark, fmt::format("{}: unknown vehicle '{}'{} (known: {})", path, vehicle,
+                                did_you_mean(vehicle, vehicles),
+                                vehicles.empty() ? "none" : join(vehicles)));
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

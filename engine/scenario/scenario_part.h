@@ -7,39 +7,39 @@
 #include "engine/scenario/scenario.h"
 #include "engine/scenario/scenario_reader.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 struct ReadPart {
   PartConfig config;
-  YamlNode resolved = yaml_mapping();
+  io::YamlNode resolved = io::yaml_mapping();
 };
 
 /// One part: `type`, `rate_Hz` where its kind has one, and the parameters of its type.
 /// @param extra_keys  known beside these, read by the caller (a vehicle's sensors, controller, ...)
-ReadPart read_part(const YamlEntry& entry, const std::string& path, PartKind kind,
+ReadPart read_part(const io::YamlEntry& entry, const std::string& path, PartKind kind,
                    const ReadContext& context, const std::vector<std::string>& extra_keys = {});
 
 /// All entries of a mapping from names to parts; entries of `null` are left out.
-std::vector<NamedPart> read_named_parts(const YamlNode& mapping, const std::string& path,
+std::vector<NamedPart> read_named_parts(const io::YamlNode& mapping, const std::string& path,
                                         PartKind kind, const ReadContext& context,
-                                        YamlNode& resolved);
+                                        io::YamlNode& resolved);
 
 /// Signals that a part of this type writes whatever it is called: "wheels", not "<name>_event".
 std::vector<std::string> fixed_signals(const PartSpec& spec);
 
-VehicleConfig read_vehicle(const YamlEntry& entry, const std::string& path,
-                           const ReadContext& context, YamlNode& resolved);
+VehicleConfig read_vehicle(const io::YamlEntry& entry, const std::string& path,
+                           const ReadContext& context, io::YamlNode& resolved);
 
 /// `pictures`, read like {} where it is absent: a chase camera. @param vehicles  names in file
 /// order
-PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::string>& vehicles,
-                             YamlNode& resolved);
+PicturesConfig read_pictures(const io::YamlEntry* entry, const std::vector<std::string>& vehicles,
+                             io::YamlNode& resolved);
 
 /// @throws ConfigError if a camera of kind shots names a sensor that its vehicle does not have
 void check_shot_cameras(const PicturesConfig& pictures, const std::vector<VehicleConfig>& vehicles);
 
 /// @throws ConfigError "unknown vehicle 'rovr'; did you mean 'rover'? (known: rover)"
 void check_vehicle(const std::string& vehicle, const std::vector<std::string>& vehicles,
-                   const SourceMark& mark, const std::string& path);
+                   const io::SourceMark& mark, const std::string& path);
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -14,7 +14,7 @@
 #include "engine/scenario/scenario_part.h"
 #include "engine/scenario/yaml_include.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 template <class List>
@@ -55,13 +55,15 @@ const char* article(ProductKind kind) {
 }
 
 /// "from build_map" or "from survey/plane/camera".
-ProductSource read_source(const YamlEntry& entry, const std::string& path, ProductKind kind) {
-  const YamlNode& node = entry.value;
+ProductSource read_source(const io::YamlEntry& entry, const std::string& path, ProductKind kind) {
+  const io::YamlNode& node = entry.value;
   constexpr std::string_view kFrom = "from ";
-  const bool is_text = node.is_scalar() && std::holds_alternative<std::string>(scalar_value(node));
+  const bool is_text =
+      node.is_scalar() && std::holds_alternative<std::string>(io::scalar_value(node));
   if (!is_text || !node.text.starts_with(kFrom) || node.text.size() == kFrom.size()) {
-    fail_at(entry.mark, fmt::format("{} = {}, must be 'from <phase>': the phase that gives the {}",
-                                    path, shown(node), to_string(kind)));
+    io::fail_at(entry.mark,
+                fmt::format("{} = {}, must be 'from <phase>': the phase that gives the {}", path,
+                            io::shown(node), to_string(kind)));
   }
   ProductSource source;
   source.key = entry.key;
@@ -91,21 +93,21 @@ class PhaseReader {
     for (const VehicleConfig& vehicle : vehicles) vehicle_names_.push_back(vehicle.name);
   }
 
-  PhaseConfig read(const YamlEntry& entry, YamlNode& written) {
+  PhaseConfig read(const io::YamlEntry& entry, io::YamlNode& written) {
     const std::string path = join_path("phases", entry.key);
     require_mapping(entry.value, path, "{vehicles: [rover]}");
     PhaseConfig phase;
     phase.name = entry.key;
     phase.where = entry.mark;
     if (holds(vehicle_names_, phase.name)) {
-      fail_at(entry.mark, fmt::format("{}: a phase cannot have the name of a vehicle", path));
+      io::fail_at(entry.mark, fmt::format("{}: a phase cannot have the name of a vehicle", path));
     }
     read_job(entry, path, phase, written);
     check_phase_keys(entry.value, path, phase);
     read_values(entry, path, phase, written);
     read_products(entry, path, phase, written);
     CriterionScope scope{phase.vehicles, phase.job.has_value()};
-    YamlNode criteria;
+    io::YamlNode criteria;
     phase.criteria = read_criteria(entry.value.find_entry("criteria"), join_path(path, "criteria"),
                                    scope, criteria);
     written.put("criteria", std::move(criteria));
@@ -113,10 +115,10 @@ class PhaseReader {
   }
 
  private:
-  void read_job(const YamlEntry& entry, const std::string& path, PhaseConfig& phase,
-                YamlNode& written) {
-    written = yaml_mapping();
-    const YamlEntry* job = entry.value.find_entry("job");
+  void read_job(const io::YamlEntry& entry, const std::string& path, PhaseConfig& phase,
+                io::YamlNode& written) {
+    written = io::yaml_mapping();
+    const io::YamlEntry* job = entry.value.find_entry("job");
     if (!job) return;
     ReadPart part = read_part(*job, join_path(path, "job"), PartKind::kJob, context_);
     phase.job = std::move(part.config);
@@ -127,7 +129,8 @@ class PhaseReader {
     written.put("job", std::move(part.resolved));
   }
 
-  void check_phase_keys(const YamlNode& node, const std::string& path, const PhaseConfig& phase) {
+  void check_phase_keys(const io::YamlNode& node, const std::string& path,
+                        const PhaseConfig& phase) {
     std::vector<std::string> known = names_of(phase_table().specs());
     known.insert(known.end(), {"job", "criteria"});
     for (const ProductPort& port : ports_of(phase, context_.registry)) known.push_back(port.key);
@@ -135,8 +138,8 @@ class PhaseReader {
                &context_);
   }
 
-  void read_values(const YamlEntry& entry, const std::string& path, PhaseConfig& phase,
-                   YamlNode& written) {
+  void read_values(const io::YamlEntry& entry, const std::string& path, PhaseConfig& phase,
+                   io::YamlNode& written) {
     ReadParameters read = read_parameters(entry.value, entry.mark, path, phase_table().specs(),
                                           "phase " + phase.name);
     PhaseConfig values = phase_table().read(read.values, "");
@@ -146,20 +149,21 @@ class PhaseReader {
     phase.duration_s = values.duration_s;
     phase.on_failure = values.on_failure;
     phase.weather = values.weather;
-    for (YamlEntry& resolved : read.resolved.entries) {
+    for (io::YamlEntry& resolved : read.resolved.entries) {
       written.put(resolved.key, std::move(resolved.value));
     }
     check_who_works(entry, path, phase);
   }
 
-  void check_who_works(const YamlEntry& entry, const std::string& path, const PhaseConfig& phase) {
+  void check_who_works(const io::YamlEntry& entry, const std::string& path,
+                       const PhaseConfig& phase) {
     if (phase.job.has_value() == !phase.vehicles.empty()) {
-      fail_at(entry.mark, fmt::format("{}: {}, must be one of vehicles and job", path,
-                                      phase.job ? "gives both vehicles and a job"
-                                                : "gives neither vehicles nor a job"));
+      io::fail_at(entry.mark, fmt::format("{}: {}, must be one of vehicles and job", path,
+                                          phase.job ? "gives both vehicles and a job"
+                                                    : "gives neither vehicles nor a job"));
     }
     const auto refuse = [&](const char* key, const char* reason) {
-      fail_at(entry.value.find_entry(key)->mark, fmt::format("{}.{}: {}", path, key, reason));
+      io::fail_at(entry.value.find_entry(key)->mark, fmt::format("{}.{}: {}", path, key, reason));
     };
     if (phase.job && phase.timeout_s > 0.0) {
       refuse("timeout_s", "a job needs none: it takes duration_s of simulated time");
@@ -167,39 +171,41 @@ class PhaseReader {
     if (!phase.job && phase.duration_s > 0.0) {
       refuse("duration_s", "only jobs have one: vehicles work until they have finished");
     }
-    const SourceMark mark = phase.job ? entry.mark : entry.value.find_entry("vehicles")->mark;
+    const io::SourceMark mark = phase.job ? entry.mark : entry.value.find_entry("vehicles")->mark;
     std::vector<std::string> seen;
     for (const std::string& name : phase.vehicles) {
       check_vehicle(name, vehicle_names_, mark, join_path(path, "vehicles"));
       if (holds(seen, name)) {
-        fail_at(mark, fmt::format("{}.vehicles: '{}' is named twice", path, name));
+        io::fail_at(mark, fmt::format("{}.vehicles: '{}' is named twice", path, name));
       }
       seen.push_back(name);
       const auto vehicle = std::find_if(vehicles_.begin(), vehicles_.end(),
                                         [&](const auto& v) { return v.name == name; });
       if (!vehicle->controller) {
-        fail_at(mark, fmt::format("{}.vehicles: '{}' has no controller, so it would never finish",
-                                  path, name));
+        io::fail_at(
+            mark, fmt::format("{}.vehicles: '{}' has no controller, so it would never finish", path,
+                              name));
       }
     }
   }
 
-  void read_products(const YamlEntry& entry, const std::string& path, PhaseConfig& phase,
-                     YamlNode& written) {
+  void read_products(const io::YamlEntry& entry, const std::string& path, PhaseConfig& phase,
+                     io::YamlNode& written) {
     for (const ProductPort& port : ports_of(phase, context_.registry)) {
-      const YamlEntry* given = entry.value.find_entry(port.key);
+      const io::YamlEntry* given = entry.value.find_entry(port.key);
       if (!given || given->value.is_null()) {
         if (!port.required) continue;
-        fail_at(entry.mark,
-                fmt::format("{}.{} must be given: 'from <phase>', the phase whose {} the job '{}' "
-                            "takes",
-                            path, port.key, to_string(port.kind), phase.job->type));
+        io::fail_at(
+            entry.mark,
+            fmt::format("{}.{} must be given: 'from <phase>', the phase whose {} the job '{}' "
+                        "takes",
+                        path, port.key, to_string(port.kind), phase.job->type));
       }
       phase.takes.push_back(read_source(*given, join_path(path, port.key), port.kind));
-      written.put(port.key, yaml_text(given->value.text));
+      written.put(port.key, io::yaml_text(given->value.text));
       if (port.kind == ProductKind::kPlan && !phase.job && phase.vehicles.size() != 1) {
-        fail_at(given->mark, fmt::format("{}.{}: a plan is one vehicle's, and the phase has {}",
-                                         path, port.key, phase.vehicles.size()));
+        io::fail_at(given->mark, fmt::format("{}.{}: a plan is one vehicle's, and the phase has {}",
+                                             path, port.key, phase.vehicles.size()));
       }
     }
   }
@@ -216,7 +222,7 @@ void check_product(const PhaseConfig& phase, const ProductSource& source,
   const std::string path = fmt::format("phases.{}.{}", phase.name, source.key);
   const PhaseConfig* giver = find_phase(phases, source.phase);
   if (!giver) {
-    fail_at(source.where, fmt::format("{}: {}", path, unknown_phase(source.phase, phases)));
+    io::fail_at(source.where, fmt::format("{}: {}", path, unknown_phase(source.phase, phases)));
   }
   std::optional<ProductKind> gives;
   std::vector<std::string> items;
@@ -227,22 +233,22 @@ void check_product(const PhaseConfig& phase, const ProductSource& source,
     if (!items.empty()) gives = ProductKind::kPictures;
   }
   if (gives != source.kind) {
-    fail_at(source.where,
-            fmt::format("{}: phase '{}' gives {}{}, must give {}{}", path, giver->name,
-                        gives ? article(*gives) : "", gives ? to_string(*gives) : "nothing",
-                        article(source.kind), to_string(source.kind)));
+    io::fail_at(source.where,
+                fmt::format("{}: phase '{}' gives {}{}, must give {}{}", path, giver->name,
+                            gives ? article(*gives) : "", gives ? to_string(*gives) : "nothing",
+                            article(source.kind), to_string(source.kind)));
   }
   const std::string planned_for = vehicle_of(*giver, registry);
   if (source.kind == ProductKind::kPlan && !planned_for.empty() && phase.vehicles.size() == 1 &&
       phase.vehicles.front() != planned_for) {
-    fail_at(source.where, fmt::format("{}: phase '{}' plans for '{}', and here '{}' works", path,
-                                      giver->name, planned_for, phase.vehicles.front()));
+    io::fail_at(source.where, fmt::format("{}: phase '{}' plans for '{}', and here '{}' works",
+                                          path, giver->name, planned_for, phase.vehicles.front()));
   }
   if (source.item.empty() ? items.size() > 1 : !holds(items, source.item)) {
-    fail_at(source.where,
-            fmt::format("{}: phase '{}' gives pictures of {}; write 'from {}/{}'", path,
-                        giver->name, items.empty() ? "nobody" : join(items), giver->name,
-                        items.empty() ? "<vehicle>/<camera>" : items.front()));
+    io::fail_at(source.where,
+                fmt::format("{}: phase '{}' gives pictures of {}; write 'from {}/{}'", path,
+                            giver->name, items.empty() ? "nobody" : join(items), giver->name,
+                            items.empty() ? "<vehicle>/<camera>" : items.front()));
   }
 }
 
@@ -272,9 +278,9 @@ void check_no_circle(const std::vector<PhaseConfig>& phases) {
   for (const PhaseConfig& phase : phases) {
     const std::vector<std::string> circle = find_circle(phases, phase.name, way, done);
     if (circle.empty()) continue;
-    fail_at(find_phase(phases, circle.front())->where,
-            fmt::format("phases.{}: would wait for ever: {}", circle.front(),
-                        join(circle, " waits for ")));
+    io::fail_at(find_phase(phases, circle.front())->where,
+                fmt::format("phases.{}: would wait for ever: {}", circle.front(),
+                            join(circle, " waits for ")));
   }
 }
 
@@ -294,19 +300,21 @@ void check_vehicles_in_turn(const std::vector<PhaseConfig>& phases,
       if (holds(phase.vehicles, vehicle.name)) of_vehicle.push_back(&phase);
     }
     if (of_vehicle.empty() && vehicle.controller) {
-      fail_at(vehicle.where,
-              fmt::format("vehicles.{}: works in no phase; name it in one, or take its controller "
-                          "away to let it stand",
-                          vehicle.name));
+      io::fail_at(
+          vehicle.where,
+          fmt::format("vehicles.{}: works in no phase; name it in one, or take its controller "
+                      "away to let it stand",
+                      vehicle.name));
     }
     for (std::size_t i = 0; i < of_vehicle.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const PhaseConfig &a = *of_vehicle[i], &b = *of_vehicle[j];
         if (waits_for(phases, a, b.name) || waits_for(phases, b, a.name)) continue;
-        fail_at(a.where,
-                fmt::format("phases.{}: works with '{}' as phase '{}' does, and neither is after "
-                            "the other",
-                            a.name, vehicle.name, b.name));
+        io::fail_at(
+            a.where,
+            fmt::format("phases.{}: works with '{}' as phase '{}' does, and neither is after "
+                        "the other",
+                        a.name, vehicle.name, b.name));
       }
     }
   }
@@ -329,26 +337,26 @@ std::vector<std::string> picture_sources(const PhaseConfig& phase,
   return sources;
 }
 
-std::vector<PhaseConfig> read_phases(const YamlEntry* entry,
+std::vector<PhaseConfig> read_phases(const io::YamlEntry* entry,
                                      const std::vector<VehicleConfig>& vehicles,
-                                     const ReadContext& context, YamlNode& written) {
-  written = yaml_mapping();
+                                     const ReadContext& context, io::YamlNode& written) {
+  written = io::yaml_mapping();
   std::vector<PhaseConfig> phases;
   if (!entry) return phases;
   require_mapping(entry->value, "phases", "{survey: {vehicles: [plane]}}");
   PhaseReader reader(vehicles, context);
-  for (const YamlEntry& phase : entry->value.entries) {
+  for (const io::YamlEntry& phase : entry->value.entries) {
     check_name(phase, "phases", "phase");
     if (phase.value.is_null()) continue;
-    YamlNode one;
+    io::YamlNode one;
     phases.push_back(reader.read(phase, one));
     written.put(phase.key, std::move(one));
   }
   for (PhaseConfig& phase : phases) {
     for (const std::string& before : phase.after) {
       if (find_phase(phases, before)) continue;
-      fail_at(phase.where,
-              fmt::format("phases.{}.after: {}", phase.name, unknown_phase(before, phases)));
+      io::fail_at(phase.where,
+                  fmt::format("phases.{}.after: {}", phase.name, unknown_phase(before, phases)));
     }
     for (const ProductSource& source : phase.takes) {
       check_product(phase, source, phases, vehicles, context.registry);
@@ -360,7 +368,7 @@ std::vector<PhaseConfig> read_phases(const YamlEntry* entry,
   return phases;
 }
 
-TrafficConfig read_traffic(const ParameterSet& values, const SourceMark& where,
+TrafficConfig read_traffic(const ParameterSet& values, const io::SourceMark& where,
                            const std::vector<std::string>& vehicles) {
   TrafficConfig traffic = traffic_table().read(values, "");
   traffic.where = where;
@@ -368,7 +376,7 @@ TrafficConfig read_traffic(const ParameterSet& values, const SourceMark& where,
   for (const std::string& vehicle : traffic.vehicles) {
     check_vehicle(vehicle, vehicles, where, "traffic.reserve_alleys");
     if (holds(seen, vehicle)) {
-      fail_at(where, fmt::format("traffic.reserve_alleys: '{}' is named twice", vehicle));
+      io::fail_at(where, fmt::format("traffic.reserve_alleys: '{}' is named twice", vehicle));
     }
     seen.push_back(vehicle);
   }
@@ -376,7 +384,7 @@ TrafficConfig read_traffic(const ParameterSet& values, const SourceMark& where,
 }
 
 std::vector<PhaseMoment> read_moments(const std::vector<std::string>& texts,
-                                      const SourceMark& where,
+                                      const io::SourceMark& where,
                                       const std::vector<PhaseConfig>& phases) {
   std::vector<PhaseMoment> moments;
   for (const std::string& text : texts) {
@@ -395,17 +403,17 @@ std::vector<PhaseMoment> read_moments(const std::vector<std::string>& texts,
                 moment.after_s <= 1e7;
     }
     if (!is_good) {
-      fail_at(where, fmt::format("pictures.moments: '{}', must be '<phase>' or '<phase> + "
-                                 "<seconds>', e.g. 'survey + 30'",
-                                 text));
+      io::fail_at(where, fmt::format("pictures.moments: '{}', must be '<phase>' or '<phase> + "
+                                     "<seconds>', e.g. 'survey + 30'",
+                                     text));
     }
     if (!find_phase(phases, moment.phase)) {
-      fail_at(where,
-              fmt::format("pictures.moments: '{}': {}", text, unknown_phase(moment.phase, phases)));
+      io::fail_at(where, fmt::format("pictures.moments: '{}': {}", text,
+                                     unknown_phase(moment.phase, phases)));
     }
     moments.push_back(std::move(moment));
   }
   return moments;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

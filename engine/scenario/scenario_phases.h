@@ -7,16 +7,16 @@
 #include "engine/scenario/scenario.h"
 #include "engine/scenario/scenario_reader.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// @param entry  nullptr: the scenario has no phases
 /// @param vehicles  of the scenario, in file order
 /// @throws ConfigError naming file, line and reason: unknown phases, vehicles and products, a
 ///   product of the wrong kind, phases that wait for each other in a circle, a vehicle in two
 ///   phases of which neither waits for the other
-std::vector<PhaseConfig> read_phases(const YamlEntry* entry,
+std::vector<PhaseConfig> read_phases(const io::YamlEntry* entry,
                                      const std::vector<VehicleConfig>& vehicles,
-                                     const ReadContext& context, YamlNode& written);
+                                     const ReadContext& context, io::YamlNode& written);
 
 /// "plane/camera": every camera of the phase's vehicles that takes pictures for a product.
 std::vector<std::string> picture_sources(const PhaseConfig& phase,
@@ -24,12 +24,12 @@ std::vector<std::string> picture_sources(const PhaseConfig& phase,
                                          const Registry& registry);
 
 /// @throws ConfigError if a vehicle that reserves alleys is unknown or named twice
-TrafficConfig read_traffic(const ParameterSet& values, const SourceMark& where,
+TrafficConfig read_traffic(const ParameterSet& values, const io::SourceMark& where,
                            const std::vector<std::string>& vehicles);
 
 /// "spray + 30" of `pictures.moments`. @throws ConfigError naming the known phases
 std::vector<PhaseMoment> read_moments(const std::vector<std::string>& texts,
-                                      const SourceMark& where,
+                                      const io::SourceMark& where,
                                       const std::vector<PhaseConfig>& phases);
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -8,38 +8,40 @@
 #include "engine/scenario/scenario_part.h"
 #include "engine/scenario/yaml_include.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 /// The kind of a camera; chase where it is not said.
-std::string read_kind(const YamlNode& camera, const std::string& path) {
-  const YamlNode* kind = camera.find("kind");
+std::string read_kind(const io::YamlNode& camera, const std::string& path) {
+  const io::YamlNode* kind = camera.find("kind");
   if (!kind) return "chase";
   const std::vector<std::string>& kinds = camera_kinds();
   if (!kind->is_scalar() || std::find(kinds.begin(), kinds.end(), kind->text) == kinds.end()) {
-    fail_at(kind->mark, fmt::format("{}.kind = {}, must be one of: {}{}", path, shown(*kind),
-                                    join(kinds), did_you_mean(kind->text, kinds)));
+    io::fail_at(kind->mark,
+                fmt::format("{}.kind = {}, must be one of: {}{}", path, io::shown(*kind),
+                            join(kinds), did_you_mean(kind->text, kinds)));
   }
   return kind->text;
 }
 
 /// A view of one place needs its extent, and cannot follow a vehicle as well.
-void check_centre(const YamlNode& camera, const YamlEntry& centre, const std::string& path,
+void check_centre(const io::YamlNode& camera, const io::YamlEntry& centre, const std::string& path,
                   double height_m) {
   if (camera.has("vehicle")) {
-    fail_at(centre.mark,
-            fmt::format("{}: centre_m and vehicle are both given, must be one of them", path));
+    io::fail_at(centre.mark,
+                fmt::format("{}: centre_m and vehicle are both given, must be one of them", path));
   }
   if (height_m <= 0.0) {
-    fail_at(centre.mark, fmt::format("{}.centre_m needs height_m > 0, what the picture shows from "
-                                     "south to north",
-                                     path));
+    io::fail_at(centre.mark,
+                fmt::format("{}.centre_m needs height_m > 0, what the picture shows from "
+                            "south to north",
+                            path));
   }
 }
 
-CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
-                         const std::vector<std::string>& vehicles, YamlNode& resolved) {
-  const YamlNode& node = entry.value;
+CameraConfig read_camera(const io::YamlEntry& entry, const std::string& path,
+                         const std::vector<std::string>& vehicles, io::YamlNode& resolved) {
+  const io::YamlNode& node = entry.value;
   require_mapping(node, path, "{kind: chase}");
   const std::string kind = read_kind(node, path);
   const std::vector<ParameterSpec> fields = camera_fields(kind);
@@ -50,33 +52,34 @@ CameraConfig read_camera(const YamlEntry& entry, const std::string& path,
   CameraConfig camera = read_camera_fields(kind, read.values);
   camera.name = entry.key;
   camera.where = entry.mark;
-  if (const YamlEntry* centre = node.find_entry("centre_m"); centre && kind == "top") {
+  if (const io::YamlEntry* centre = node.find_entry("centre_m"); centre && kind == "top") {
     check_centre(node, *centre, path, camera.height_m);
   }
   const bool follows = kind == "chase" || kind == "on_board" || kind == "shots";
-  const YamlEntry* named = node.find_entry("vehicle");
+  const io::YamlEntry* named = node.find_entry("vehicle");
   if (named) {
     check_vehicle(camera.vehicle, vehicles, named->value.mark, path + ".vehicle");
   } else if (follows) {
     if (vehicles.empty()) {
-      fail_at(entry.mark, fmt::format("{}: a camera of kind '{}' needs a vehicle, and the scenario "
-                                      "has none",
-                                      path, kind));
+      io::fail_at(entry.mark,
+                  fmt::format("{}: a camera of kind '{}' needs a vehicle, and the scenario "
+                              "has none",
+                              path, kind));
     }
     camera.vehicle = vehicles.front();
   }
-  resolved.put("kind", yaml_text(kind));
-  if (!camera.vehicle.empty()) resolved.put("vehicle", yaml_text(camera.vehicle));
-  for (YamlEntry& written : read.resolved.entries) {
+  resolved.put("kind", io::yaml_text(kind));
+  if (!camera.vehicle.empty()) resolved.put("vehicle", io::yaml_text(camera.vehicle));
+  for (io::YamlEntry& written : read.resolved.entries) {
     resolved.put(written.key, std::move(written.value));
   }
   return camera;
 }
 
 /// The cameras of a scenario that names none.
-YamlNode default_cameras(const std::vector<std::string>& vehicles) {
-  YamlNode cameras = yaml_mapping();
-  if (!vehicles.empty()) cameras.put("chase", yaml_mapping());
+io::YamlNode default_cameras(const std::vector<std::string>& vehicles) {
+  io::YamlNode cameras = io::yaml_mapping();
+  if (!vehicles.empty()) cameras.put("chase", io::yaml_mapping());
   return cameras;
 }
 
@@ -91,7 +94,7 @@ void check_shot_cameras(const PicturesConfig& pictures,
       std::vector<std::string> known;
       for (const NamedPart& sensor : vehicle.sensors) known.push_back(sensor.name);
       if (std::find(known.begin(), known.end(), camera.sensor) != known.end()) continue;
-      fail_at(
+      io::fail_at(
           camera.where,
           fmt::format("pictures.cameras.{}.sensor = '{}', must be a sensor of {}{} "
                       "(known: {})",
@@ -101,10 +104,10 @@ void check_shot_cameras(const PicturesConfig& pictures,
   }
 }
 
-PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::string>& vehicles,
-                             YamlNode& resolved) {
-  YamlNode node = yaml_mapping();
-  SourceMark where;
+PicturesConfig read_pictures(const io::YamlEntry* entry, const std::vector<std::string>& vehicles,
+                             io::YamlNode& resolved) {
+  io::YamlNode node = io::yaml_mapping();
+  io::SourceMark where;
   if (entry) {
     require_mapping(entry->value, "pictures", "{shares: [1.0]}");
     node = entry->value;
@@ -118,8 +121,8 @@ PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::stri
   }
   check_keys(node, "pictures", known, "", nullptr);
   if (!node.has("times_s") && !node.has("every_s") && !node.has("moments") && !node.has("shares")) {
-    YamlNode last_instant = yaml_list();
-    last_instant.items.push_back(yaml_number(1.0));
+    io::YamlNode last_instant = io::yaml_list();
+    last_instant.items.push_back(io::yaml_number(1.0));
     node.put("shares", std::move(last_instant));
   }
   ReadParameters read = read_parameters(node, where, "pictures", fields, "pictures");
@@ -128,14 +131,14 @@ PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::stri
   PicturesConfig pictures = pictures_table().read(read.values, "");
   if (pictures.moment_texts.empty()) resolved.erase("moments");
 
-  const YamlNode* given = node.find("cameras");
-  const YamlNode cameras = given ? *given : default_cameras(vehicles);
+  const io::YamlNode* given = node.find("cameras");
+  const io::YamlNode cameras = given ? *given : default_cameras(vehicles);
   require_mapping(cameras, "pictures.cameras", "{chase: {kind: chase}}");
-  YamlNode written = yaml_mapping();
-  for (const YamlEntry& camera : cameras.entries) {
+  io::YamlNode written = io::yaml_mapping();
+  for (const io::YamlEntry& camera : cameras.entries) {
     check_name(camera, "pictures.cameras", "camera");
     if (camera.value.is_null()) continue;
-    YamlNode one = yaml_mapping();
+    io::YamlNode one = io::yaml_mapping();
     pictures.cameras.push_back(
         read_camera(camera, "pictures.cameras." + camera.key, vehicles, one));
     written.put(camera.key, std::move(one));
@@ -144,4 +147,4 @@ PicturesConfig read_pictures(const YamlEntry* entry, const std::vector<std::stri
   return pictures;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -11,17 +11,17 @@
 #include "engine/scenario/scenario_keys.h"
 #include "engine/scenario/yaml_include.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 using Value = ParameterSet::Value;
 
-bool is_text(const YamlNode& node) {
-  return node.is_scalar() && std::holds_alternative<std::string>(scalar_value(node));
+bool is_text(const io::YamlNode& node) {
+  return node.is_scalar() && std::holds_alternative<std::string>(io::scalar_value(node));
 }
 
 /// What the user may have meant, appended to "must be ...".
-std::string type_hint(const YamlNode& node, const ParameterSpec& spec) {
+std::string type_hint(const io::YamlNode& node, const ParameterSpec& spec) {
   const bool wants_number =
       spec.kind == ParameterKind::kNumber || spec.kind == ParameterKind::kInteger;
   if (node.is_null()) return "; give a value or remove the key";
@@ -39,13 +39,13 @@ std::string type_hint(const YamlNode& node, const ParameterSpec& spec) {
   return "";
 }
 
-[[noreturn]] void fail_type(const YamlNode& node, const ParameterSpec& spec,
+[[noreturn]] void fail_type(const io::YamlNode& node, const ParameterSpec& spec,
                             const std::string& path) {
-  fail_at(node.mark, fmt::format("{} = {}, must be {}{}", path, shown(node), allowed_text(spec),
-                                 type_hint(node, spec)));
+  io::fail_at(node.mark, fmt::format("{} = {}, must be {}{}", path, io::shown(node),
+                                     allowed_text(spec), type_hint(node, spec)));
 }
 
-bool is_not_finite_word(const YamlNode& node) {
+bool is_not_finite_word(const io::YamlNode& node) {
   if (!node.is_scalar() || node.quoted) return false;
   std::string word;
   for (const char c : node.text) {
@@ -54,23 +54,23 @@ bool is_not_finite_word(const YamlNode& node) {
   return word == "nan" || word == "inf" || word == "infinity";
 }
 
-double read_number(const YamlNode& node, const ParameterSpec& spec, const std::string& path) {
+double read_number(const io::YamlNode& node, const ParameterSpec& spec, const std::string& path) {
   if (is_not_finite_word(node)) {
-    fail_at(node.mark,
-            fmt::format("{} = {}, must be finite ({})", path, node.text, allowed_text(spec)));
+    io::fail_at(node.mark,
+                fmt::format("{} = {}, must be finite ({})", path, node.text, allowed_text(spec)));
   }
   if (node.is_scalar()) {
-    const YamlScalar value = scalar_value(node);
+    const io::YamlScalar value = io::scalar_value(node);
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
     if (const auto* real = std::get_if<double>(&value)) return *real;
   }
   fail_type(node, spec, path);
 }
 
-std::int64_t read_integer(const YamlNode& node, const ParameterSpec& spec,
+std::int64_t read_integer(const io::YamlNode& node, const ParameterSpec& spec,
                           const std::string& path) {
   if (node.is_scalar()) {
-    const YamlScalar value = scalar_value(node);
+    const io::YamlScalar value = io::scalar_value(node);
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole;
     // 3.0 is a whole number too, as it is for JSON Schema; 9e15 is where doubles stop telling whole
     // numbers apart.
@@ -82,13 +82,13 @@ std::int64_t read_integer(const YamlNode& node, const ParameterSpec& spec,
   fail_type(node, spec, path);
 }
 
-const std::string& read_text(const YamlNode& node, const ParameterSpec& spec,
+const std::string& read_text(const io::YamlNode& node, const ParameterSpec& spec,
                              const std::string& path) {
   if (!is_text(node)) fail_type(node, spec, path);
   return node.text;
 }
 
-Value read_list(const YamlNode& node, const ParameterSpec& spec, const std::string& path) {
+Value read_list(const io::YamlNode& node, const ParameterSpec& spec, const std::string& path) {
   if (!node.is_list()) fail_type(node, spec, path);
   std::vector<double> numbers;
   std::vector<std::string> texts;
@@ -108,7 +108,7 @@ Value read_list(const YamlNode& node, const ParameterSpec& spec, const std::stri
 }
 
 /// Reads one group's mapping completely, unknown keys included.
-ReadParameters read_group(const YamlNode& node, const std::string& path,
+ReadParameters read_group(const io::YamlNode& node, const std::string& path,
                           const ParameterSpec& spec) {
   const std::vector<std::string> names = names_of(spec.fields);
   require_mapping(node, path, names.empty() ? "{}" : "{" + names.front() + ": ...}");
@@ -116,26 +116,26 @@ ReadParameters read_group(const YamlNode& node, const std::string& path,
   return read_parameters(node, node.mark, path, spec.fields, spec.name);
 }
 
-YamlNode resolved_value(const ParameterSet& values, const ParameterSpec& spec) {
-  YamlNode list = yaml_list();
+io::YamlNode resolved_value(const ParameterSet& values, const ParameterSpec& spec) {
+  io::YamlNode list = io::yaml_list();
   switch (spec.kind) {
     case ParameterKind::kNumber:
-      return yaml_number(values.number(spec.name));
+      return io::yaml_number(values.number(spec.name));
     case ParameterKind::kInteger:
-      return yaml_integer(values.integer(spec.name));
+      return io::yaml_integer(values.integer(spec.name));
     case ParameterKind::kBoolean:
-      return yaml_boolean(values.boolean(spec.name));
+      return io::yaml_boolean(values.boolean(spec.name));
     case ParameterKind::kText:
     case ParameterKind::kPath:
-      return yaml_text(values.text(spec.name));
+      return io::yaml_text(values.text(spec.name));
     case ParameterKind::kNumberList:
       for (const double number : values.numbers(spec.name)) {
-        list.items.push_back(yaml_number(number));
+        list.items.push_back(io::yaml_number(number));
       }
       return list;
     case ParameterKind::kTextList:
       for (const std::string& text : values.texts(spec.name)) {
-        list.items.push_back(yaml_text(text));
+        list.items.push_back(io::yaml_text(text));
       }
       return list;
     case ParameterKind::kGroup:
@@ -152,9 +152,10 @@ bool has_printable_default(const ParameterSet& values, const ParameterSpec& spec
 }
 
 /// Reads, checks and stores one given value. @returns how it is written in the resolved scenario
-YamlNode read_value(const YamlNode& node, const std::string& path, const ParameterSpec& spec,
-                    const std::string& source, ParameterSet& values) {
-  YamlNode resolved;
+io::YamlNode read_value(const io::YamlNode& node, const std::string& path,
+                        const ParameterSpec& spec, const std::string& source,
+                        ParameterSet& values) {
+  io::YamlNode resolved;
   Value value;
   switch (spec.kind) {
     case ParameterKind::kNumber:
@@ -164,7 +165,7 @@ YamlNode read_value(const YamlNode& node, const std::string& path, const Paramet
       value = read_integer(node, spec, path);
       break;
     case ParameterKind::kBoolean: {
-      const YamlScalar scalar = node.is_scalar() ? scalar_value(node) : YamlScalar(0.0);
+      const io::YamlScalar scalar = node.is_scalar() ? io::scalar_value(node) : io::YamlScalar(0.0);
       const bool* truth = std::get_if<bool>(&scalar);
       if (!truth) fail_type(node, spec, path);
       value = *truth;
@@ -189,7 +190,7 @@ YamlNode read_value(const YamlNode& node, const std::string& path, const Paramet
     }
     case ParameterKind::kGroupList: {
       if (!node.is_list()) fail_type(node, spec, path);
-      resolved = yaml_list();
+      resolved = io::yaml_list();
       std::vector<ParameterSet> groups;
       for (std::size_t i = 0; i < node.items.size(); ++i) {
         ReadParameters group = read_group(node.items[i], fmt::format("{}[{}]", path, i), spec);
@@ -206,61 +207,61 @@ YamlNode read_value(const YamlNode& node, const std::string& path, const Paramet
     // The text starts with the parameter's name; the path takes its place.
     std::string text = fault.what();
     if (text.starts_with(spec.name)) text = path + text.substr(spec.name.size());
-    fail_at(node.mark, text);
+    io::fail_at(node.mark, text);
   }
   const bool is_group =
       spec.kind == ParameterKind::kGroup || spec.kind == ParameterKind::kGroupList;
   return is_group ? resolved : resolved_value(values, spec);
 }
 
-YamlNode with_source(YamlNode value, const std::string& source) {
-  YamlNode mapping = yaml_mapping();
+io::YamlNode with_source(io::YamlNode value, const std::string& source) {
+  io::YamlNode mapping = io::yaml_mapping();
   mapping.flow = true;
   mapping.put("value", std::move(value));
-  mapping.put("source", yaml_text(source));
+  mapping.put("source", io::yaml_text(source));
   return mapping;
 }
 
 /// A parameter as given: plain, or as {value, source}.
-YamlNode read_given(const YamlEntry& entry, const std::string& path, const ParameterSpec& spec,
-                    ParameterSet& values) {
+io::YamlNode read_given(const io::YamlEntry& entry, const std::string& path,
+                        const ParameterSpec& spec, ParameterSet& values) {
   const bool is_group =
       spec.kind == ParameterKind::kGroup || spec.kind == ParameterKind::kGroupList;
-  const YamlNode& node = entry.value;
+  const io::YamlNode& node = entry.value;
   if (is_group || !node.is_mapping()) {
-    YamlNode located = node;
+    io::YamlNode located = node;
     if (located.is_null()) located.mark = entry.mark;
     return read_value(located, path, spec, node.mark.text(), values);
   }
   check_keys(node, path, {"value", "source"}, "", nullptr);
-  const YamlNode* value = node.find("value");
+  const io::YamlNode* value = node.find("value");
   if (!value) {
-    fail_at(node.mark,
-            fmt::format("{}: value must be given beside source ({})", path, allowed_text(spec)));
+    io::fail_at(node.mark, fmt::format("{}: value must be given beside source ({})", path,
+                                       allowed_text(spec)));
   }
-  const YamlNode* source = node.find("source");
+  const io::YamlNode* source = node.find("source");
   if (source && (!is_text(*source) || source->text.empty())) {
-    fail_at(source->mark,
-            fmt::format("{}.source = {}, must be a text that is not empty", path, shown(*source)));
+    io::fail_at(source->mark, fmt::format("{}.source = {}, must be a text that is not empty", path,
+                                          io::shown(*source)));
   }
-  YamlNode resolved =
+  io::YamlNode resolved =
       read_value(*value, path, spec, source ? source->text : value->mark.text(), values);
   return source ? with_source(std::move(resolved), source->text) : resolved;
 }
 
 }  // namespace
 
-ReadParameters read_parameters(const YamlNode& mapping, const SourceMark& where,
+ReadParameters read_parameters(const io::YamlNode& mapping, const io::SourceMark& where,
                                const std::string& path, const std::vector<ParameterSpec>& specs,
                                const std::string& owner) {
   ReadParameters result{ParameterSet(specs, owner)};
   for (const ParameterSpec& spec : specs) {
     const std::string key_path = join_path(path, spec.name);
-    if (const YamlEntry* entry = mapping.find_entry(spec.name)) {
+    if (const io::YamlEntry* entry = mapping.find_entry(spec.name)) {
       result.resolved.put(spec.name, read_given(*entry, key_path, spec, result.values));
     } else if (spec.required) {
-      fail_at(where, fmt::format("{} must be given: {} ({})", key_path, allowed_text(spec),
-                                 spec.description));
+      io::fail_at(where, fmt::format("{} must be given: {} ({})", key_path, allowed_text(spec),
+                                     spec.description));
     } else if (has_printable_default(result.values, spec)) {
       result.resolved.put(spec.name, resolved_value(result.values, spec));
     }
@@ -268,18 +269,18 @@ ReadParameters read_parameters(const YamlNode& mapping, const SourceMark& where,
   return result;
 }
 
-std::string read_path(const YamlNode& text, const std::string& path, bool must_exist) {
-  if (text.text.empty()) fail_at(text.mark, path + " = '', must be the path of a file");
+std::string read_path(const io::YamlNode& text, const std::string& path, bool must_exist) {
+  if (text.text.empty()) io::fail_at(text.mark, path + " = '', must be the path of a file");
   const std::filesystem::path absolute = (text.folder / text.text).lexically_normal();
   std::error_code error;
   if (must_exist && !std::filesystem::exists(absolute, error)) {
-    fail_at(text.mark, fmt::format("{} = '{}': no such file (looked for {}){}", path, text.text,
-                                   absolute.string(), nearest_file_hint(absolute)));
+    io::fail_at(text.mark, fmt::format("{} = '{}': no such file (looked for {}){}", path, text.text,
+                                       absolute.string(), io::nearest_file_hint(absolute)));
   }
   return absolute.string();
 }
 
-Duration check_rate(double rate_Hz, Duration physics_step, const SourceMark& mark,
+Duration check_rate(double rate_Hz, Duration physics_step, const io::SourceMark& mark,
                     const std::string& path) {
   const Duration period = period_of_rate(rate_Hz);
   if (period.ns % physics_step.ns == 0) return period;
@@ -296,10 +297,10 @@ Duration check_rate(double rate_Hz, Duration physics_step, const SourceMark& mar
   const std::string fitting =
       steps == 0 ? rate_of(1) + " is the fastest"
                  : fmt::format("{} and {} fit", rate_of(steps + 1), rate_of(steps));
-  fail_at(mark,
-          fmt::format("{} = {} Hz, its period of {:.9g} s is not a whole number of physics steps "
-                      "of {} s; {}",
-                      path, rate_Hz, period.s(), physics_step.s(), fitting));
+  io::fail_at(
+      mark, fmt::format("{} = {} Hz, its period of {:.9g} s is not a whole number of physics steps "
+                        "of {} s; {}",
+                        path, rate_Hz, period.s(), physics_step.s(), fitting));
 }
 
 std::vector<std::string> names_of(const std::vector<ParameterSpec>& specs) {
@@ -308,4 +309,4 @@ std::vector<std::string> names_of(const std::vector<ParameterSpec>& specs) {
   return names;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

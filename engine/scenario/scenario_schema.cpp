@@ -9,7 +9,7 @@
 #include "engine/scenario/scenario_reader.h"
 #include "engine/scenario/schema_parts.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 class SchemaBuilder {
@@ -246,4 +246,4 @@ std::string scenario_json_schema(const Registry& registry) {
   return SchemaBuilder(registry).build().dump(1) + "\n";
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 Scenario with_seed(Scenario scenario, std::uint64_t seed) {
   scenario.seed = seed;
@@ -29,4 +29,4 @@ std::string resolved_block(const Scenario& scenario, const std::string& key) {
   return text.substr(begin + 1, end - begin - 1);
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

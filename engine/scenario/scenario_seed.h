@@ -4,7 +4,7 @@
 
 #include "engine/scenario/scenario.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// As load_scenario with Overrides::seed gives it, its `resolved_yaml` included, but without
 /// reading the file again.
@@ -14,4 +14,4 @@ Scenario with_seed(Scenario scenario, std::uint64_t seed);
 /// texts mean equal values.
 std::string resolved_block(const Scenario& scenario, const std::string& key);
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

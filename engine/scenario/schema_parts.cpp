@@ -5,7 +5,7 @@
 
 #include "engine/api/parameter_limits.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 Json range(Json schema, const ParameterSpec& given) {
@@ -178,4 +178,4 @@ Json base_definitions() {
   return definitions;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -12,7 +12,7 @@
 
 #include "engine/api/parameters.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 using Json = nlohmann::ordered_json;
 
@@ -48,4 +48,4 @@ Json properties_of(const std::vector<ParameterSpec>& fields, bool partial,
 /// A mapping of parameters.
 Json group_schema(const std::vector<ParameterSpec>& fields, bool partial);
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

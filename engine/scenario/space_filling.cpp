@@ -6,7 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/core/random.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t dimensions,
                                                  std::uint64_t seed) {
@@ -40,4 +40,4 @@ std::vector<std::vector<double>> sobol_points(std::size_t count, std::size_t dim
   return points;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// Of each coordinate one point lies in each of `count` equal slices, anywhere in it (McKay,
 /// Beckman, Conover, Technometrics 21(2), 1979). The same on every machine.
@@ -21,4 +21,4 @@ inline constexpr std::size_t kMostSobolDimensions = 100;
 /// @returns [point][dimension], each in [0, 1)
 std::vector<std::vector<double>> sobol_points(std::size_t count, std::size_t dimensions);
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -14,59 +14,61 @@
 #include "engine/scenario/study_keys.h"
 #include "engine/scenario/yaml_include.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
-std::vector<OverrideValue> read_set(const YamlNode& node) {
+std::vector<OverrideValue> read_set(const io::YamlNode& node) {
   require_mapping(node, "set", "{duration_s: 100, rover.controller.speed_mps: 0.8}");
   std::vector<OverrideValue> values;
-  for (const YamlEntry& entry : node.entries) values.push_back({entry.key, entry.value});
+  for (const io::YamlEntry& entry : node.entries) values.push_back({entry.key, entry.value});
   return values;
 }
 
-std::vector<DerivedColumn> read_derived(const YamlNode& node) {
+std::vector<DerivedColumn> read_derived(const io::YamlNode& node) {
   require_mapping(node, "derived", "{product: rover.average_deviation_m * rover.time_s}");
   std::vector<DerivedColumn> columns;
-  for (const YamlEntry& entry : node.entries) {
+  for (const io::YamlEntry& entry : node.entries) {
     check_name(entry, "derived", "column");
     if (!entry.value.is_scalar() || entry.value.text.empty()) {
-      fail_at(entry.mark, fmt::format("derived.{} = {}, must be an expression of metrics",
-                                      entry.key, shown(entry.value)));
+      io::fail_at(entry.mark, fmt::format("derived.{} = {}, must be an expression of metrics",
+                                          entry.key, io::shown(entry.value)));
     }
     columns.push_back({entry.key, entry.value.text, entry.mark});
   }
   return columns;
 }
 
-std::uint64_t read_seed(const YamlNode& node, const std::string& path) {
-  const YamlScalar value = node.is_scalar() ? scalar_value(node) : YamlScalar(0.5);
+std::uint64_t read_seed(const io::YamlNode& node, const std::string& path) {
+  const io::YamlScalar value = node.is_scalar() ? io::scalar_value(node) : io::YamlScalar(0.5);
   const auto* seed = std::get_if<std::int64_t>(&value);
   if (!seed || *seed < 0) {
-    fail_at(node.mark, fmt::format("{} = {}, must be a whole number from 0", path, shown(node)));
+    io::fail_at(node.mark,
+                fmt::format("{} = {}, must be a whole number from 0", path, io::shown(node)));
   }
   return static_cast<std::uint64_t>(*seed);
 }
 
 /// "10" is the seeds 1 to 10, a list the seeds that it names.
-std::vector<std::uint64_t> read_seeds(const YamlNode& node) {
+std::vector<std::uint64_t> read_seeds(const io::YamlNode& node) {
   std::vector<std::uint64_t> seeds;
   if (node.is_list()) {
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       seeds.push_back(read_seed(node.items[i], fmt::format("seeds[{}]", i)));
     }
     std::set<std::uint64_t> once(seeds.begin(), seeds.end());
-    if (once.size() < seeds.size()) fail_at(node.mark, "seeds names a seed twice");
+    if (once.size() < seeds.size()) io::fail_at(node.mark, "seeds names a seed twice");
   } else {
     const std::uint64_t count = read_seed(node, "seeds");
     if (static_cast<double>(count) > kMostCells) {
-      fail_at(node.mark, fmt::format("seeds = {}, must be at most {:.0f}", count, kMostCells));
+      io::fail_at(node.mark, fmt::format("seeds = {}, must be at most {:.0f}", count, kMostCells));
     }
     for (std::uint64_t seed = 1; seed <= count; ++seed) seeds.push_back(seed);
   }
   if (seeds.empty()) {
-    fail_at(node.mark, fmt::format("seeds = {}, must be the number of seeds (at least 1) or a list "
-                                   "of them",
-                                   shown(node)));
+    io::fail_at(node.mark,
+                fmt::format("seeds = {}, must be the number of seeds (at least 1) or a list "
+                            "of them",
+                            io::shown(node)));
   }
   return seeds;
 }
@@ -77,15 +79,16 @@ void check_key_paths(const Study& study) {
     std::string path, by;
   };
   std::vector<Use> uses;
-  const auto check = [&](const std::string& path, const std::string& by, const SourceMark& mark) {
+  const auto check = [&](const std::string& path, const std::string& by,
+                         const io::SourceMark& mark) {
     for (const Use& use : uses) {
       if (use.path == path) {
-        fail_at(mark,
-                fmt::format("{} is set by {} and by {}; one of them must go", path, use.by, by));
+        io::fail_at(
+            mark, fmt::format("{} is set by {} and by {}; one of them must go", path, use.by, by));
       }
       if (use.path.starts_with(path + ".")) {
-        fail_at(mark, fmt::format("{} of {} would take the place of {} of {}; put {} first", path,
-                                  by, use.path, use.by, by));
+        io::fail_at(mark, fmt::format("{} of {} would take the place of {} of {}; put {} first",
+                                      path, by, use.path, use.by, by));
       }
     }
   };
@@ -95,13 +98,13 @@ void check_key_paths(const Study& study) {
   }
   for (const Factor& factor : study.factors) {
     // Levels of one factor may share paths.
-    std::map<std::string, SourceMark> mine;
+    std::map<std::string, io::SourceMark> mine;
     for (const FactorLevel& level : factor.levels) {
       for (const OverrideValue& value : level.values) mine.emplace(value.path, value.value.mark);
     }
     const std::string by = "factors." + factor.name;
     for (const auto& [path, mark] : mine) {
-      if (path == "seed") fail_at(mark, by + " varies seed; seeds are listed under 'seeds'");
+      if (path == "seed") io::fail_at(mark, by + " varies seed; seeds are listed under 'seeds'");
       check(path, by, mark);
     }
     for (const auto& [path, mark] : mine) uses.push_back({path, by});
@@ -114,14 +117,15 @@ void check_columns(const Study& study) {
     for (const std::string& column : factor.columns) {
       const auto [place, is_new] = seen.emplace(column, factor.name);
       if (is_new) continue;
-      fail_at(factor.where, fmt::format("factors {} and {} both give a column '{}'; name one of "
-                                        "them otherwise",
-                                        place->second, factor.name, column));
+      io::fail_at(factor.where,
+                  fmt::format("factors {} and {} both give a column '{}'; name one of "
+                              "them otherwise",
+                              place->second, factor.name, column));
     }
   }
 }
 
-void check_cell_count(const Study& study, const SourceMark& mark) {
+void check_cell_count(const Study& study, const io::SourceMark& mark) {
   double cells = static_cast<double>(study.seeds.size());
   for (const Factor& factor : study.factors) cells *= static_cast<double>(factor.levels.size());
   if (cells <= kMostCells) return;
@@ -129,58 +133,62 @@ void check_cell_count(const Study& study, const SourceMark& mark) {
   for (const Factor& factor : study.factors) {
     product += fmt::format(" x {} of {}", factor.levels.size(), factor.name);
   }
-  fail_at(mark, fmt::format("{} make {:.3g} cells, must be at most {:.0f}; sample the factors, or "
-                            "cut the study",
-                            product, cells, kMostCells));
+  io::fail_at(mark,
+              fmt::format("{} make {:.3g} cells, must be at most {:.0f}; sample the factors, or "
+                          "cut the study",
+                          product, cells, kMostCells));
 }
 
 }  // namespace
 
 Study load_study(const std::filesystem::path& file) {
-  const YamlNode root = load_yaml_with_includes(file);
-  const SourceMark whole{file.string(), 0};
+  const io::YamlNode root = load_yaml_with_includes(file);
+  const io::SourceMark whole{file.string(), 0};
   const std::vector<ParameterSpec> specs = study_table().specs();
   std::vector<std::string> known = names_of(specs);
   for (const FreeStudyKey& key : free_study_keys()) known.push_back(key.name);
   check_keys(root, "", known, "", nullptr);
-  const YamlNode* version = root.find("vinerow_study");
+  const io::YamlNode* version = root.find("vinerow_study");
   if (!version) {
-    fail_at(whole, fmt::format("vinerow_study must be given: the version of the file format, which "
-                               "is {} ('vinerow_study: {}')",
-                               kStudyVersion, kStudyVersion));
+    io::fail_at(whole,
+                fmt::format("vinerow_study must be given: the version of the file format, which "
+                            "is {} ('vinerow_study: {}')",
+                            kStudyVersion, kStudyVersion));
   }
   const ReadParameters read = read_parameters(root, whole, "", specs, "study");
   const StudyValues values = study_table().read(read.values, "");
   if (values.format != kStudyVersion) {
-    fail_at(version->mark, fmt::format("vinerow_study = {}, this program reads version {} of the "
-                                       "file format",
-                                       values.format, kStudyVersion));
+    io::fail_at(version->mark,
+                fmt::format("vinerow_study = {}, this program reads version {} of the "
+                            "file format",
+                            values.format, kStudyVersion));
   }
   Study study = values.study;
   study.file = std::filesystem::absolute(file).lexically_normal();
   if (study.name.empty()) study.name = file.stem().string();
   if (!is_valid_name(study.name)) {
-    const YamlNode* name = root.find("name");
-    fail_at(name ? name->mark : whole,
-            fmt::format("name = '{}', must be made of letters, digits, '_' and '-' and start with "
-                        "a letter or '_' (results go to runs/<name>)",
-                        study.name));
+    const io::YamlNode* name = root.find("name");
+    io::fail_at(
+        name ? name->mark : whole,
+        fmt::format("name = '{}', must be made of letters, digits, '_' and '-' and start with "
+                    "a letter or '_' (results go to runs/<name>)",
+                    study.name));
   }
-  if (const YamlNode* stop = root.find("stop")) study.stop_mark = stop->mark;
-  if (const YamlNode* metrics = root.find("metrics")) study.metrics_mark = metrics->mark;
-  if (const YamlNode* node = root.find("set")) study.set = read_set(*node);
-  if (const YamlNode* node = root.find("factors")) study.factors = read_factors(*node);
-  if (const YamlNode* node = root.find("derived")) study.derived = read_derived(*node);
-  const YamlNode* seeds = root.find("seeds");
+  if (const io::YamlNode* stop = root.find("stop")) study.stop_mark = stop->mark;
+  if (const io::YamlNode* metrics = root.find("metrics")) study.metrics_mark = metrics->mark;
+  if (const io::YamlNode* node = root.find("set")) study.set = read_set(*node);
+  if (const io::YamlNode* node = root.find("factors")) study.factors = read_factors(*node);
+  if (const io::YamlNode* node = root.find("derived")) study.derived = read_derived(*node);
+  const io::YamlNode* seeds = root.find("seeds");
   study.seeds = seeds ? read_seeds(*seeds) : std::vector<std::uint64_t>{1};
   check_key_paths(study);
   check_columns(study);
   check_cell_count(study, whole);
   if (study.stop && study.stop->at_least > static_cast<int>(study.seeds.size())) {
-    fail_at(study.stop_mark, fmt::format("stop.at_least = {}, but there are {} seeds",
-                                         study.stop->at_least, study.seeds.size()));
+    io::fail_at(study.stop_mark, fmt::format("stop.at_least = {}, but there are {} seeds",
+                                             study.stop->at_least, study.seeds.size()));
   }
   return study;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

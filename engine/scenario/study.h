@@ -18,7 +18,7 @@
 
 #include "engine/scenario/scenario.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// One value of a factor: what it sets, and how tables show it.
 struct FactorLevel {
@@ -31,7 +31,7 @@ struct Factor {
   std::string name;
   std::vector<std::string> columns;  ///< in tables: the factor's name, or its key paths
   std::vector<FactorLevel> levels;   ///< not empty
-  SourceMark where;
+  io::SourceMark where;
 };
 
 /// More seeds are run for a setting until the confidence interval of a metric's mean is narrow.
@@ -60,7 +60,7 @@ enum class KeepRuns {
 struct DerivedColumn {
   std::string name;
   std::string expression;
-  SourceMark where;
+  io::SourceMark where;
 };
 
 struct Study {
@@ -76,7 +76,7 @@ struct Study {
   std::optional<StopRule> stop;
   CellBudget budget;
   KeepRuns keep = KeepRuns::kNothing;
-  SourceMark stop_mark, metrics_mark;
+  io::SourceMark stop_mark, metrics_mark;
 };
 
 /// Reads and checks a study as far as that needs no parts: its own keys, factors, counts. Whether
@@ -87,4 +87,4 @@ Study load_study(const std::filesystem::path& file);
 /// JSON Schema (draft 2020-12) of study files.
 std::string study_json_schema();
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

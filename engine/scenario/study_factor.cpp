@@ -10,7 +10,7 @@
 #include "engine/scenario/space_filling.h"
 #include "engine/scenario/yaml_include.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 /// The form of a factor by a key that only it has.
@@ -53,111 +53,113 @@ const std::vector<FormKeys>& forms() {
   return all;
 }
 
-const FormKeys& form_of(const YamlNode& node, const std::string& path) {
+const FormKeys& form_of(const io::YamlNode& node, const std::string& path) {
   require_mapping(node, path, forms().front().example);
   for (const FormKeys& form : forms()) {
     if (node.has(form.tag)) return form;
   }
   std::string tags;
   for (const FormKeys& form : forms()) tags += (tags.empty() ? "" : ", ") + std::string(form.tag);
-  fail_at(node.mark, fmt::format("{} has none of the keys that say what varies: {}; e.g. {}", path,
-                                 tags, forms().front().example));
+  io::fail_at(node.mark, fmt::format("{} has none of the keys that say what varies: {}; e.g. {}",
+                                     path, tags, forms().front().example));
 }
 
 /// How a value stands in a table: a text without quotes, a mapping in one line.
-std::string table_text(const YamlNode& value) {
+std::string table_text(const io::YamlNode& value) {
   if (value.is_scalar()) return value.text;
   if (value.is_null()) return "";
-  YamlNode flow = value;
+  io::YamlNode flow = value;
   flow.flow = true;
-  std::string text = to_yaml(flow);
+  std::string text = io::to_yaml(flow);
   while (text.ends_with('\n')) text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }
 
-YamlNode number_node(double value, const YamlNode& like) {
+io::YamlNode number_node(double value, const io::YamlNode& like) {
   const bool is_whole = value == std::floor(value) && std::abs(value) < 9e15;
-  YamlNode node = is_whole ? yaml_integer(static_cast<std::int64_t>(value)) : yaml_number(value);
+  io::YamlNode node =
+      is_whole ? io::yaml_integer(static_cast<std::int64_t>(value)) : io::yaml_number(value);
   node.mark = like.mark;
   node.folder = like.folder;
   return node;
 }
 
-std::string read_key(const YamlNode& node, const std::string& path, const char* example) {
-  const YamlNode* key = node.find("key");
+std::string read_key(const io::YamlNode& node, const std::string& path, const char* example) {
+  const io::YamlNode* key = node.find("key");
   if (!key) {
-    fail_at(node.mark,
-            fmt::format("{}.key must be given: the path of a parameter; e.g. {}", path, example));
+    io::fail_at(node.mark, fmt::format("{}.key must be given: the path of a parameter; e.g. {}",
+                                       path, example));
   }
   if (!key->is_scalar() || key->text.empty()) {
-    fail_at(key->mark, fmt::format("{}.key = {}, must be the path of a parameter, e.g. "
-                                   "rover.controller.lookahead_m",
-                                   path, shown(*key)));
+    io::fail_at(key->mark, fmt::format("{}.key = {}, must be the path of a parameter, e.g. "
+                                       "rover.controller.lookahead_m",
+                                       path, io::shown(*key)));
   }
   return key->text;
 }
 
-void require_items(const YamlNode& list, const std::string& path) {
+void require_items(const io::YamlNode& list, const std::string& path) {
   if (!list.is_list()) {
-    fail_at(list.mark, fmt::format("{} = {}, must be a list of values", path, shown(list)));
+    io::fail_at(list.mark, fmt::format("{} = {}, must be a list of values", path, io::shown(list)));
   }
   if (list.items.empty()) {
-    fail_at(list.mark, fmt::format("{} is empty, must have at least one value", path));
+    io::fail_at(list.mark, fmt::format("{} is empty, must have at least one value", path));
   }
 }
 
-void require_entries(const YamlNode& mapping, const std::string& path, const char* example) {
+void require_entries(const io::YamlNode& mapping, const std::string& path, const char* example) {
   require_mapping(mapping, path, example);
   if (mapping.entries.empty()) {
-    fail_at(mapping.mark, fmt::format("{} is empty, must have at least one entry", path));
+    io::fail_at(mapping.mark, fmt::format("{} is empty, must have at least one entry", path));
   }
 }
 
-void read_values(const YamlNode& node, const std::string& path, Factor& factor) {
+void read_values(const io::YamlNode& node, const std::string& path, Factor& factor) {
   const std::string key = read_key(node, path, forms().front().example);
-  const YamlNode& values = *node.find("values");
+  const io::YamlNode& values = *node.find("values");
   require_items(values, path + ".values");
   factor.columns = {factor.name};
-  for (const YamlNode& value : values.items) {
+  for (const io::YamlNode& value : values.items) {
     factor.levels.push_back({{{key, value}}, {table_text(value)}});
   }
 }
 
-FactorRange read_range(const YamlNode& node, const std::string& path) {
+FactorRange read_range(const io::YamlNode& node, const std::string& path) {
   const auto& specs = factor_range_table().specs();
   const FactorRange range =
       factor_range_table().read(read_parameters(node, node.mark, path, specs, "").values, "");
   if (!(range.from <= range.to)) {
-    fail_at(node.mark, fmt::format("{}: from = {} is above to = {}", path, range.from, range.to));
+    io::fail_at(node.mark,
+                fmt::format("{}: from = {} is above to = {}", path, range.from, range.to));
   }
   if (range.logarithmic && !(range.from > 0.0)) {
-    fail_at(node.find("from")->mark,
-            fmt::format("{}.from = {}, must be > 0 on a logarithmic scale", path, range.from));
+    io::fail_at(node.find("from")->mark,
+                fmt::format("{}.from = {}, must be > 0 on a logarithmic scale", path, range.from));
   }
   return range;
 }
 
 /// Shares of the range at which its values lie.
-std::vector<double> shares_of(const FactorRange& range, const YamlNode& node,
+std::vector<double> shares_of(const FactorRange& range, const io::YamlNode& node,
                               const std::string& path) {
   const auto& specs = range_steps_table().specs();
   const RangeSteps steps =
       range_steps_table().read(read_parameters(node, node.mark, path, specs, "").values, "");
   if (steps.step.has_value() == steps.count.has_value()) {
-    fail_at(node.mark, fmt::format("{}: one of step and count must be given", path));
+    io::fail_at(node.mark, fmt::format("{}: one of step and count must be given", path));
   }
   if (steps.step && range.logarithmic) {
-    fail_at(node.find("step")->mark,
-            fmt::format("{}.step = {}, a logarithmic scale takes count", path, *steps.step));
+    io::fail_at(node.find("step")->mark,
+                fmt::format("{}.step = {}, a logarithmic scale takes count", path, *steps.step));
   }
   const double span = range.to - range.from;
   constexpr double kRounding = 1e-9;
   const double count = steps.count ? static_cast<double>(*steps.count)
                                    : std::floor(span / *steps.step + kRounding) + 1.0;
   if (count > kMostCells) {
-    fail_at(node.mark,
-            fmt::format("{} has {:.6g} values, must have at most {:.0f}", path, count, kMostCells));
+    io::fail_at(node.mark, fmt::format("{} has {:.6g} values, must have at most {:.0f}", path,
+                                       count, kMostCells));
   }
   // By a step the last value need not be `to`.
   const double last = steps.count || span == 0.0 ? 1.0 : (count - 1.0) * *steps.step / span;
@@ -168,47 +170,48 @@ std::vector<double> shares_of(const FactorRange& range, const YamlNode& node,
   return shares;
 }
 
-void read_range_factor(const YamlNode& node, const std::string& path, Factor& factor) {
+void read_range_factor(const io::YamlNode& node, const std::string& path, Factor& factor) {
   const std::string key = read_key(node, path, forms()[1].example);
   const FactorRange range = read_range(node, path);
   factor.columns = {factor.name};
   for (const double share : shares_of(range, node, path)) {
-    const YamlNode value = number_node(number_at(range, share), node);
+    const io::YamlNode value = number_node(number_at(range, share), node);
     // Of whole numbers several may round to one.
     if (!factor.levels.empty() && factor.levels.back().texts.front() == value.text) continue;
     factor.levels.push_back({{{key, value}}, {value.text}});
   }
 }
 
-void read_alternatives(const YamlNode& node, const std::string& path, Factor& factor) {
+void read_alternatives(const io::YamlNode& node, const std::string& path, Factor& factor) {
   const char* example = "{lqr: {plane.controller: {type: fixed_wing_lqr}}}";
-  const YamlNode& alternatives = *node.find("alternatives");
+  const io::YamlNode& alternatives = *node.find("alternatives");
   require_entries(alternatives, path + ".alternatives", example);
   factor.columns = {factor.name};
-  for (const YamlEntry& alternative : alternatives.entries) {
+  for (const io::YamlEntry& alternative : alternatives.entries) {
     const std::string place = fmt::format("{}.alternatives.{}", path, alternative.key);
     // An empty one is the scenario as it is.
     require_mapping(alternative.value, place, "{plane.controller: {type: fixed_wing_lqr}}");
     FactorLevel level{{}, {alternative.key}};
-    for (const YamlEntry& value : alternative.value.entries) {
+    for (const io::YamlEntry& value : alternative.value.entries) {
       level.values.push_back({value.key, value.value});
     }
     factor.levels.push_back(std::move(level));
   }
 }
 
-void read_zip(const YamlNode& node, const std::string& path, Factor& factor) {
-  const YamlNode& zip = *node.find("zip");
+void read_zip(const io::YamlNode& node, const std::string& path, Factor& factor) {
+  const io::YamlNode& zip = *node.find("zip");
   require_entries(zip, path + ".zip", "{duration_s: [100, 200], seed: [1, 2]}");
-  for (const YamlEntry& entry : zip.entries) {
+  for (const io::YamlEntry& entry : zip.entries) {
     const std::string place = fmt::format("{}.zip.{}", path, entry.key);
     require_items(entry.value, place);
     if (factor.columns.empty()) factor.levels.resize(entry.value.items.size());
     if (entry.value.items.size() != factor.levels.size()) {
-      fail_at(entry.mark, fmt::format("{} has {} values, {} has {}; zipped lists must be equally "
-                                      "long",
-                                      place, entry.value.items.size(), zip.entries.front().key,
-                                      factor.levels.size()));
+      io::fail_at(entry.mark,
+                  fmt::format("{} has {} values, {} has {}; zipped lists must be equally "
+                              "long",
+                              place, entry.value.items.size(), zip.entries.front().key,
+                              factor.levels.size()));
     }
     factor.columns.push_back(entry.key);
     for (std::size_t i = 0; i < factor.levels.size(); ++i) {
@@ -218,18 +221,18 @@ void read_zip(const YamlNode& node, const std::string& path, Factor& factor) {
   }
 }
 
-void read_sample(const YamlNode& node, const std::string& path, Factor& factor) {
+void read_sample(const io::YamlNode& node, const std::string& path, Factor& factor) {
   const auto& specs = sample_table().specs();
   const SampleParams params =
       sample_table().read(read_parameters(node, node.mark, path, specs, "").values, "");
-  const YamlNode* ranges = node.find("ranges");
+  const io::YamlNode* ranges = node.find("ranges");
   const char* example = "{rover.controller.lookahead_m: {from: 0.5, to: 2}}";
   if (!ranges) {
-    fail_at(node.mark, fmt::format("{}.ranges must be given, e.g. {}", path, example));
+    io::fail_at(node.mark, fmt::format("{}.ranges must be given, e.g. {}", path, example));
   }
   require_entries(*ranges, path + ".ranges", example);
   std::vector<FactorRange> read;
-  for (const YamlEntry& entry : ranges->entries) {
+  for (const io::YamlEntry& entry : ranges->entries) {
     const std::string place = fmt::format("{}.ranges.{}", path, entry.key);
     require_mapping(entry.value, place, "{from: 0.5, to: 2}");
     check_keys(entry.value, place, names_of(factor_range_table().specs()), "", nullptr);
@@ -237,8 +240,8 @@ void read_sample(const YamlNode& node, const std::string& path, Factor& factor) 
     factor.columns.push_back(entry.key);
   }
   if (params.kind == SampleKind::kSobol && read.size() > kMostSobolDimensions) {
-    fail_at(ranges->mark, fmt::format("{}.ranges has {} keys, a Sobol sample at most {}", path,
-                                      read.size(), kMostSobolDimensions));
+    io::fail_at(ranges->mark, fmt::format("{}.ranges has {} keys, a Sobol sample at most {}", path,
+                                          read.size(), kMostSobolDimensions));
   }
   const auto count = static_cast<std::size_t>(params.count);
   const std::vector<std::vector<double>> points =
@@ -248,15 +251,15 @@ void read_sample(const YamlNode& node, const std::string& path, Factor& factor) 
   factor.levels.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < read.size(); ++k) {
-      const YamlEntry& entry = ranges->entries[k];
-      const YamlNode value = number_node(number_at(read[k], points[i][k]), entry.value);
+      const io::YamlEntry& entry = ranges->entries[k];
+      const io::YamlNode value = number_node(number_at(read[k], points[i][k]), entry.value);
       factor.levels[i].values.push_back({entry.key, value});
       factor.levels[i].texts.push_back(value.text);
     }
   }
 }
 
-Factor read_factor(const YamlEntry& entry) {
+Factor read_factor(const io::YamlEntry& entry) {
   const std::string path = "factors." + entry.key;
   check_name(entry, "factors", "factor");
   const FormKeys& form = form_of(entry.value, path);
@@ -333,11 +336,11 @@ double number_at(const FactorRange& range, double share) {
   return std::stod(fmt::format("{:.12g}", value));
 }
 
-std::vector<Factor> read_factors(const YamlNode& node) {
+std::vector<Factor> read_factors(const io::YamlNode& node) {
   require_mapping(node, "factors", "{lookahead: " + std::string(forms().front().example) + "}");
   std::vector<Factor> factors;
-  for (const YamlEntry& entry : node.entries) factors.push_back(read_factor(entry));
+  for (const io::YamlEntry& entry : node.entries) factors.push_back(read_factor(entry));
   return factors;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

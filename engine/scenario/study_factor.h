@@ -6,7 +6,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/scenario/study.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// A range of a number, in equal steps or, on a logarithmic scale, in equal ratios.
 struct FactorRange {
@@ -39,9 +39,9 @@ const ParameterTable<RangeSteps>& range_steps_table();
 double number_at(const FactorRange& range, double share);
 
 /// All factors. @param node  the mapping `factors` @throws ConfigError
-std::vector<Factor> read_factors(const YamlNode& node);
+std::vector<Factor> read_factors(const io::YamlNode& node);
 
 /// Most levels of a factor and most cells of a study.
 inline constexpr double kMostCells = 1e6;
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -2,7 +2,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 const ParameterTable<StopRule>& stop_table() {
@@ -71,4 +71,4 @@ const std::vector<FreeStudyKey>& free_study_keys() {
   return keys;
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

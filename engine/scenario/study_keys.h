@@ -7,7 +7,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/scenario/study.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// The version of the file format that this program reads (`vinerow_study: 1`).
 constexpr std::int64_t kStudyVersion = 1;
@@ -27,4 +27,4 @@ struct FreeStudyKey {
 /// `set`, `factors`, `seeds`, `derived`.
 const std::vector<FreeStudyKey>& free_study_keys();
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -8,7 +8,7 @@
 #include "engine/scenario/study_factor.h"
 #include "engine/scenario/study_keys.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 Json mapping_of(Json values, const char* description) {
@@ -101,4 +101,4 @@ std::string study_json_schema() {
   return schema.dump(1) + "\n";
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

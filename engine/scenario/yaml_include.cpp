@@ -8,7 +8,7 @@
 
 #include "engine/scenario/scenario_keys.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,8 +25,8 @@ struct OpenFile {
 
 class Includer {
  public:
-  YamlNode load(const fs::path& file) {
-    YamlNode root = load_yaml_file(file);
+  io::YamlNode load(const fs::path& file) {
+    io::YamlNode root = io::load_yaml_file(file);
     check_root(root, file);
     open_.push_back({canonical(fs::absolute(file)), file.string()});
     resolve(root, "");
@@ -34,27 +34,27 @@ class Includer {
     return root;
   }
 
-  void resolve(YamlNode& node, const std::string& path) {
+  void resolve(io::YamlNode& node, const std::string& path) {
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       resolve(node.items[i], join_path(path, std::to_string(i)));
     }
-    for (YamlEntry& entry : node.entries) {
+    for (io::YamlEntry& entry : node.entries) {
       if (entry.key != "include") resolve(entry.value, join_path(path, entry.key));
     }
-    const YamlEntry* include = node.find_entry("include");
+    const io::YamlEntry* include = node.find_entry("include");
     if (!include) return;
 
     const std::string include_path = join_path(path, "include");
-    std::vector<YamlNode> files;
+    std::vector<io::YamlNode> files;
     if (include->value.is_list()) {
       files = include->value.items;
     } else {
       files.push_back(include->value);
     }
-    YamlNode merged = yaml_mapping();
+    io::YamlNode merged = io::yaml_mapping();
     merged.mark = node.mark;
     merged.folder = node.folder;
-    for (const YamlNode& file : files) merge_over(merged, load_included(file, path), path);
+    for (const io::YamlNode& file : files) merge_over(merged, load_included(file, path), path);
     node.erase("include");
     merge_over(merged, std::move(node), path);
     node = std::move(merged);
@@ -67,30 +67,32 @@ class Includer {
     return error ? absolute.lexically_normal() : result;
   }
 
-  static void check_root(const YamlNode& root, const fs::path& file) {
+  static void check_root(const io::YamlNode& root, const fs::path& file) {
     if (root.is_null()) {
-      fail_at({file.string(), 0}, "the file is empty; a scenario starts with 'vinerow: 1'");
+      io::fail_at({file.string(), 0}, "the file is empty; a scenario starts with 'vinerow: 1'");
     }
     if (!root.is_mapping()) {
-      fail_at(root.mark, fmt::format("the file holds {}, must be a mapping ('key: value' lines)",
-                                     shown(root)));
+      io::fail_at(root.mark,
+                  fmt::format("the file holds {}, must be a mapping ('key: value' lines)",
+                              io::shown(root)));
     }
   }
 
-  YamlNode load_included(const YamlNode& name, const std::string& path) {
+  io::YamlNode load_included(const io::YamlNode& name, const std::string& path) {
     const std::string place = join_path(path, "include");
-    if (!name.is_scalar() || !std::holds_alternative<std::string>(scalar_value(name)) ||
+    if (!name.is_scalar() || !std::holds_alternative<std::string>(io::scalar_value(name)) ||
         name.text.empty()) {
-      fail_at(name.mark, fmt::format("{} = {}, must be the path of a file or a list of such paths",
-                                     place, shown(name)));
+      io::fail_at(name.mark,
+                  fmt::format("{} = {}, must be the path of a file or a list of such paths", place,
+                              io::shown(name)));
     }
     const fs::path wanted = (name.folder / name.text).lexically_normal();
     std::error_code error;
     if (!fs::is_regular_file(wanted, error)) {
       const char* what =
           fs::is_directory(wanted, error) ? "is a folder, not a file" : "no such file";
-      fail_at(name.mark, fmt::format("{} = '{}': {} (looked for {}){}", place, name.text, what,
-                                     wanted.string(), nearest_file_hint(wanted)));
+      io::fail_at(name.mark, fmt::format("{} = '{}': {} (looked for {}){}", place, name.text, what,
+                                         wanted.string(), io::nearest_file_hint(wanted)));
     }
     const fs::path identity = canonical(wanted);
     // Named beside the including file, so that an error's place can be opened from where the user
@@ -101,12 +103,12 @@ class Includer {
                                        : (beside / name.text).lexically_normal().string();
     refuse_circle(name, place, identity, shown_name);
     if (++include_count_ > kMaxIncludes) {
-      fail_at(name.mark, fmt::format("{} = '{}': more than {} files are included", place, name.text,
-                                     kMaxIncludes));
+      io::fail_at(name.mark, fmt::format("{} = '{}': more than {} files are included", place,
+                                         name.text, kMaxIncludes));
     }
-    YamlNode root = load_yaml_file_as(wanted, shown_name);
+    io::YamlNode root = io::load_yaml_file_as(wanted, shown_name);
     if (root.is_null()) {
-      fail_at(name.mark, fmt::format("{} = '{}': the file is empty", place, name.text));
+      io::fail_at(name.mark, fmt::format("{} = '{}': the file is empty", place, name.text));
     }
     check_root(root, shown_name);
     open_.push_back({identity, shown_name});
@@ -115,15 +117,15 @@ class Includer {
     return root;
   }
 
-  void refuse_circle(const YamlNode& name, const std::string& place, const fs::path& identity,
+  void refuse_circle(const io::YamlNode& name, const std::string& place, const fs::path& identity,
                      const std::string& shown_name) const {
     const auto start = std::find_if(open_.begin(), open_.end(),
                                     [&](const auto& o) { return o.canonical == identity; });
     if (start == open_.end()) return;
     std::string chain;
     for (auto it = start; it != open_.end(); ++it) chain += it->shown_name + " -> ";
-    fail_at(name.mark, fmt::format("{} = '{}': the files include each other in a circle ({})",
-                                   place, name.text, chain + shown_name));
+    io::fail_at(name.mark, fmt::format("{} = '{}': the files include each other in a circle ({})",
+                                       place, name.text, chain + shown_name));
   }
 
   std::vector<OpenFile> open_;
@@ -140,11 +142,11 @@ bool is_spawn_path(const std::string& path) {
          std::count(path.begin(), path.end(), '.') == 2;
 }
 
-bool differ(const YamlNode* a, const YamlNode* b) {
+bool differ(const io::YamlNode* a, const io::YamlNode* b) {
   return a && b && a->is_scalar() && b->is_scalar() && a->text != b->text;
 }
 
-bool replaces_whole(const YamlNode& base, const YamlNode& over, const std::string& path) {
+bool replaces_whole(const io::YamlNode& base, const io::YamlNode& over, const std::string& path) {
   if (!base.is_mapping() || !over.is_mapping()) return true;
   if (is_sourced_value(base) && is_sourced_value(over)) return true;
   if (!is_vehicle_path(path) && differ(base.find("type"), over.find("type"))) return true;
@@ -164,38 +166,38 @@ std::string join_path(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-bool is_sourced_value(const YamlNode& node) {
+bool is_sourced_value(const io::YamlNode& node) {
   return node.has("value") && std::all_of(node.entries.begin(), node.entries.end(), [](auto& e) {
            return e.key == "value" || e.key == "source";
          });
 }
 
-void merge_over(YamlNode& base, YamlNode over, const std::string& path) {
+void merge_over(io::YamlNode& base, io::YamlNode over, const std::string& path) {
   if (replaces_whole(base, over, path)) {
     base = std::move(over);
     return;
   }
   base.mark = over.mark;
-  for (YamlEntry& entry : over.entries) {
-    const YamlEntry* existing = base.find_entry(entry.key);
+  for (io::YamlEntry& entry : over.entries) {
+    const io::YamlEntry* existing = base.find_entry(entry.key);
     if (!existing) {
       base.entries.push_back(std::move(entry));
     } else if (entry.value.is_null()) {
       base.erase(entry.key);
     } else {
-      auto& kept = const_cast<YamlEntry&>(*existing);
+      auto& kept = const_cast<io::YamlEntry&>(*existing);
       kept.mark = entry.mark;
       merge_over(kept.value, std::move(entry.value), join_path(path, entry.key));
     }
   }
 }
 
-YamlNode load_yaml_with_includes(const fs::path& file) {
+io::YamlNode load_yaml_with_includes(const fs::path& file) {
   return Includer().load(file);
 }
 
-void resolve_includes(YamlNode& tree, const std::string& path) {
+void resolve_includes(io::YamlNode& tree, const std::string& path) {
   Includer().resolve(tree, path);
 }
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

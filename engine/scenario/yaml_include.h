@@ -12,26 +12,26 @@
 
 #include "engine/io/files/yaml.h"
 
-namespace vinerow::io {
+namespace vinerow::scenario {
 
 /// Loads a file with all its includes. Paths are relative to the file that names them. Marks tell
 /// the true file and line.
 /// @throws ConfigError for missing, unreadable, cyclic (the chain is named) or empty files
-YamlNode load_yaml_with_includes(const std::filesystem::path& file);
+io::YamlNode load_yaml_with_includes(const std::filesystem::path& file);
 
 /// The same for a tree that came from elsewhere (a text, a `--set` value). @param path  key path of
 /// the tree, for errors
-void resolve_includes(YamlNode& tree, const std::string& path);
+void resolve_includes(io::YamlNode& tree, const std::string& path);
 
 /// Deep merge as described above. @param path  key path of both, which decides what counts as a
 /// vehicle or a spawn
-void merge_over(YamlNode& base, YamlNode over, const std::string& path);
+void merge_over(io::YamlNode& base, io::YamlNode over, const std::string& path);
 
 /// True for {value: ..., source: ...}, the form in which a parameter tells where its value comes
 /// from.
-bool is_sourced_value(const YamlNode& node);
+bool is_sourced_value(const io::YamlNode& node);
 
 /// "a.b" from "a" and "b".
 std::string join_path(const std::string& path, const std::string& key);
 
-}  // namespace vinerow::io
+}  // namespace vinerow::scenario

@@ -5,7 +5,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/sensors/reading_sensor.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 /// Defaults are assumptions, of no data sheet: noise of one degree of the vanes at 12 m/s, a lag
@@ -87,4 +87,4 @@ std::unique_ptr<Sensor> make_air_data(const ParameterSet& parameters,
   return std::make_unique<AirDataProbe>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

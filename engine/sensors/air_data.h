@@ -9,9 +9,9 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec air_data_spec();
 std::unique_ptr<Sensor> make_air_data(const ParameterSet& parameters, const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

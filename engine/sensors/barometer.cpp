@@ -9,7 +9,7 @@
 #include "engine/sensors/mounted_sensor.h"
 #include "engine/sensors/resolution.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 /// Defaults: Bosch BMP388, see assets/sensors/bmp388.yaml.
@@ -108,4 +108,4 @@ std::unique_ptr<Sensor> make_barometer(const ParameterSet& parameters,
   return std::make_unique<Barometer>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 constexpr std::array<double, BiasInstability::kCount> kTimes_s = {2.0,   12.0,   72.0,
@@ -63,4 +63,4 @@ double calc_instability_std(const AllanFigures& figures) {
   return 0.5 * (low + high);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

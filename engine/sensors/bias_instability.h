@@ -12,7 +12,7 @@
 
 #include "engine/sensors/gauss_markov.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 /// One axis. Units: u is deg/s, m/s2 or another one; only they need to agree.
 struct AllanFigures {
@@ -57,4 +57,4 @@ double calc_least_allan_deviation(const AllanFigures& figures, double process_st
 /// @returns -1 if white noise and random walk alone are more than that
 double calc_instability_std(const AllanFigures& figures);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

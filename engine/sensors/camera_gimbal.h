@@ -16,7 +16,7 @@
 #include "engine/math/angles.h"
 #include "engine/math/pose.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 class CameraGimbal {
  public:
@@ -59,4 +59,4 @@ class CameraGimbal {
   Axis roll_, pitch_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -14,7 +14,7 @@
 #include "engine/sensors/camera_gimbal.h"
 #include "engine/sensors/mounted_sensor.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 /// Rays end here; pictures of what is farther are no survey's.
@@ -212,4 +212,4 @@ std::unique_ptr<Sensor> make_camera_trigger(const ParameterSet& parameters,
   return std::make_unique<CameraTrigger>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -22,7 +22,7 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec camera_trigger_spec();
 /// @throws ConfigError if both interval_s and distance_m are given, or the interval is shorter than
@@ -30,4 +30,4 @@ PartSpec camera_trigger_spec();
 std::unique_ptr<Sensor> make_camera_trigger(const ParameterSet& parameters,
                                             const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

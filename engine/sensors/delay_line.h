@@ -7,7 +7,7 @@
 #include "engine/api/signal.h"
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 template <class T>
 class DelayLine {
@@ -68,4 +68,4 @@ class DelayLine {
   std::size_t count_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -6,7 +6,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 const ParameterTable<EchoParams>& echo_table() {
   using P = EchoParams;
@@ -78,4 +78,4 @@ double first_heard_m(const EchoParams& params, std::span<EchoReturn> returns) {
   return std::numeric_limits<double>::infinity();
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

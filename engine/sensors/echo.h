@@ -25,7 +25,7 @@
 #include "engine/api/surface.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 struct EchoParams {
   double threshold = 0.0;  ///< 0: every return is heard
@@ -60,4 +60,4 @@ struct EchoReturn {
 /// @returns distance of the first return that is heard, m; infinity if none is. No heap.
 double first_heard_m(const EchoParams& params, std::span<EchoReturn> returns);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -10,7 +10,7 @@
 #include "engine/sensors/reading_sensor.h"
 #include "engine/sensors/resolution.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 /// What one kind of encoder does to a true value.
@@ -106,4 +106,4 @@ std::unique_ptr<Sensor> make_encoders(const ParameterSet& parameters,
   return std::make_unique<Encoders>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

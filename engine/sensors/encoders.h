@@ -10,11 +10,11 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec encoders_spec();
 /// @throws ConfigError where the vehicle does not know the states of its actuators, or one is
 /// neither an angle nor a rate
 std::unique_ptr<Sensor> make_encoders(const ParameterSet& parameters, const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -5,7 +5,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 /// x(k+1) = decay x(k) + kick n, with decay = exp(-period / time): the exact discretisation, so
 /// that variance and correlation exp(-t / time) do not depend on the rate.
@@ -33,4 +33,4 @@ class GaussMarkov {
   double value_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -10,7 +10,7 @@
 #include "engine/sensors/gnss_tracking.h"
 #include "engine/sensors/satellite_receiver.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 struct JammingParams {
@@ -143,4 +143,4 @@ std::unique_ptr<Sensor> make_gnss(const ParameterSet& parameters, const SensorCo
   return std::make_unique<Gnss>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

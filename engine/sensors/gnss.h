@@ -20,11 +20,11 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec gnss_spec();
 /// @throws ConfigError for contradictory parameters, unknown constellations, an epoch that is no
 /// date, a jamming window too short for its ramps
 std::unique_ptr<Sensor> make_gnss(const ParameterSet& parameters, const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

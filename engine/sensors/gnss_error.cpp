@@ -5,7 +5,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 struct ModeWords {
@@ -103,4 +103,4 @@ void GnssError::apply(const Dilution& dilution, GnssFix& fix) const {
   fix.v_W += fix.velocity_std_mps * velocity_white_;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

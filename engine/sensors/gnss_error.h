@@ -16,7 +16,7 @@
 #include "engine/sensors/gauss_markov.h"
 #include "engine/sensors/gnss_geometry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 /// Horizontal (each axis), vertical.
 using GnssPair = std::array<double, 2>;
@@ -76,4 +76,4 @@ class GnssError {
   Eigen::Vector3d velocity_white_ = Eigen::Vector3d::Zero();
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 void GnssGeometry::add(const Eigen::Vector3d& direction_W, double weight) {
   Eigen::Vector4d row;
@@ -23,4 +23,4 @@ bool GnssGeometry::read(Dilution& dilution) const {
   return dilution.axes.allFinite();
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

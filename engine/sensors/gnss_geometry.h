@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 struct Dilution {
   Eigen::Vector3d axes = Eigen::Vector3d::Zero();  ///< sqrt of Q's diagonal: east, north, up
@@ -34,4 +34,4 @@ class GnssGeometry {
   int count_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -11,7 +11,7 @@
 #include "engine/sensors/gnss_tracking.h"
 #include "engine/sensors/mounted_sensor.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 /// Defaults: u-blox, ZED-F9P and ZED-F9H data sheets, moving base: heading accuracy 0.4 deg over 1
@@ -150,4 +150,4 @@ std::unique_ptr<Sensor> make_gnss_heading(const ParameterSet& parameters,
   return std::make_unique<GnssHeadingSensor>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

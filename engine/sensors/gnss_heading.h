@@ -17,7 +17,7 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec gnss_heading_spec();
 /// @throws ConfigError for contradictory parameters, unknown constellations, an epoch that is no
@@ -25,4 +25,4 @@ PartSpec gnss_heading_spec();
 std::unique_ptr<Sensor> make_gnss_heading(const ParameterSet& parameters,
                                           const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -4,7 +4,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 constexpr double kLong_s = 1e9;
@@ -89,4 +89,4 @@ GnssFix::Mode GnssModes::step(double code_pdop, int carrier_count, double carrie
   return corrected ? Mode::kSbas : Mode::kStandalone;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

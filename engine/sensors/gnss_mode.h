@@ -15,7 +15,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/api/parameter_table_fwd.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 enum class GnssCorrections { kNone, kSbas, kRtk };
 
@@ -53,4 +53,4 @@ class GnssModes {
   bool has_been_fixed_;  ///< and at least float ever since
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

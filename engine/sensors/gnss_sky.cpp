@@ -11,7 +11,7 @@
 #include "engine/core/suggest.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 using Eigen::Vector3d;
@@ -185,4 +185,4 @@ GnssSky make_gnss_sky(const GnssSkyParams& params, const GeoOrigin& origin,
   return GnssSky(origin, std::move(orbits), read_utc(params.epoch_utc, who + ": epoch_utc"));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -18,7 +18,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/math/geo_origin.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 /// A circular orbit whose node and phase move evenly; instants in s since 2000-01-01 12:00 UTC.
 struct CircularOrbit {
@@ -76,4 +76,4 @@ const ParameterTable<GnssSkyParams>& gnss_sky_table();
 /// twice, none, an epoch that is no date
 GnssSky make_gnss_sky(const GnssSkyParams& params, const GeoOrigin& origin, const std::string& who);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

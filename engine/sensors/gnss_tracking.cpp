@@ -8,7 +8,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 using Eigen::Vector3d;
@@ -164,4 +164,4 @@ GnssView GnssTracking::look(double time_s, const Vector3d& p_W, bool deaf, doubl
   return view;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

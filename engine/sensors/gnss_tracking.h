@@ -30,7 +30,7 @@
 #include "engine/sensors/gnss_geometry.h"
 #include "engine/sensors/gnss_sky.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 struct GnssSignals {
   double mask_rad = rad_from_deg(10.0);
@@ -91,4 +91,4 @@ class GnssTracking {
   std::vector<Satellite> satellites_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

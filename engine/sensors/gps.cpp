@@ -4,7 +4,7 @@
 
 #include "engine/sensors/satellite_receiver.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 enum class ErrorModel { kIdeal, kUniform, kGaussian };
@@ -126,4 +126,4 @@ std::unique_ptr<Sensor> make_gps(const ParameterSet& parameters, const SensorCon
   return std::make_unique<Gps>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

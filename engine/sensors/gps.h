@@ -15,9 +15,9 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec gps_spec();
 std::unique_ptr<Sensor> make_gps(const ParameterSet& parameters, const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -6,7 +6,7 @@
 #include "engine/sensors/mounted_sensor.h"
 #include "engine/sensors/triad.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 using Eigen::Quaterniond;
@@ -129,4 +129,4 @@ std::unique_ptr<Sensor> make_imu(const ParameterSet& parameters, const SensorCon
   return std::make_unique<Imu>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -17,9 +17,9 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec imu_spec();
 std::unique_ptr<Sensor> make_imu(const ParameterSet& parameters, const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -6,7 +6,7 @@
 #include "engine/sensors/gauss_markov.h"
 #include "engine/sensors/reading_sensor.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 using Eigen::Quaterniond;
@@ -158,4 +158,4 @@ std::unique_ptr<Sensor> make_ins(const ParameterSet& parameters, const SensorCon
   return std::make_unique<Ins>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -10,7 +10,7 @@
 #include "engine/math/angles.h"
 #include "engine/sensors/mounted_sensor.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 constexpr int kMostBeams = 20'000;
@@ -239,4 +239,4 @@ std::unique_ptr<Sensor> make_lidar(const ParameterSet& parameters, const SensorC
   return std::make_unique<Lidar>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

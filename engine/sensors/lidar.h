@@ -21,10 +21,10 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec lidar_spec();
 /// @throws ConfigError if the angles make no beam or too many, or the range is empty
 std::unique_ptr<Sensor> make_lidar(const ParameterSet& parameters, const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

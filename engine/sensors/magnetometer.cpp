@@ -11,7 +11,7 @@
 #include "engine/sensors/mounted_sensor.h"
 #include "engine/sensors/resolution.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 /// In the units of files. Defaults: PNI RM3100, see assets/sensors/rm3100.yaml.
@@ -123,4 +123,4 @@ std::unique_ptr<Sensor> make_magnetometer(const ParameterSet& parameters,
   return std::make_unique<Magnetometer>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -11,10 +11,10 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec magnetometer_spec();
 std::unique_ptr<Sensor> make_magnetometer(const ParameterSet& parameters,
                                           const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

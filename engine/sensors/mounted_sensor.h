@@ -9,7 +9,7 @@
 #include "engine/sensors/mounting.h"
 #include "engine/sensors/reading_sensor.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 template <class T>
 class MountedSensor : public ReadingSensor<T> {
@@ -51,4 +51,4 @@ PartSpec mounted_sensor_spec(std::string name, std::string description, double d
   return spec;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -2,7 +2,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 const ParameterTable<MountingParams>& mounting_table() {
   using P = MountingParams;
@@ -20,4 +20,4 @@ Pose MountingParams::X_BS() const {
   return {quaternion_from_rpy({rotation_rad.x(), rotation_rad.y(), rotation_rad.z()}), position_m};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

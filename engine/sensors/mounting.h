@@ -6,7 +6,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/math/pose.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 struct MountingParams {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();    ///< in B
@@ -19,4 +19,4 @@ struct MountingParams {
 /// sensor looks).
 const ParameterTable<MountingParams>& mounting_table();
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -9,7 +9,7 @@
 #include "engine/api/stepped_parts.h"
 #include "engine/sensors/readings.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 /// What is left to a sensor is step(): it hands one reading a tick to `readings_`.
 template <class T>
@@ -41,4 +41,4 @@ PartSpec reading_sensor_spec(std::string name, std::string description, double d
   return spec;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

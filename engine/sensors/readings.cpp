@@ -1,6 +1,6 @@
 #include "engine/sensors/readings.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 const ParameterTable<ReadingParams>& reading_table() {
   using P = ReadingParams;
@@ -23,4 +23,4 @@ std::vector<ParameterSpec> join_parameters(
   return all;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

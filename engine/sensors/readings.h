@@ -20,7 +20,7 @@
 #include "engine/sensors/delay_line.h"
 #include "engine/sensors/time_window.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 struct ReadingParams {
   double delay_s = 0.0;
@@ -97,4 +97,4 @@ class Readings {
   SignalWriter<T> truth_out_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

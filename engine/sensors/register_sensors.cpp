@@ -13,7 +13,7 @@
 #include "engine/sensors/magnetometer.h"
 #include "engine/sensors/ultrasound.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 void register_sensors(Registry& registry) {
   registry.add_sensor(air_data_spec(), make_air_data);
@@ -30,4 +30,4 @@ void register_sensors(Registry& registry) {
   registry.add_sensor(ultrasound_spec(), make_ultrasound);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

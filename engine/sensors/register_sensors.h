@@ -1,9 +1,9 @@
 #pragma once
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 /// Adds the built-in sensors: one line each.
 void register_sensors(Registry& registry);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -6,7 +6,7 @@
 #include "engine/math/geo.h"
 #include "engine/sensors/mounted_sensor.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 class SatelliteReceiver : public MountedSensor<GnssFix> {
  protected:
@@ -25,14 +25,14 @@ class SatelliteReceiver : public MountedSensor<GnssFix> {
 
   /// Sets latitude, longitude and altitude to those of p_W.
   void locate(GnssFix& fix) const {
-    const io::Geodetic g = frame_.to_geodetic(fix.p_W);
+    const Geodetic g = frame_.to_geodetic(fix.p_W);
     fix.latitude_rad = g.latitude_rad;
     fix.longitude_rad = g.longitude_rad;
     fix.altitude_m = g.altitude_m;
   }
 
  private:
-  io::LocalFrame frame_;
+  LocalFrame frame_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

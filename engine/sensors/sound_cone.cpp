@@ -4,7 +4,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 std::vector<ConeRay> cone_rays(double half_angle_rad, int rings) {
   if (half_angle_rad <= 0.0 || rings <= 0) return {ConeRay{}};
@@ -32,4 +32,4 @@ std::vector<ConeRay> cone_rays(double half_angle_rad, int rings) {
   return rays;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

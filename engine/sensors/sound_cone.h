@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 struct ConeRay {
   Eigen::Vector3d dir_S = Eigen::Vector3d::UnitX();  ///< unit; x of S is the axis
@@ -19,4 +19,4 @@ struct ConeRay {
 /// @param half_angle_rad  in [0, pi/2); 0 gives one ray, as `rings` = 0 does
 std::vector<ConeRay> cone_rays(double half_angle_rad, int rings);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -4,7 +4,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 std::string find_fault_in_window(const TimeWindowParams& p) {
@@ -43,4 +43,4 @@ bool is_in_any(const std::vector<TimeWindow>& windows, Time now) {
   return false;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

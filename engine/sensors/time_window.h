@@ -6,7 +6,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/core/time.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 /// [begin, end)
 struct TimeWindow {
@@ -30,4 +30,4 @@ std::vector<TimeWindow> windows_of(const std::vector<TimeWindowParams>& params);
 
 bool is_in_any(const std::vector<TimeWindow>& windows, Time now);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/sensors/resolution.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 ParameterTable<TriadFigures> make_triad_table(const TriadNames& n) {
   using P = TriadFigures;
@@ -93,4 +93,4 @@ Eigen::Vector3d Triad::read(const Eigen::Vector3d& truth) {
   return reading;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

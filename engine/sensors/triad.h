@@ -13,7 +13,7 @@
 #include "engine/api/part.h"
 #include "engine/sensors/bias_instability.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 /// SI and radians; u is rad/s or m/s2.
 struct TriadFigures {
@@ -62,4 +62,4 @@ class Triad {
   Eigen::Matrix3d gain_;    ///< I + E
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

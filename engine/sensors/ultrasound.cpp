@@ -13,7 +13,7 @@
 #include "engine/sensors/resolution.h"
 #include "engine/sensors/sound_cone.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 namespace {
 
 constexpr double kFreezing_K = 273.15;
@@ -265,4 +265,4 @@ std::unique_ptr<Sensor> make_ultrasound(const ParameterSet& parameters,
   return std::make_unique<Ultrasound>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

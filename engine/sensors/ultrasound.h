@@ -16,11 +16,11 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::sensors {
 
 PartSpec ultrasound_spec();
 /// @throws ConfigError if cycle, phase and rate do not go together, or the range is empty
 std::unique_ptr<Sensor> make_ultrasound(const ParameterSet& parameters,
                                         const SensorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::sensors

@@ -19,8 +19,8 @@ bool begins_with_key(const std::string& text, const ParameterSet& parameters) {
 
 }  // namespace
 
-std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry,
-                                        FileShelf* shelf) {
+std::unique_ptr<WorldModel> build_world(const scenario::Scenario& scenario,
+                                        const Registry& registry, FileShelf* shelf) {
   WorldContext context;
   context.part = "world";
   context.seed = scenario.seed;
@@ -38,7 +38,7 @@ std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Regi
   }
 }
 
-BuiltWorld build_static_world(const io::Scenario& scenario, const Registry& registry,
+BuiltWorld build_static_world(const scenario::Scenario& scenario, const Registry& registry,
                               FileShelf* shelf) {
   BuiltWorld world;
   world.model = build_world(scenario, registry, shelf);
@@ -47,7 +47,7 @@ BuiltWorld build_static_world(const io::Scenario& scenario, const Registry& regi
   return world;
 }
 
-BuiltWorld reseed_world(const BuiltWorld& world, const io::Scenario& scenario,
+BuiltWorld reseed_world(const BuiltWorld& world, const scenario::Scenario& scenario,
                         const Registry& registry, FileShelf* shelf) {
   if (world.seed == scenario.seed) return world;
   if (world.model->depends_on_seed) return build_static_world(scenario, registry, shelf);

@@ -18,12 +18,12 @@ struct BuiltWorld {
 };
 
 /// The world of a scenario. @param shelf  of files; null: none. @throws ConfigError
-BuiltWorld build_static_world(const io::Scenario& scenario, const Registry& registry,
+BuiltWorld build_static_world(const scenario::Scenario& scenario, const Registry& registry,
                               FileShelf* shelf = nullptr);
 
 /// The same for the same scenario with another seed. Only a world that depends on the seed is built
 /// anew. @throws ConfigError
-BuiltWorld reseed_world(const BuiltWorld& world, const io::Scenario& scenario,
+BuiltWorld reseed_world(const BuiltWorld& world, const scenario::Scenario& scenario,
                         const Registry& registry, FileShelf* shelf = nullptr);
 
 }  // namespace vinerow

@@ -27,11 +27,11 @@ int find_surrounding(const SceneQuery& scene, const Eigen::Vector3d& p_W) {
 
 }  // namespace
 
-void refuse_hidden_cameras(const io::PicturesConfig& pictures, const WorldModel& world,
+void refuse_hidden_cameras(const scenario::PicturesConfig& pictures, const WorldModel& world,
                            const SceneQuery& scene) {
   const StandingGround ground(world, scene);
-  for (const io::CameraConfig& camera : pictures.cameras) {
-    if (camera.kind != io::CameraKind::kFixed) continue;
+  for (const scenario::CameraConfig& camera : pictures.cameras) {
+    if (camera.kind != scenario::CameraKind::kFixed) continue;
     const auto refuse = [&](const std::string& where) {
       throw ConfigError(fmt::format(
           "{}: camera '{}' would stand {}; position_m = [{:g}, {:g}, {:g}] counts its height from "

@@ -10,7 +10,7 @@ namespace vinerow {
 /// Looks at the fixed ones: where the others are is known in the run alone.
 /// @throws ConfigError "scenario.yaml:30: pictures.cameras: camera 'gate' would stand 2 m below the
 /// ground; ..."
-void refuse_hidden_cameras(const io::PicturesConfig& pictures, const WorldModel& world,
+void refuse_hidden_cameras(const scenario::PicturesConfig& pictures, const WorldModel& world,
                            const SceneQuery& scene);
 
 }  // namespace vinerow

@@ -23,10 +23,10 @@ std::string list_metrics(const std::string& wrong, std::vector<std::string> know
     return edit_distance(wrong, a) < edit_distance(wrong, b);
   });
   const bool is_cut = known.size() > kMostWithHint;
-  return io::list_known(known, kMostWithHint) + (is_cut ? "; see 'vinerow list metric'" : "");
+  return scenario::list_known(known, kMostWithHint) + (is_cut ? "; see 'vinerow list metric'" : "");
 }
 
-double find_metric(const io::Criterion& criterion,
+double find_metric(const scenario::Criterion& criterion,
                    const std::map<std::string, std::map<std::string, double>>& metrics) {
   std::vector<std::string> known;
   for (const auto& [vehicle, values] : metrics) {
@@ -55,19 +55,19 @@ const char* why_not_measured(const std::string& metric) {
 }
 
 /// "min = 0.2 and max = 0.8"
-std::string limits_text(const io::Criterion& criterion) {
+std::string limits_text(const scenario::Criterion& criterion) {
   std::string text = criterion.min ? fmt::format("min = {:g}", *criterion.min) : "";
   if (criterion.min && criterion.max) text += " and ";
   if (criterion.max) text += fmt::format("max = {:g}", *criterion.max);
   return text;
 }
 
-void refuse_what_nothing_meets(const io::Criterion& criterion,
-                               const std::vector<io::NamedPart>& parts) {
+void refuse_what_nothing_meets(const scenario::Criterion& criterion,
+                               const std::vector<scenario::NamedPart>& parts) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::string name = criterion.metric.substr(criterion.metric.find('.') + 1);
-  for (const io::NamedPart& part : parts) {
-    const MetricNumber* number = find_metric_number(part.part.type, name);
+  for (const scenario::NamedPart& part : parts) {
+    const metrics::MetricNumber* number = metrics::find_metric_number(part.part.type, name);
     if (!number) continue;
     if (number->can_be_in(criterion.min.value_or(-kInfinity), criterion.max.value_or(kInfinity))) {
       return;
@@ -92,10 +92,10 @@ std::string sentence_of(const CriterionResult& criterion) {
 }
 
 std::vector<CriterionResult> judge(
-    const std::vector<io::Criterion>& criteria,
+    const std::vector<scenario::Criterion>& criteria,
     const std::map<std::string, std::map<std::string, double>>& metrics) {
   std::vector<CriterionResult> results;
-  for (const io::Criterion& criterion : criteria) {
+  for (const scenario::Criterion& criterion : criteria) {
     const double value = find_metric(criterion, metrics);
     // A value that was not measured (NaN) meets no limit: both comparisons are false.
     if (criterion.max) {
@@ -110,10 +110,10 @@ std::vector<CriterionResult> judge(
   return results;
 }
 
-void check_criteria(const std::vector<io::Criterion>& criteria,
+void check_criteria(const std::vector<scenario::Criterion>& criteria,
                     const std::map<std::string, std::map<std::string, double>>& metrics,
-                    const std::vector<io::NamedPart>& parts) {
-  for (const io::Criterion& criterion : criteria) {
+                    const std::vector<scenario::NamedPart>& parts) {
+  for (const scenario::Criterion& criterion : criteria) {
     static_cast<void>(find_metric(criterion, metrics));
     refuse_what_nothing_meets(criterion, parts);
   }

@@ -18,7 +18,7 @@ bool is_settled(PhaseState state) {
   return state != PhaseState::kWaiting && state != PhaseState::kRunning;
 }
 
-PhaseReport report_of(const io::PhaseConfig& config) {
+PhaseReport report_of(const scenario::PhaseConfig& config) {
   PhaseReport report;
   report.name = config.name;
   report.vehicles = config.vehicles;
@@ -48,9 +48,9 @@ std::shared_ptr<const RowMap> make_stand_in(const RunContext& run) {
       kType, ParameterSet(run.registry.spec(PartKind::kMap, kType).parameters, kType), context);
 }
 
-bool takes(const io::PhaseConfig& config, ProductKind kind) {
+bool takes(const scenario::PhaseConfig& config, ProductKind kind) {
   return std::any_of(config.takes.begin(), config.takes.end(),
-                     [&](const io::ProductSource& source) { return source.kind == kind; });
+                     [&](const scenario::ProductSource& source) { return source.kind == kind; });
 }
 
 std::string seconds(Duration duration) {
@@ -83,7 +83,7 @@ Mission::Mission(const RunContext& run,
                  const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles,
                  std::filesystem::path products)
     : run_(run), vehicles_(vehicles), products_(std::move(products)) {
-  for (const io::PhaseConfig& config : run_.scenario.phases) {
+  for (const scenario::PhaseConfig& config : run_.scenario.phases) {
     Phase phase;
     phase.config = &config;
     phase.folder = products_ / config.name;
@@ -103,11 +103,11 @@ Mission::Mission(const RunContext& run,
   }
   rehearse();
   for (Phase& phase : phases_) {
-    for (const io::VehicleConfig& vehicle : run_.scenario.vehicles) {
-      for (const io::NamedPart& sensor : vehicle.sensors) {
+    for (const scenario::VehicleConfig& vehicle : run_.scenario.vehicles) {
+      for (const scenario::NamedPart& sensor : vehicle.sensors) {
         const std::string source = vehicle.name + "/" + sensor.name;
         const std::vector<std::string> sources =
-            io::picture_sources(*phase.config, run_.scenario.vehicles, run_.registry);
+            scenario::picture_sources(*phase.config, run_.scenario.vehicles, run_.registry);
         if (std::find(sources.begin(), sources.end(), source) == sources.end()) continue;
         phase.cameras.emplace_back(run_.bus, vehicle.name, sensor);
       }
@@ -129,7 +129,7 @@ void Mission::build_job(Phase& phase) {
   context.plan = [this](const std::string& vehicle, std::shared_ptr<const RowMap> map) {
     return plan_for(vehicle, std::move(map));
   };
-  const io::PartConfig& job = *phase.config->job;
+  const scenario::PartConfig& job = *phase.config->job;
   try {
     phase.job = run_.registry.make_job(job.type, job.parameters, context);
   } catch (const ConfigError& error) {
@@ -236,7 +236,7 @@ void Mission::begin(std::size_t i, Time now) {
 
 std::map<std::string, Product> Mission::inputs_of(std::size_t i) const {
   std::map<std::string, Product> inputs;
-  for (const io::ProductSource& source : phases_[i].config->takes) {
+  for (const scenario::ProductSource& source : phases_[i].config->takes) {
     const std::size_t giver = index_of(source.phase);
     if (reports_[giver].product) inputs[source.key] = *reports_[giver].product;
     for (const PictureCollector& camera : phases_[giver].cameras) {
@@ -377,7 +377,7 @@ void Mission::fail(std::size_t i, Time now, const std::string& reason) {
   const bool ran = reports_[i].state == PhaseState::kRunning;
   if (ran && reports_[i].criteria.empty() && !phases_[i].job) judge_phase(i);
   settle(i, now, PhaseState::kFailed, reason);
-  if (phases_[i].config->on_failure == io::OnFailure::kAbort) abort(i, now);
+  if (phases_[i].config->on_failure == scenario::OnFailure::kAbort) abort(i, now);
 }
 
 void Mission::settle(std::size_t i, Time now, PhaseState state, const std::string& reason) {

@@ -46,7 +46,7 @@ class Mission {
 
  private:
   struct Phase {
-    const io::PhaseConfig* config;
+    const scenario::PhaseConfig* config;
     std::unique_ptr<Job> job;
     std::filesystem::path folder;
     std::vector<VehicleRuntime*> vehicles;

@@ -14,18 +14,18 @@ Eigen::Vector3d told_place(const Odometry& estimate, double later_s, const Eigen
 
 Eigen::Vector3d place_of_sensor(const ParameterSet& parameters) {
   const auto& own = parameters.specs();
-  const std::vector<ParameterSpec> of_mounting = mounting_table().specs();
+  const std::vector<ParameterSpec> of_mounting = sensors::mounting_table().specs();
   const bool has_mounting =
       std::all_of(of_mounting.begin(), of_mounting.end(), [&](const ParameterSpec& wanted) {
         return std::any_of(own.begin(), own.end(),
                            [&](const ParameterSpec& spec) { return spec.name == wanted.name; });
       });
   if (!has_mounting) return Eigen::Vector3d::Zero();
-  return mounting_table().read(parameters, parameters.owner()).X_BS().p;
+  return sensors::mounting_table().read(parameters, parameters.owner()).X_BS().p;
 }
 
 PictureCollector::PictureCollector(SignalBus& bus, const std::string& vehicle,
-                                   const io::NamedPart& camera)
+                                   const scenario::NamedPart& camera)
     : shots_(bus.subscribe<CameraShot>(vehicle + "/" + camera.name, "mission")),
       estimate_(bus.subscribe_optional<Odometry>(vehicle + "/estimate", "mission")),
       p_BS_(place_of_sensor(camera.part.parameters)),

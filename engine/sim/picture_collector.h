@@ -23,7 +23,7 @@ class PictureCollector {
  public:
   /// @param camera  a sensor whose type gives pictures: it writes CameraShot and has the parameters
   ///   of survey_camera_parameters()
-  PictureCollector(SignalBus& bus, const std::string& vehicle, const io::NamedPart& camera);
+  PictureCollector(SignalBus& bus, const std::string& vehicle, const scenario::NamedPart& camera);
 
   /// "plane/camera"
   const std::string& source() const { return pictures_->source; }

@@ -8,9 +8,10 @@
 
 namespace vinerow {
 
-BuiltWorld RunShelf::world(const io::Scenario& scenario, const Registry& registry) {
-  const std::string key = fmt::format("{} ns, {} m/s2\n{}", scenario.physics_step.ns,
-                                      scenario.gravity_mps2, io::resolved_block(scenario, "world"));
+BuiltWorld RunShelf::world(const scenario::Scenario& scenario, const Registry& registry) {
+  const std::string key =
+      fmt::format("{} ns, {} m/s2\n{}", scenario.physics_step.ns, scenario.gravity_mps2,
+                  scenario::resolved_block(scenario, "world"));
   // Held while a world is built: others that want the same one wait for it.
   const std::lock_guard lock(mutex_);
   const auto found =

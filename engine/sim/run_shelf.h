@@ -21,7 +21,7 @@ class RunShelf {
   /// The world of a scenario, built unless it was asked for before with the same parameters. A
   /// world that depends on the seed is built anew for another one. Files are taken to be unchanged.
   /// @throws ConfigError
-  BuiltWorld world(const io::Scenario& scenario, const Registry& registry);
+  BuiltWorld world(const scenario::Scenario& scenario, const Registry& registry);
   /// How many worlds were built so far.
   std::size_t built() const;
 

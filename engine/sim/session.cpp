@@ -19,7 +19,7 @@ struct Session::Impl {
   };
   /// A run and what listens to it.
   struct Run {
-    Run(const io::Scenario& scenario, const Registry& registry, SimulationSetup setup)
+    Run(const scenario::Scenario& scenario, const Registry& registry, SimulationSetup setup)
         : simulation(scenario, registry, std::move(setup)) {
       simulation.add_observer(&events);
     }
@@ -38,7 +38,7 @@ struct Session::Impl {
     for (const auto& [name, slot] : slots) slot->signal = nullptr;
   }
 
-  void begin(const io::Scenario& scenario, std::optional<BuiltWorld> world) {
+  void begin(const scenario::Scenario& scenario, std::optional<BuiltWorld> world) {
     SimulationSetup setup;
     setup.products = options.products;
     setup.world = std::move(world);
@@ -72,7 +72,7 @@ struct Session::Impl {
   }
 };
 
-Session::Session(const io::Scenario& scenario, std::shared_ptr<const Registry> registry,
+Session::Session(const scenario::Scenario& scenario, std::shared_ptr<const Registry> registry,
                  SessionOptions options)
     : impl_(std::make_unique<Impl>()) {
   impl_->registry = std::move(registry);
@@ -100,7 +100,7 @@ Session Session::twin() const {
 }
 
 void Session::reset(std::uint64_t seed) {
-  const io::Scenario next = io::with_seed(scenario(), seed);
+  const scenario::Scenario next = scenario::with_seed(scenario(), seed);
   impl_->begin(next, reseed_world(simulation().built_world(), next, *impl_->registry,
                                   &impl_->shelf->files()));
 }
@@ -209,7 +209,7 @@ std::uint64_t Session::seed() const {
   return scenario().seed;
 }
 
-const io::Scenario& Session::scenario() const {
+const scenario::Scenario& Session::scenario() const {
   return simulation().scenario();
 }
 

@@ -30,7 +30,7 @@
 
 namespace vinerow {
 
-namespace io {
+namespace scenario {
 struct Scenario;
 }
 class RunShelf;
@@ -125,7 +125,7 @@ class Session {
  public:
   /// Builds everything; now() is 0. @param registry  not null
   /// @throws ConfigError
-  Session(const io::Scenario& scenario, std::shared_ptr<const Registry> registry,
+  Session(const scenario::Scenario& scenario, std::shared_ptr<const Registry> registry,
           SessionOptions options = {});
   ~Session();
   Session(Session&&) noexcept;
@@ -200,7 +200,7 @@ class Session {
   std::uint64_t seed() const;
 
   /// Of this run, with its resolved text; not valid after the next reset().
-  const io::Scenario& scenario() const;
+  const scenario::Scenario& scenario() const;
   /// The run itself (engine/sim/simulation.h, private), for observers in the tree; not
   /// valid after the next reset().
   Simulation& simulation();

@@ -48,7 +48,7 @@ std::string doubt_of_density(const WorldModel& world) {
 
 }  // namespace
 
-Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
+Simulation::Simulation(const scenario::Scenario& scenario, const Registry& registry,
                        SimulationSetup setup)
     : scenario_(scenario),
       world_(setup.world ? *std::move(setup.world)
@@ -75,7 +75,7 @@ Simulation::Simulation(const io::Scenario& scenario, const Registry& registry,
                        [this](Event::Level level, const std::string& source,
                               const std::string& text) { emit(level, source, text); }};
   std::vector<StartBox> starts;
-  for (const io::VehicleConfig& vehicle : scenario_.vehicles) {
+  for (const scenario::VehicleConfig& vehicle : scenario_.vehicles) {
     vehicles_.push_back(std::make_unique<VehicleRuntime>(vehicle, run, starts));
     // In a mission a vehicle begins with its phase.
     if (scenario_.phases.empty()) {
@@ -191,7 +191,7 @@ bool Simulation::is_done() const {
   if (mission_) return mission_->over();
   bool any = false, all = true;
   for (const auto& vehicle : vehicles_) {
-    if (vehicle->crash() && vehicle->on_crash() == io::OnCrash::kEnd) return true;
+    if (vehicle->crash() && vehicle->on_crash() == scenario::OnCrash::kEnd) return true;
     if (!vehicle->has_controller()) continue;
     any = true;
     all = all && (vehicle->crash() || vehicle->finished());

@@ -54,12 +54,12 @@ class Simulation {
  public:
   /// Builds everything. @param registry must outlive the simulation
   /// @throws ConfigError
-  Simulation(const io::Scenario& scenario, const Registry& registry, SimulationSetup setup);
-  Simulation(const io::Scenario& scenario, const Registry& registry)
+  Simulation(const scenario::Scenario& scenario, const Registry& registry, SimulationSetup setup);
+  Simulation(const scenario::Scenario& scenario, const Registry& registry)
       : Simulation(scenario, registry, SimulationSetup{}) {}
   ~Simulation();
 
-  const io::Scenario& scenario() const { return scenario_; }
+  const scenario::Scenario& scenario() const { return scenario_; }
   const WorldModel& world() const { return *world_.model; }
   const BuiltWorld& built_world() const { return world_; }
   const SignalBus& bus() const { return bus_; }
@@ -121,7 +121,7 @@ class Simulation {
   void hash_new_signals();
   void step_physics();
 
-  io::Scenario scenario_;
+  scenario::Scenario scenario_;
   BuiltWorld world_;
   std::unique_ptr<physics::PhysicsWorld> physics_;
   SignalBus bus_;
@@ -147,7 +147,7 @@ class Simulation {
 };
 
 /// The world of a scenario. @param shelf  of files; null: none. @throws ConfigError
-std::unique_ptr<WorldModel> build_world(const io::Scenario& scenario, const Registry& registry,
-                                        FileShelf* shelf = nullptr);
+std::unique_ptr<WorldModel> build_world(const scenario::Scenario& scenario,
+                                        const Registry& registry, FileShelf* shelf = nullptr);
 
 }  // namespace vinerow

@@ -23,7 +23,7 @@ struct Heading {
   double yaw_rad;
 };
 
-Heading find_on_alley(const io::SpawnConfig& spawn, const WorldModel& world,
+Heading find_on_alley(const scenario::SpawnConfig& spawn, const WorldModel& world,
                       const std::string& vehicle) {
   const auto& alleys = world.rows->alleys;
   if (alleys.empty()) {
@@ -47,7 +47,7 @@ Heading find_on_alley(const io::SpawnConfig& spawn, const WorldModel& world,
   return {first - spawn.offset_m * along, std::atan2(along.y(), along.x())};
 }
 
-Heading find_point(const io::SpawnConfig& spawn, const WorldModel& world,
+Heading find_point(const scenario::SpawnConfig& spawn, const WorldModel& world,
                    const std::string& vehicle) {
   std::vector<std::string> known;
   for (const SpawnPoint& point : world.spawn_points) {
@@ -106,9 +106,9 @@ std::string tell_more_ground(const ParameterSet& world) {
   return "; keep it on the ground, or give the world more of it";
 }
 
-Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, const SceneQuery& scene,
-                     const std::string& vehicle, double height_above_ground_m,
-                     const std::string& remedy) {
+Pose find_spawn_pose(const scenario::SpawnConfig& spawn, const WorldModel& world,
+                     const SceneQuery& scene, const std::string& vehicle,
+                     double height_above_ground_m, const std::string& remedy) {
   Heading heading{Eigen::Vector2d::Zero(), spawn.yaw_rad};
   if (spawn.alley) {
     heading = find_on_alley(spawn, world, vehicle);
@@ -155,7 +155,7 @@ StartBox find_start_box(const std::string& vehicle, const Pose& X_WB,
   return {vehicle, {X_WB.q, X_WB * box.center()}, 0.5 * box.sizes()};
 }
 
-void refuse_start_in_contact(const io::SpawnConfig& spawn, const StartBox& box,
+void refuse_start_in_contact(const scenario::SpawnConfig& spawn, const StartBox& box,
                              const std::vector<StartBox>& others, const WorldModel& world,
                              const SceneQuery& scene) {
   const auto refuse = [&](const std::string& what, const std::string& remedy) {

@@ -21,9 +21,9 @@ std::string tell_more_ground(const ParameterSet& world);
 /// @throws ConfigError naming what the world has, if the alley or spawn point is unknown; or that
 /// there is no ground
 /// @param remedy  what that ends with
-Pose find_spawn_pose(const io::SpawnConfig& spawn, const WorldModel& world, const SceneQuery& scene,
-                     const std::string& vehicle, double height_above_ground_m,
-                     const std::string& remedy = "");
+Pose find_spawn_pose(const scenario::SpawnConfig& spawn, const WorldModel& world,
+                     const SceneQuery& scene, const std::string& vehicle,
+                     double height_above_ground_m, const std::string& remedy = "");
 
 /// The room that a vehicle takes at the start: its collision box, widened to its outline, and down
 /// to its wheels where it has some.
@@ -38,7 +38,7 @@ StartBox find_start_box(const std::string& vehicle, const Pose& X_WB,
 /// @param others  vehicles that stand there already
 /// @throws ConfigError "scenario.yaml:7: vehicles.rover.spawn: at x = 3.000 m, y = 2.000 m the
 /// vehicle would stand in the canopy 'row_2'; ..."
-void refuse_start_in_contact(const io::SpawnConfig& spawn, const StartBox& box,
+void refuse_start_in_contact(const scenario::SpawnConfig& spawn, const StartBox& box,
                              const std::vector<StartBox>& others, const WorldModel& world,
                              const SceneQuery& scene);
 

@@ -12,8 +12,8 @@ namespace vinerow {
 namespace {
 
 /// Whether one of a vehicle's parts stops where its authority ends.
-bool honours_authority(const io::VehicleConfig& vehicle, const Registry& registry) {
-  const auto reads = [&](PartKind kind, const std::optional<io::PartConfig>& part) {
+bool honours_authority(const scenario::VehicleConfig& vehicle, const Registry& registry) {
+  const auto reads = [&](PartKind kind, const std::optional<scenario::PartConfig>& part) {
     if (!part) return false;
     const std::vector<std::string>& names = registry.spec(kind, part->type).reads;
     return std::any_of(names.begin(), names.end(),
@@ -44,7 +44,7 @@ TrafficControl::TrafficControl(
     const RunContext& run, const std::vector<std::unique_ptr<VehicleRuntime>>& vehicles,
     std::function<void(const std::string&, const std::string&)> on_deadlock)
     : on_deadlock_(std::move(on_deadlock)) {
-  const io::TrafficConfig& config = run.scenario.traffic;
+  const scenario::TrafficConfig& config = run.scenario.traffic;
   std::vector<TrafficVehicle> described;
   for (const std::string& name : config.vehicles) {
     for (std::size_t i = 0; i < vehicles.size(); ++i) {

@@ -79,7 +79,7 @@ void VehicleRuntime::add_diagnostic(const std::string& signal) {
   if (known == diagnostic_signals_.end()) diagnostic_signals_.push_back(signal);
 }
 
-VehicleRuntime::VehicleRuntime(const io::VehicleConfig& config, const RunContext& run,
+VehicleRuntime::VehicleRuntime(const scenario::VehicleConfig& config, const RunContext& run,
                                std::vector<StartBox>& others)
     : config_(config), run_(run) {
   const std::string& name = config_.name;
@@ -205,7 +205,7 @@ double VehicleRuntime::control_rate_Hz() const {
 }
 
 void VehicleRuntime::add_sensors() {
-  for (const io::NamedPart& sensor : config_.sensors) {
+  for (const scenario::NamedPart& sensor : config_.sensors) {
     const std::string part = fmt::format("{}.sensors.{}", config_.name, sensor.name);
     auto sensor_context = context<SensorContext>(part, sensor.part.rate_Hz);
     sensor_context.name = sensor.name;
@@ -256,7 +256,7 @@ EstimatorContext VehicleRuntime::estimator_context(const std::string& part, doub
 }
 
 void VehicleRuntime::add_observers() {
-  for (const io::NamedPart& observer : config_.observers) {
+  for (const scenario::NamedPart& observer : config_.observers) {
     const std::string part = fmt::format("{}.observers.{}", config_.name, observer.name);
     const double rate_Hz = observer.part.rate_Hz > 0.0 ? observer.part.rate_Hz : control_rate_Hz();
     observers_.push_back(with_place(observer.part.where, config_.name, [&] {
@@ -325,7 +325,7 @@ void VehicleRuntime::note_if_it_may_fail(const SteppedPart* part) {
   if (const auto* may_fail = dynamic_cast<const MayFail*>(part)) may_fail_.push_back(may_fail);
 }
 
-ParameterSet VehicleRuntime::parameters_of(const io::NamedPart& metric) const {
+ParameterSet VehicleRuntime::parameters_of(const scenario::NamedPart& metric) const {
   // Nothing is read here: what is not given is filled in before the part reads it by its table.
   ParameterSet given = metric.part.parameters;
   const std::vector<ParameterSpec>& specs =
@@ -334,7 +334,7 @@ ParameterSet VehicleRuntime::parameters_of(const io::NamedPart& metric) const {
       specs.begin(), specs.end(), [](const ParameterSpec& spec) { return spec.name == kCamera; });
   if (!judges_pictures || given.has(kCamera)) return given;
   std::vector<std::string> cameras;
-  for (const io::NamedPart& sensor : config_.sensors) {
+  for (const scenario::NamedPart& sensor : config_.sensors) {
     const auto gives = run_.registry.spec(PartKind::kSensor, sensor.part.type).gives;
     if (gives == ProductKind::kPictures) cameras.push_back(sensor.name);
   }
@@ -349,7 +349,7 @@ void VehicleRuntime::add_actuators(Duration period) {
 }
 
 void VehicleRuntime::add_payloads() {
-  for (const io::NamedPart& payload : config_.payloads) {
+  for (const scenario::NamedPart& payload : config_.payloads) {
     const std::string part = fmt::format("{}.payloads.{}", config_.name, payload.name);
     const double rate_Hz = payload.part.rate_Hz > 0.0 ? payload.part.rate_Hz : control_rate_Hz();
     auto payload_context = context<PayloadContext>(part, rate_Hz);
@@ -418,7 +418,7 @@ void VehicleRuntime::actuate(Time now) {
 }
 
 void VehicleRuntime::add_metrics() {
-  for (const io::NamedPart& metric : run_.scenario.metrics) {
+  for (const scenario::NamedPart& metric : run_.scenario.metrics) {
     const std::string part = fmt::format("{}.metrics.{}", config_.name, metric.name);
     // Metrics look as often as the controller acts: the paper's samples are the poses of its
     // cycles.
@@ -428,7 +428,7 @@ void VehicleRuntime::add_metrics() {
     metric_context.scene = &run_.physics.scene();
     metric_context.world = &run_.world;
     metric_context.vehicle_truth = vehicle_.get();
-    for (const io::NamedPart& observer : config_.observers) {
+    for (const scenario::NamedPart& observer : config_.observers) {
       metric_context.observers.push_back(observer.name);
     }
     metrics_.push_back({metric.name, run_.registry.make_metric(

@@ -28,7 +28,7 @@ class MayFail;
 
 /// What the vehicle's assembly needs from the run.
 struct RunContext {
-  const io::Scenario& scenario;  ///< with phases: a plan that cannot be made fails its phase
+  const scenario::Scenario& scenario;  ///< with phases: a plan that cannot be made fails its phase
   const Registry& registry;
   const WorldModel& world;
   physics::PhysicsWorld& physics;
@@ -49,7 +49,7 @@ class VehicleRuntime {
   /// Builds the vehicle and stands it in the physics world; nothing else runs yet.
   /// @param others  vehicles that stand there already; it is added to them
   /// @throws ConfigError
-  VehicleRuntime(const io::VehicleConfig& config, const RunContext& run,
+  VehicleRuntime(const scenario::VehicleConfig& config, const RunContext& run,
                  std::vector<StartBox>& others);
 
   /// Builds and connects its parts without letting them run, so that faults are found before the
@@ -84,7 +84,7 @@ class VehicleRuntime {
   bool has_controller() const { return controller_ != nullptr; }
   /// How it was wrecked, or why its controller gave up, if so.
   const std::optional<Crash>& crash() const { return crash_; }
-  io::OnCrash on_crash() const { return config_.on_crash; }
+  scenario::OnCrash on_crash() const { return config_.on_crash; }
 
   /// Looks at a value that comes from outside, if it is for its actuators. @throws ConfigError
   /// naming the actuators there are
@@ -146,7 +146,7 @@ class VehicleRuntime {
   void add_metrics();
   void note_if_it_may_fail(const SteppedPart* part);
   /// A metric's; one that judges pictures is told the vehicle's camera where it has just one.
-  ParameterSet parameters_of(const io::NamedPart& metric) const;
+  ParameterSet parameters_of(const scenario::NamedPart& metric) const;
   void publish_diagnostics(Time now);
   void try_to_plan(Time now);
   void actuate(Time now);
@@ -162,7 +162,7 @@ class VehicleRuntime {
   std::function<void(Time)> guarded(const std::string& part, const std::string& type,
                                     std::function<void(Time)> step);
 
-  io::VehicleConfig config_;
+  scenario::VehicleConfig config_;
   RunContext run_;
   std::unique_ptr<Vehicle> vehicle_;
   std::vector<std::unique_ptr<Sensor>> sensors_;

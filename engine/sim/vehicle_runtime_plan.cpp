@@ -117,7 +117,7 @@ void VehicleRuntime::try_to_plan(Time now) {
 void VehicleRuntime::refuse_a_missing_plan() const {
   const SignalBase* plan = run_.bus.find(config_.name + "/plan");
   if (planner_ || handover_.plan || plan == nullptr || plan->writer() == kOutside) return;
-  const auto refuse = [&](const io::PartConfig& part, const std::string& name) {
+  const auto refuse = [&](const scenario::PartConfig& part, const std::string& name) {
     if (plan->first_reader() != name) return;
     throw ConfigError(fmt::format("{}: {}: '{}' follows a plan, but the vehicle has no planner",
                                   part.where.text(), name, part.type));

@@ -23,7 +23,7 @@ Eigen::Vector2d middle_of_rows(const RowMap& rows) {
 
 }  // namespace
 
-WeatherWatch::WeatherWatch(const io::WeatherWindow& window, const WorldModel& world)
+WeatherWatch::WeatherWatch(const scenario::WeatherWindow& window, const WorldModel& world)
     : window_(window), wind_(world.wind), p_W_(middle_of_rows(world.rows)) {}
 
 WeatherWatch::Verdict WeatherWatch::look(Time now) {

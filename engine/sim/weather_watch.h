@@ -13,7 +13,7 @@ namespace vinerow {
 class WeatherWatch {
  public:
   /// @param world  outlives the watch
-  WeatherWatch(const io::WeatherWindow& window, const WorldModel& world);
+  WeatherWatch(const scenario::WeatherWindow& window, const WorldModel& world);
 
   enum class Verdict { kWait, kGo, kGiveUp };
   /// Called at every instant while its phase waits. The wind is read once a second: what
@@ -23,7 +23,7 @@ class WeatherWatch {
   double mean_mps() const;
 
  private:
-  io::WeatherWindow window_;
+  scenario::WeatherWindow window_;
   const Wind& wind_;
   Eigen::Vector2d p_W_;  ///< middle of the rows
   bool began_ = false;

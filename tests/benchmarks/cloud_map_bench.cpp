@@ -18,10 +18,10 @@ void bm_cloud_map(benchmark::State& state) {
   parcel.slope_x = 0.1;
   parcel.noise_m = 0.015;
   parcel.density_per_m2 = static_cast<double>(state.range(0));
-  ParcelCloud cloud = test::make_synthetic_cloud(parcel).cloud;
+  mapping::ParcelCloud cloud = test::make_synthetic_cloud(parcel).cloud;
   for (auto _ : state) {
     cloud.classes.clear();
-    const CloudMap made = make_cloud_map(cloud, {});
+    const mapping::CloudMap made = mapping::make_cloud_map(cloud, {});
     state.counters["rows"] = static_cast<double>(made.report.rows.size());
     state.counters["containment"] = made.report.containment;
     state.counters["MB"] = 1e-6 * static_cast<double>(made.report.mesh_bytes);

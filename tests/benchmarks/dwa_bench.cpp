@@ -58,10 +58,10 @@ void dwa_tick(benchmark::State& state, bool pure, bool polygon, bool seen) {
     context.sensors.push_back(
         {y > 0 ? "left" : "right", "ultrasound", {Eigen::Quaterniond::Identity(), {0.95, y, 0.0}}});
   }
-  ParameterSet parameters(dwa_spec().parameters, "dwa");
+  ParameterSet parameters(controllers::dwa_spec().parameters, "dwa");
   parameters.set("mode", std::string(pure ? "pure" : "assist"));
   parameters.set("footprint", std::string(polygon ? "polygon" : "circles"));
-  const auto guidance = make_dwa(parameters, context);
+  const auto guidance = controllers::make_dwa(parameters, context);
   SignalBus bus;
   Ports world(bus, "rover", "bench");
   auto estimate = world.write<Odometry>("estimate");

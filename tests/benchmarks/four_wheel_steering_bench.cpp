@@ -32,11 +32,11 @@ VehicleDescription steered_rover() {
 }
 
 PlannedPath omega() {
-  const Pose2 out{{15.0, 0.0}, 0.0}, back{{15.0, 2.5}, kPi};
-  std::vector<PathPiece> pieces = {make_straight({0, 0}, out.p, PathKind::kLeg, 0, 0.0)};
-  append_dubins(out, calc_dubins(out, back, 1.77), PathKind::kTurn, 0.0, pieces);
-  pieces.push_back(make_straight(back.p, {0.0, 2.5}, PathKind::kLeg, 1, 0.0));
-  return make_planned_path(pieces, 0.2);
+  const controllers::Pose2 out{{15.0, 0.0}, 0.0}, back{{15.0, 2.5}, kPi};
+  std::vector<controllers::PathPiece> pieces = {controllers::make_straight({0, 0}, out.p, PathKind::kLeg, 0, 0.0)};
+  controllers::append_dubins(out, controllers::calc_dubins(out, back, 1.77), PathKind::kTurn, 0.0, pieces);
+  pieces.push_back(controllers::make_straight(back.p, {0.0, 2.5}, PathKind::kLeg, 1, 0.0));
+  return controllers::make_planned_path(pieces, 0.2);
 }
 
 /// Two rows and the turn between them at 0.8 m/s, a few millimetres beside the path.
@@ -47,20 +47,20 @@ void step_of_four_wheel_steering(benchmark::State& state) {
   context.part = "rover.controller";
   context.period = Duration{20'000'000};
   context.vehicle_description = &description;
-  ParameterSet parameters(four_wheel_steering_spec().parameters, "four_wheel_steering");
+  ParameterSet parameters(controllers::four_wheel_steering_spec().parameters, "four_wheel_steering");
   if (state.range(0) > 0) parameters.set("wheel_acceleration_mps2", 2.0);
-  const auto controller = make_four_wheel_steering(parameters, context);
+  const auto controller = controllers::make_four_wheel_steering(parameters, context);
   SignalBus bus;
   Ports world(bus, "rover", "bench"), ports(bus, "rover", "rover.controller");
   auto estimate = world.write<Odometry>("estimate");
   auto plan = world.write<PlannedPath>("plan");
   controller->connect(ports);
   const PlannedPath planned = omega();
-  const Path path(planned);
+  const controllers::Path path(planned);
   std::vector<Odometry> poses;
   for (double s = 0.0; s < path.length_m() - 0.1; s += 0.016) {
-    const Pose2 pose = path.pose_at(s);
-    const Eigen::Vector2d p = pose.p + 0.003 * std::sin(2.0 * s) * left_of(direction(pose.yaw_rad));
+    const controllers::Pose2 pose = path.pose_at(s);
+    const Eigen::Vector2d p = pose.p + 0.003 * std::sin(2.0 * s) * left_of(controllers::direction(pose.yaw_rad));
     Odometry odometry;
     odometry.X_WB = {quaternion_from_rpy({0.05, 0.02, pose.yaw_rad}), {p.x(), p.y(), 0.0}};
     odometry.v_WB_B = {0.8, 0.01 * std::sin(s), 0.0};
@@ -90,11 +90,11 @@ BENCHMARK(step_of_four_wheel_steering)
     ->Unit(benchmark::kMicrosecond);
 
 void wheel_speed_qp(benchmark::State& state) {
-  WheelSpeedQp qp({});
+  controllers::WheelSpeedQp qp({});
   int i = 0;
   for (auto _ : state) {
     const double angle = 0.4 * std::sin(0.01 * i++);
-    benchmark::DoNotOptimize(qp.solve(calc_rolling({}, {angle, -0.9 * angle}), 0.8));
+    benchmark::DoNotOptimize(qp.solve(controllers::calc_rolling({}, {angle, -0.9 * angle}), 0.8));
   }
 }
 BENCHMARK(wheel_speed_qp)->Unit(benchmark::kMicrosecond);

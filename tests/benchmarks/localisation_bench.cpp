@@ -70,17 +70,18 @@ void step(benchmark::State& state, double cone_rad, const test::LabFilterMaker& 
   report_steps(state, flight, steps.medians_us());
 }
 
-test::LabFilterMaker fusing(DistanceFusion fusion) {
-  DistanceFilterParams params;
+test::LabFilterMaker fusing(controllers::DistanceFusion fusion) {
+  controllers::DistanceFilterParams params;
   params.fusion = fusion;
   return test::distance_filter(params);
 }
 
 /// As docs/papers/localisation.md names the paper's: inertial unit as a fix, segments of a slice.
 test::LabFilterMaker as_paper_c() {
-  DistanceFilterParams params = test::reading_params(InertialReading::kPositionFix);
-  params.fusion = DistanceFusion::kJoint;
-  params.association = EchoAssociation::kClosestSegment;
+  controllers::DistanceFilterParams params =
+      test::reading_params(controllers::InertialReading::kPositionFix);
+  params.fusion = controllers::DistanceFusion::kJoint;
+  params.association = controllers::EchoAssociation::kClosestSegment;
   return test::distance_filter(params);
 }
 
@@ -92,10 +93,10 @@ test::LabFilterMaker as_paper_c() {
       ->Iterations(1)                            \
       ->Unit(benchmark::kMillisecond)
 
-VINEROW_STEP(range_ekf, kCone_rad, fusing(DistanceFusion::kRangeEkf));
-VINEROW_STEP(range_ekf_single_rays, 0.0, fusing(DistanceFusion::kRangeEkf));
-VINEROW_STEP(joint, kCone_rad, fusing(DistanceFusion::kJoint));
-VINEROW_STEP(increment, kCone_rad, fusing(DistanceFusion::kIncrement));
+VINEROW_STEP(range_ekf, kCone_rad, fusing(controllers::DistanceFusion::kRangeEkf));
+VINEROW_STEP(range_ekf_single_rays, 0.0, fusing(controllers::DistanceFusion::kRangeEkf));
+VINEROW_STEP(joint, kCone_rad, fusing(controllers::DistanceFusion::kJoint));
+VINEROW_STEP(increment, kCone_rad, fusing(controllers::DistanceFusion::kIncrement));
 VINEROW_STEP(as_paper_c, 0.0, as_paper_c());
 VINEROW_STEP(map_localisation, kCone_rad, test::map_localisation());
 
@@ -138,7 +139,7 @@ BENCHMARK(step_of_a_bank)->Iterations(1)->Unit(benchmark::kMillisecond);
 void ground_between_rows(benchmark::State& state) {
   const RecordedFlight flight = record_flight(sixteen_rows(0.0), 1);
   const auto& p_W = flight.ticks;
-  const RowGround ground(flight.map);
+  const controllers::RowGround ground(flight.map);
   std::size_t i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(ground.at(p_W[i++ % p_W.size()].p_inertial_W));
@@ -154,8 +155,8 @@ void step_of_error_state_kalman(benchmark::State& state) {
     for (int replay = 0; replay < kReplays; ++replay) {
       predictions.begin_replay();
       fixes.begin_replay();
-      ErrorStateKalman filter({});
-      filter.start(Time{}, course.at(0.0).state, 0.01 * ErrorCovariance::Identity());
+      controllers::ErrorStateKalman filter({});
+      filter.start(Time{}, course.at(0.0).state, 0.01 * controllers::ErrorCovariance::Identity());
       for (int i = 0; i <= 6000; ++i) {
         const Time now = test::tick_at(i, 10'000'000);
         const test::CoursePoint point = course.at(now.s());
@@ -163,12 +164,12 @@ void step_of_error_state_kalman(benchmark::State& state) {
         if (i % 20 != 0) continue;
         fixes.add(time_us([&] {
           const Vector3d arm_B(0.3, -0.2, 0.4), arm_W = point.state.q_WB * arm_B;
-          const VectorMeasurement place =
-              place_measurement(filter.past(now), arm_B, point.state.p_WI + arm_W);
+          const controllers::VectorMeasurement place =
+              controllers::place_measurement(filter.past(now), arm_B, point.state.p_WI + arm_W);
           filter.correct_vector(place.innovation, place.H, Vector3d::Constant(0.09), 10.0);
-          const VectorMeasurement velocity =
-              velocity_measurement(filter.past(now), arm_B,
-                                   point.state.v_WI + point.state.q_WB * point.w_B.cross(arm_B));
+          const controllers::VectorMeasurement velocity = controllers::velocity_measurement(
+              filter.past(now), arm_B,
+              point.state.v_WI + point.state.q_WB * point.w_B.cross(arm_B));
           filter.correct_vector(velocity.innovation, velocity.H, Vector3d::Constant(0.01), 10.0);
         }));
       }
@@ -185,9 +186,9 @@ void index_of_row_meshes(benchmark::State& state) {
   block.rows = static_cast<int>(state.range(0));
   block.length_m = static_cast<double>(state.range(1));
   const RowMap map = test::make_row_mesh_map(block, RandomStream(14, "", "block"));
-  for (auto _ : state) benchmark::DoNotOptimize(RowMeshIndex(map));
+  for (auto _ : state) benchmark::DoNotOptimize(controllers::RowMeshIndex(map));
   const std::size_t before = test::heap_bytes();
-  const RowMeshIndex index(map);
+  const controllers::RowMeshIndex index(map);
   state.counters["index_MB"] = 1e-6 * static_cast<double>(test::heap_bytes() - before);
   state.counters["facets"] = static_cast<double>(test::triangle_count(map));
   double bytes = 0.0;

@@ -26,7 +26,7 @@ class Listener final : public test::LabFilter {
     flight_.ticks.back().fix_W = p_W;
   }
   void height(Time, double z_m, double) override { flight_.ticks.back().height_m = z_m; }
-  void ranges(Time, std::span<const RangeReading> readings) override {
+  void ranges(Time, std::span<const controllers::RangeReading> readings) override {
     flight_.ticks.back().ranges.assign(readings.begin(), readings.end());
   }
   Vector3d p_W() const override { return flight_.start_W; }

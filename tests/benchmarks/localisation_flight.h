@@ -17,7 +17,7 @@ struct FlightTick {
   Eigen::Quaterniond q_WB;
   std::optional<Eigen::Vector3d> fix_W;
   std::optional<double> height_m;
-  std::vector<RangeReading> ranges;
+  std::vector<controllers::RangeReading> ranges;
 
   bool predicts_only() const { return !fix_W && !height_m && ranges.empty(); }
 };
@@ -28,7 +28,7 @@ struct RecordedFlight {
   test::LabSetup setup;
   std::unique_ptr<test::LocalisationWorld> world;
   RowMap map;
-  std::vector<RangeSensorModel> sensors;
+  std::vector<controllers::RangeSensorModel> sensors;
   Eigen::Vector3d start_W = Eigen::Vector3d::Zero();
   Eigen::Matrix3d start_covariance_m2 = Eigen::Matrix3d::Identity();
   std::vector<FlightTick> ticks;

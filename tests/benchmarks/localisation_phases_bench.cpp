@@ -32,10 +32,11 @@ struct Phases {
 };
 
 /// What the four sensors should read at a pose. @returns as many as meet the map
-std::vector<RangePrediction> predict_all(const RecordedFlight& flight, const Pose& X_WB) {
-  std::vector<RangePrediction> echoes;
-  for (const RangeSensorModel& sensor : flight.sensors) {
-    const auto echo = predict_range(flight.world->map_index(), X_WB, sensor, 4.0);
+std::vector<controllers::RangePrediction> predict_all(const RecordedFlight& flight,
+                                                      const Pose& X_WB) {
+  std::vector<controllers::RangePrediction> echoes;
+  for (const controllers::RangeSensorModel& sensor : flight.sensors) {
+    const auto echo = controllers::predict_range(flight.world->map_index(), X_WB, sensor, 4.0);
     if (echo) echoes.push_back(*echo);
   }
   return echoes;
@@ -43,15 +44,17 @@ std::vector<RangePrediction> predict_all(const RecordedFlight& flight, const Pos
 
 double time_predictions_us(const RecordedFlight& flight, const Pose& X_WB) {
   return time_us([&] {
-    for (const RangeSensorModel& sensor : flight.sensors) {
-      benchmark::DoNotOptimize(predict_range(flight.world->map_index(), X_WB, sensor, 4.0));
+    for (const controllers::RangeSensorModel& sensor : flight.sensors) {
+      benchmark::DoNotOptimize(
+          controllers::predict_range(flight.world->map_index(), X_WB, sensor, 4.0));
     }
   });
 }
 
 class DistanceFilterPhases {
  public:
-  DistanceFilterPhases(const RecordedFlight& flight, const DistanceFilterParams& params)
+  DistanceFilterPhases(const RecordedFlight& flight,
+                       const controllers::DistanceFilterParams& params)
       : flight_(flight), params_(params) {
     slice_.reserve(8192);
   }
@@ -67,14 +70,16 @@ class DistanceFilterPhases {
   }
 
  private:
-  bool cuts_slices() const { return params_.association == EchoAssociation::kClosestSegment; }
+  bool cuts_slices() const {
+    return params_.association == controllers::EchoAssociation::kClosestSegment;
+  }
 
   /// @param in_pieces  false: nothing is called beside the law, whose steps are timed
   void fly(bool in_pieces) {
     for (const auto& [name, steps] : phases_.all()) steps->begin_replay();
     const test::LabSetup& setup = flight_.setup;
-    DistanceFilterLaw law(params_, flight_.map.accuracy, &flight_.world->map_index(),
-                          flight_.sensors);
+    controllers::DistanceFilterLaw law(params_, flight_.map.accuracy, &flight_.world->map_index(),
+                                       flight_.sensors);
     law.start(flight_.ticks.front().now, flight_.start_W, flight_.start_covariance_m2);
     for (const FlightTick& tick : flight_.ticks) {
       const double p1_us =
@@ -95,7 +100,7 @@ class DistanceFilterPhases {
       }
       const Pose X_WB{law.q_WB(), law.kalman().p_W()};
       const double p2_us = cuts_slices() ? time_cuts_us(X_WB) : time_predictions_us(flight_, X_WB);
-      const std::vector<RangePrediction> echoes = predict_all(flight_, X_WB);
+      const std::vector<controllers::RangePrediction> echoes = predict_all(flight_, X_WB);
       const double p4_us = time_sets_us(law, echoes);
       const double update_us = time_updates_us(law, echoes);
       phases_.p1.add(p1_us);
@@ -123,20 +128,24 @@ class DistanceFilterPhases {
   }
 
   /// Slabs that cut the ellipse, where echoes are taken so, and the ellipsoid beside the filter.
-  double time_sets_us(const DistanceFilterLaw& law, const std::vector<RangePrediction>& echoes) {
+  double time_sets_us(const controllers::DistanceFilterLaw& law,
+                      const std::vector<controllers::RangePrediction>& echoes) {
     const double k = params_.bound_sigma;
-    const EchoBounds bounds{0.003, k * flight_.map.accuracy.surface_std_m, k * law.yaw_std_rad()};
-    const PositionKalman& kalman = law.kalman();
+    const controllers::EchoBounds bounds{0.003, k * flight_.map.accuracy.surface_std_m,
+                                         k * law.yaw_std_rad()};
+    const controllers::PositionKalman& kalman = law.kalman();
     Vector2d centre = kalman.p_W().head<2>();
     Matrix2d shape = k * k * kalman.position_covariance().topLeftCorner<2, 2>();
     const double height_bound_m = k * std::sqrt(kalman.position_covariance()(2, 2));
-    IntegritySet set = law.set();
+    controllers::IntegritySet set = law.set();
     return time_us([&] {
-      for (const RangePrediction& echo : echoes) {
-        const EchoSlab slab = echo_slab(echo, kalman.p_W(), echo.range_m, bounds);
-        if (params_.fusion != DistanceFusion::kRangeEkf) {
-          const EchoSlab2 flat = horizontal_slab(slab, kalman.p_W().z(), height_bound_m);
-          cut_ellipsoid<2>(centre, shape, flat.a, flat.lower_m, flat.upper_m);
+      for (const controllers::RangePrediction& echo : echoes) {
+        const controllers::EchoSlab slab =
+            controllers::echo_slab(echo, kalman.p_W(), echo.range_m, bounds);
+        if (params_.fusion != controllers::DistanceFusion::kRangeEkf) {
+          const controllers::EchoSlab2 flat =
+              controllers::horizontal_slab(slab, kalman.p_W().z(), height_bound_m);
+          controllers::cut_ellipsoid<2>(centre, shape, flat.a, flat.lower_m, flat.upper_m);
         }
         set.cut(slab);
       }
@@ -146,21 +155,22 @@ class DistanceFilterPhases {
     });
   }
 
-  double time_updates_us(const DistanceFilterLaw& law, const std::vector<RangePrediction>& echoes) {
-    PositionKalman kalman = law.kalman();
+  double time_updates_us(const controllers::DistanceFilterLaw& law,
+                         const std::vector<controllers::RangePrediction>& echoes) {
+    controllers::PositionKalman kalman = law.kalman();
     const Vector3d p_W = kalman.p_W();
     const Vector2d near = p_W.head<2>() + Vector2d(0.01, 0.01);
     const Matrix2d P = kalman.position_covariance().topLeftCorner<2, 2>();
     return time_us([&] {
-      if (params_.fusion != DistanceFusion::kRangeEkf) {
+      if (params_.fusion != controllers::DistanceFusion::kRangeEkf) {
         kalman.correct_horizontal(near, P);
       } else {
-        for (const RangePrediction& echo : echoes) {
-          PositionKalman::Scalar datum;
-          datum.gradient = PositionKalman::gradient_of(echo.gradient_p(), 0.0);
+        for (const controllers::RangePrediction& echo : echoes) {
+          controllers::PositionKalman::Scalar datum;
+          datum.gradient = controllers::PositionKalman::gradient_of(echo.gradient_p(), 0.0);
           datum.innovation = 0.01;
-          datum.variance = range_variance(echo, p_W, flight_.map.accuracy.surface_std_m, 10.0,
-                                          0.003, law.yaw_std_rad());
+          datum.variance = controllers::range_variance(
+              echo, p_W, flight_.map.accuracy.surface_std_m, 10.0, 0.003, law.yaw_std_rad());
           kalman.correct(datum);
         }
       }
@@ -169,8 +179,8 @@ class DistanceFilterPhases {
   }
 
   const RecordedFlight& flight_;
-  DistanceFilterParams params_;
-  std::vector<RowMeshIndex::Segment> slice_;
+  controllers::DistanceFilterParams params_;
+  std::vector<controllers::RowMeshIndex::Segment> slice_;
   Phases phases_;
 };
 
@@ -183,9 +193,10 @@ BENCHMARK(phases_of_range_ekf)->Iterations(1)->Unit(benchmark::kMillisecond);
 /// The inertial unit as a fix, single rays, slices, the ellipse that four echoes cut.
 void phases_as_paper_c(benchmark::State& state) {
   const RecordedFlight flight = record_flight(sixteen_rows(0.0), 1);
-  DistanceFilterParams params = test::reading_params(InertialReading::kPositionFix);
-  params.fusion = DistanceFusion::kJoint;
-  params.association = EchoAssociation::kClosestSegment;
+  controllers::DistanceFilterParams params =
+      test::reading_params(controllers::InertialReading::kPositionFix);
+  params.fusion = controllers::DistanceFusion::kJoint;
+  params.association = controllers::EchoAssociation::kClosestSegment;
   DistanceFilterPhases(flight, params).run(state);
 }
 BENCHMARK(phases_as_paper_c)->Iterations(1)->Unit(benchmark::kMillisecond);
@@ -196,13 +207,13 @@ void phases_of_map_localisation(benchmark::State& state) {
   Phases phases;
   const auto fly = [&](bool in_pieces) {
     for (const auto& [name, steps] : phases.all()) steps->begin_replay();
-    MapLocalisationLaw law({}, flight.map, flight.world->map_index(), flight.sensors);
+    controllers::MapLocalisationLaw law({}, flight.map, flight.world->map_index(), flight.sensors);
     law.start(flight.ticks.front().now, flight.start_W, flight.start_covariance_m2);
     for (const FlightTick& tick : flight.ticks) {
       const double p1_us = time_us([&] { law.predict(tick.now, tick.v_W, tick.q_WB); });
       if (tick.fix_W) law.correct_fix(tick.now, *tick.fix_W, flight.setup.fix_std_m, {0, 0, 0});
       const bool counts = !tick.predicts_only() && !tick.fix_W;
-      const LocalisationState& mean = law.state();
+      const controllers::LocalisationState& mean = law.state();
       const Eigen::AngleAxisd turn(-mean.heading_error_rad(), Vector3d::UnitZ());
       const Pose X_MB{turn * tick.q_WB, mean.p_W() - mean.map_shift_W()};
       if (counts && in_pieces) phases.p2.add(time_predictions_us(flight, X_MB));
@@ -212,7 +223,7 @@ void phases_of_map_localisation(benchmark::State& state) {
         if (tick.height_m) {
           law.correct_plane(tick.now, Vector3d::UnitZ(), *tick.height_m, flight.setup.height_std_m);
         }
-        for (const RangeReading& reading : tick.ranges) {
+        for (const controllers::RangeReading& reading : tick.ranges) {
           if (!std::isfinite(reading.range_m)) continue;
           law.correct_range(tick.now, reading.sensor, reading.range_m, 0.05);
         }
@@ -239,7 +250,7 @@ BENCHMARK(phases_of_map_localisation)->Iterations(1)->Unit(benchmark::kMilliseco
 /// One slice of the map within 4 m, for display, at places of the flight.
 void slice_of_the_map(benchmark::State& state) {
   const RecordedFlight flight = record_flight(sixteen_rows(0.0), 1);
-  std::vector<RowMeshIndex::Segment> slice;
+  std::vector<controllers::RowMeshIndex::Segment> slice;
   slice.reserve(8192);
   double segments = 0.0;
   std::size_t i = 0;

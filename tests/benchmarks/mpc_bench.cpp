@@ -27,8 +27,8 @@ using Eigen::VectorXd;
 constexpr double kSoftWeight = 1e4;
 
 /// |F x| <= limit at every step, soft.
-MpcStateRows symmetric_rows(const MatrixXd& F, const VectorXd& limit) {
-  MpcStateRows rows;
+controllers::MpcStateRows symmetric_rows(const MatrixXd& F, const VectorXd& limit) {
+  controllers::MpcStateRows rows;
   rows.F = F;
   rows.upper = limit;
   rows.lower = -limit;
@@ -39,7 +39,7 @@ MpcStateRows symmetric_rows(const MatrixXd& F, const VectorXd& limit) {
 /// Quadrotor linearised at hover: p, v, roll-pitch-yaw, rates; inputs are the thrusts of four
 /// rotors less their share of the weight. 20 Hz, N = 20, box bounds of inputs and all states. Mass
 /// and inertia of a 1 kg airframe, as in qp_bench.cpp.
-LinearMpcProblem quadrotor() {
+controllers::LinearMpcProblem quadrotor() {
   const double g = 9.81, mass = 1.0, arm = 0.2, Ix = 0.01, Iz = 0.02, moment = 0.02;
   MatrixXd A = MatrixXd::Zero(12, 12), B = MatrixXd::Zero(12, 4);
   A.block(0, 3, 3, 3).setIdentity();
@@ -51,8 +51,8 @@ LinearMpcProblem quadrotor() {
   B.row(9) << 0.0, arm / Ix, 0.0, -arm / Ix;
   B.row(10) << -arm / Ix, 0.0, arm / Ix, 0.0;
   B.row(11) << moment / Iz, -moment / Iz, moment / Iz, -moment / Iz;
-  const SampledModel model = discretise(A, B, 0.05);
-  LinearMpcProblem problem;
+  const controllers::SampledModel model = controllers::discretise(A, B, 0.05);
+  controllers::LinearMpcProblem problem;
   problem.A = model.A;
   problem.B = model.B;
   VectorXd weights(12), limits(12);
@@ -69,9 +69,9 @@ LinearMpcProblem quadrotor() {
 
 /// Four carts joined by springs (position, speed), three forces between neighbours; 16 limits per
 /// step: all states, and the differences of positions and speeds around the ring. N = 15.
-LinearMpcProblem coupled_carts() {
+controllers::LinearMpcProblem coupled_carts() {
   const double dt = 0.1;
-  LinearMpcProblem problem;
+  controllers::LinearMpcProblem problem;
   problem.A.setIdentity(8, 8);
   problem.B.setZero(8, 3);
   for (int i = 0; i < 4; ++i) {
@@ -126,9 +126,10 @@ struct Solved {
 /// A closed loop whose reference jumps every 2 s (the jump is previewed as it comes into the
 /// horizon), with a push of standard deviation `push` per step, relative to the limits, and a
 /// constant disturbance that changes with the reference.
-void closed_loop(benchmark::State& state, LinearMpcProblem problem, double jump, double push) {
-  problem.P = solve_dare(problem.A, problem.B, problem.Q, problem.R).value();
-  LinearMpc warm(problem, "bench");
+void closed_loop(benchmark::State& state, controllers::LinearMpcProblem problem, double jump,
+                 double push) {
+  problem.P = controllers::solve_dare(problem.A, problem.B, problem.Q, problem.R).value();
+  controllers::LinearMpc warm(problem, "bench");
   const Eigen::Index n = problem.A.rows(), m = problem.B.cols(), N = problem.horizon;
   const VectorXd& limits = problem.state_rows[0].upper;
   RandomStream random(1, "", "mpc_bench");
@@ -147,10 +148,11 @@ void closed_loop(benchmark::State& state, LinearMpcProblem problem, double jump,
     reference.col(N) = wanted;
     for (Eigen::Index i = 0; i < n; ++i) x[i] += push * limits[i] * random.normal();
     const double begin_us = thread_time_us();
-    const QpStatus status = warm.solve(x, reference, input_reference, disturbance, before);
+    const controllers::QpStatus status =
+        warm.solve(x, reference, input_reference, disturbance, before);
     times_us.push_back(thread_time_us() - begin_us);
     state.SetIterationTime(times_us.back() * 1e-6);
-    unsolved += status != QpStatus::kSolved;
+    unsolved += status != controllers::QpStatus::kSolved;
     changes += warm.iterations();
     if (step % 5 == 0) samples.push_back({x, disturbance, before, reference, warm.inputs_ahead()});
     before = warm.u();
@@ -158,9 +160,9 @@ void closed_loop(benchmark::State& state, LinearMpcProblem problem, double jump,
     ++step;
   }
   // Afterwards, so that it does not take the caches from what is measured.
-  QpSettings precise;
+  controllers::QpSettings precise;
   precise.tolerance = 1e-12;
-  LinearMpc cold(problem, "bench", precise);
+  controllers::LinearMpc cold(problem, "bench", precise);
   double error = 0.0, limited = 0.0;
   for (const Solved& sample : samples) {
     cold.cold_start();

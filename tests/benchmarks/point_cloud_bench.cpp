@@ -116,8 +116,8 @@ void read_points(benchmark::State& state, const std::string& kind) {
 void read_parcel(benchmark::State& state, const std::string& kind) {
   const fs::path file = files().get(kind, state.range(0));
   for (auto _ : state) {
-    worlds::CloudReadReport report;
-    benchmark::DoNotOptimize(worlds::read_parcel_cloud(file, {}, report));
+    mapping::CloudReadReport report;
+    benchmark::DoNotOptimize(mapping::read_parcel_cloud(file, {}, report));
   }
   tell(state, file);
 }

@@ -156,8 +156,8 @@ double percentile(std::vector<double> values, double share) {
 void closed_loop(benchmark::State& state, const Plant& plant, double jump, double noise) {
   const Condensed qp = condense(plant);
   const auto n = static_cast<int>(qp.H.rows()), m = static_cast<int>(qp.rows.rows());
-  QpSolver warm(n, m), cold(n, m);
-  for (QpSolver* solver : {&warm, &cold}) {
+  controllers::QpSolver warm(n, m), cold(n, m);
+  for (controllers::QpSolver* solver : {&warm, &cold}) {
     solver->set_hessian(qp.H);
     solver->set_rows(qp.rows);
     // Hard state limits could not be met after a push: they give way at a price.
@@ -181,11 +181,11 @@ void closed_loop(benchmark::State& state, const Plant& plant, double jump, doubl
     up.noalias() = qp.c_limit - qp.rows_of_x * x;
     low.noalias() = -qp.c_limit - qp.rows_of_x * x;
     const double begin_us = thread_time_us();
-    const QpStatus status = warm.solve(f, u_low, qp.u_limit, low, up);
+    const controllers::QpStatus status = warm.solve(f, u_low, qp.u_limit, low, up);
     times_us.push_back(thread_time_us() - begin_us);
     state.SetIterationTime(times_us.back() * 1e-6);
     if (warm.iterations() == 0) unchanged_us.push_back(times_us.back());
-    unsolved += status != QpStatus::kSolved;
+    unsolved += status != controllers::QpStatus::kSolved;
     iterations += warm.iterations();
     most_iterations = std::max(most_iterations, warm.iterations());
     active += static_cast<double>(warm.active_set().size());
@@ -242,13 +242,13 @@ void wheel_speed_qp(benchmark::State& state) {
   }
   const Eigen::Vector4d low = Eigen::Vector4d::Constant(-8.0), up = -low;
   Eigen::VectorXd row_low = Eigen::VectorXd::Constant(6, -1.5), row_up = -row_low;
-  QpSolver solver(4, 6);
+  controllers::QpSolver solver(4, 6);
   std::size_t at = 0;
   double iterations = 0.0;
   for (auto _ : state) {
     solver.set_hessian(H[at]);
     solver.set_rows(rows[at]);
-    if (solver.solve(f[at], low, up, row_low, row_up) != QpStatus::kSolved) {
+    if (solver.solve(f[at], low, up, row_low, row_up) != controllers::QpStatus::kSolved) {
       state.SkipWithError("not solved");
     }
     iterations += solver.iterations();

@@ -15,31 +15,34 @@ using hand_grids::Vineyard;
 struct Problem {
   Vineyard vineyard;
   double curvature_per_m = 1.0 / 1.767;
-  DistanceKind heuristic = DistanceKind::kGeodesic;
+  controllers::DistanceKind heuristic = controllers::DistanceKind::kGeodesic;
   bool quartiles = true;
   double inside_m = 0.0;  ///< start and goal this far inside their alleys; 0: the turn alone
 };
 
 void search(benchmark::State& state, const Problem& problem) {
   const OccupancyGrid grid = problem.vineyard.make();
-  const DistanceField field(grid);
-  const Footprint footprint(field, hand_grids::rover_outline_B(), 0.05);
-  RrtQuartileParams params;
+  const controllers::DistanceField field(grid);
+  const controllers::Footprint footprint(field, hand_grids::rover_outline_B(), 0.05);
+  controllers::RrtQuartileParams params;
   params.tree.curvature_per_m = problem.curvature_per_m;
   params.tree.quartiles = problem.quartiles;
   params.heuristic = problem.heuristic;
-  const Pose2 from = problem.inside_m > 0.0
-                         ? advance(problem.vineyard.entry(0), problem.inside_m, 0.0)
-                         : problem.vineyard.exit(0);
-  const Pose2 to = problem.inside_m > 0.0
-                       ? advance(problem.vineyard.exit(1), -problem.inside_m, 0.0)
-                       : problem.vineyard.entry(1);
+  const controllers::Pose2 from =
+      problem.inside_m > 0.0
+          ? controllers::advance(problem.vineyard.entry(0), problem.inside_m, 0.0)
+          : problem.vineyard.exit(0);
+  const controllers::Pose2 to =
+      problem.inside_m > 0.0
+          ? controllers::advance(problem.vineyard.exit(1), -problem.inside_m, 0.0)
+          : problem.vineyard.entry(1);
   PartContext context;
   double nodes = 0.0, solved = 0.0, length_m = 0.0, first_m = 0.0;
   for (auto _ : state) {
     ++context.seed;
-    SearchReport report;
-    const auto pieces = RrtQuartile(params, context).find(from, to, footprint, 1, report);
+    controllers::SearchReport report;
+    const auto pieces =
+        controllers::RrtQuartile(params, context).find(from, to, footprint, 1, report);
     nodes += static_cast<double>(report.nodes);
     if (!pieces) continue;
     ++solved;
@@ -66,7 +69,8 @@ Problem two_wheel(Problem problem) {
   return problem;
 }
 
-Problem one_search(double rows_m, DistanceKind heuristic = DistanceKind::kGeodesic,
+Problem one_search(double rows_m,
+                   controllers::DistanceKind heuristic = controllers::DistanceKind::kGeodesic,
                    bool quartiles = true) {
   Problem problem;
   problem.vineyard.length_m = rows_m;
@@ -84,10 +88,11 @@ VINEROW_SEARCH(turn_without_walls, turn(false));
 VINEROW_SEARCH(two_wheel_turn_exhausted, two_wheel(turn()));
 VINEROW_SEARCH(two_wheel_turn_without_walls, two_wheel(turn(false)));
 VINEROW_SEARCH(rows_30m, one_search(30.0));
-VINEROW_SEARCH(rows_30m_euclid, one_search(30.0, DistanceKind::kEuclid));
-VINEROW_SEARCH(rows_30m_without_quartiles, one_search(30.0, DistanceKind::kGeodesic, false));
+VINEROW_SEARCH(rows_30m_euclid, one_search(30.0, controllers::DistanceKind::kEuclid));
+VINEROW_SEARCH(rows_30m_without_quartiles,
+               one_search(30.0, controllers::DistanceKind::kGeodesic, false));
 VINEROW_SEARCH(rows_118m, one_search(118.0));
-VINEROW_SEARCH(rows_118m_euclid, one_search(118.0, DistanceKind::kEuclid));
+VINEROW_SEARCH(rows_118m_euclid, one_search(118.0, controllers::DistanceKind::kEuclid));
 
 /// The 14 turns of 15 alleys of 118 m, without grid and field.
 void turns_of_a_parcel(benchmark::State& state) {
@@ -95,17 +100,17 @@ void turns_of_a_parcel(benchmark::State& state) {
   vineyard.length_m = 118.0;
   vineyard.alleys = 15;
   const OccupancyGrid grid = vineyard.make();
-  const DistanceField field(grid);
-  const Footprint footprint(field, hand_grids::rover_outline_B(), 0.05);
-  RrtQuartileParams params;
+  const controllers::DistanceField field(grid);
+  const controllers::Footprint footprint(field, hand_grids::rover_outline_B(), 0.05);
+  controllers::RrtQuartileParams params;
   params.tree.curvature_per_m = 1.0 / 1.767;
   PartContext context;
   double nodes = 0.0, solved = 0.0;
   for (auto _ : state) {
     ++context.seed;
-    RrtQuartile planner(params, context);
+    controllers::RrtQuartile planner(params, context);
     for (int i = 1; i < vineyard.alleys; ++i) {
-      SearchReport report;
+      controllers::SearchReport report;
       solved += planner.find(vineyard.exit(i - 1), vineyard.entry(i), footprint, i, report).ok();
       nodes += static_cast<double>(report.nodes);
     }

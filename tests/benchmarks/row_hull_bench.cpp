@@ -10,7 +10,7 @@ namespace vinerow::row_hull_bench {
 namespace {
 
 void bm_row_hulls(benchmark::State& state) {
-  std::vector<worlds::RowCanopy> rows;
+  std::vector<mapping::RowCanopy> rows;
   std::int64_t points = 0;
   for (int i = 0; i < state.range(0); ++i) {
     rows.push_back(test::vine_row(i, 118.0, {.noise_m = 0.015}).canopy);
@@ -18,7 +18,7 @@ void bm_row_hulls(benchmark::State& state) {
   }
   double bytes = 0.0;
   for (auto _ : state) {
-    const auto hulls = worlds::make_row_hulls(rows, [](double, double) { return 0.0; });
+    const auto hulls = mapping::make_row_hulls(rows, [](double, double) { return 0.0; });
     bytes = 0.0;
     for (const auto& row : hulls) bytes += static_cast<double>(row.mesh_bytes);
   }

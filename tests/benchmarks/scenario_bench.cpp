@@ -15,13 +15,13 @@ namespace {
 void whole_scenario(benchmark::State& state, const char* name) {
   Registry registry;
   register_all(registry);
-  const io::Scenario scenario = io::load_scenario(
+  const scenario::Scenario scenario = scenario::load_scenario(
       std::string(VINEROW_SOURCE_DIR) + "/assets/scenarios/" + name + ".yaml", registry);
-  RunOptions options;
+  run::RunOptions options;
   options.out = std::filesystem::temp_directory_path() / "vinerow_bench_run";
   options.pictures = false;
-  RunResult result;
-  for (auto _ : state) result = run_scenario(scenario, registry, options);
+  run::RunResult result;
+  for (auto _ : state) result = run::run_scenario(scenario, registry, options);
   state.counters["real_time_factor"] = result.real_time_factor();
   state.counters["simulated_s"] = result.simulated_s;
   state.counters["log_MB_per_hour"] =

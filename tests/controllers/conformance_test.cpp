@@ -45,7 +45,7 @@ class EveryController : public ::testing::TestWithParam<std::string> {};
 TEST_P(EveryController, FinishesNearThePathsEndWithFiniteCommands) {
   const MissionResult result = run_mission(make_small_mission(GetParam()));
   EXPECT_TRUE(result.finished);
-  for (const Pose2& pose : result.poses) {
+  for (const controllers::Pose2& pose : result.poses) {
     ASSERT_TRUE(pose.p.allFinite() && std::isfinite(pose.yaw_rad));
   }
   EXPECT_LT((result.poses.back().p - Eigen::Vector2d(0, 5)).norm(), 0.15);

@@ -24,7 +24,7 @@ namespace {
 const Registry& all_parts() {
   static const Registry registry = [] {
     Registry r;
-    register_controllers(r);
+    controllers::register_controllers(r);
     return r;
   }();
   return registry;

@@ -110,11 +110,11 @@ void expect_halts_on_a_slope(const std::string& vehicle, const std::string& type
   const std::vector<Halt> halts = {{12.0, 60.0}, {45.0, 140.0}};
   const auto make = [&](const ParameterSet& set, const ControllerContext& context) {
     Registry registry;
-    register_controllers(registry);
+    controllers::register_controllers(registry);
     return std::make_unique<Halted>(registry.make_controller(type, set, context), halts);
   };
   Registry registry;
-  register_controllers(registry);
+  controllers::register_controllers(registry);
   PartSpec spec = registry.spec(PartKind::kController, type);
   spec.name = "halted_" + type;
   auto run = vinerow::testing::SmallWorld()

@@ -37,7 +37,8 @@ TEST(CloudCommand, TakesTheFlownSurveyAndKeepsTheTruth) {
   ASSERT_EQ(made.status, 0) << made.output;
   EXPECT_THAT(made.output, HasSubstr("plane/camera of " + run + "/log.mcap"));
   EXPECT_THAT(made.output, HasSubstr("truth          4 rows, bearing 80.000 deg, spacing 2.500 m"));
-  const worlds::CloudTruth truth = worlds::read_cloud_truth(folder.path() / "new/small.truth.json");
+  const mapping::CloudTruth truth =
+      mapping::read_cloud_truth(folder.path() / "new/small.truth.json");
   const std::vector<io::CloudPoint> points = read_points(out);
   EXPECT_EQ(points.size(), static_cast<std::size_t>(truth.sampling.points));
   EXPECT_EQ(value_in("\n" + made.output, "points").substr(0, std::to_string(points.size()).size()),
@@ -68,7 +69,7 @@ TEST(CloudCommand, TakesTheFlownSurveyAndKeepsTheTruth) {
   const std::string lower = " --set world.canopy_top_m=1.7 --density 50 --log " + run + " --out ";
   ASSERT_EQ(run_vinerow("cloud" + lower + again).status, 0);
   const auto volume_m3 = [&](const std::string& file) {
-    return worlds::read_cloud_truth(folder.path() / file).volume_m3;
+    return mapping::read_cloud_truth(folder.path() / file).volume_m3;
   };
   EXPECT_LT(volume_m3("again.truth.json"), 0.95 * truth.volume_m3);
   ASSERT_EQ(run_vinerow("cloud " + kSmall + lower + (folder.path() / "named.las").string()).status,
@@ -96,7 +97,7 @@ TEST(CloudCommand, GeoreferencedPointsLieWhereLocalOnesDo) {
   const std::vector<io::CloudPoint> a = read_points(local), b = read_points(utm);
   ASSERT_EQ(a.size(), b.size());
   EXPECT_EQ(io::open_point_cloud(utm)->info().crs, "EPSG:32632");
-  const worlds::CloudTruth truth = worlds::read_cloud_truth(folder.path() / "utm.truth.json");
+  const mapping::CloudTruth truth = mapping::read_cloud_truth(folder.path() / "utm.truth.json");
   const io::CloudFrame frame("EPSG:32632", truth.origin);
   int ground = 0, canopy = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -119,7 +120,7 @@ TEST(CloudCommand, SpreadsPointsEvenlyWithoutPictures) {
       "cloud " + kSmall + " --uniform 20 --noise 0.05 --weeds 0.5 --outliers 0.02 --out " + out +
       " --area 66 34 78 34 78 44 66 44 --margin 1");
   ASSERT_EQ(made.status, 0) << made.output;
-  const worlds::CloudTruth truth = worlds::read_cloud_truth(folder.path() / "even.truth.json");
+  const mapping::CloudTruth truth = mapping::read_cloud_truth(folder.path() / "even.truth.json");
   EXPECT_EQ(truth.sampling.method, "uniform");
   EXPECT_EQ(truth.sampling.noise_m, 0.05);
   EXPECT_EQ(truth.sampling.weeds_m, 0.5);

@@ -121,10 +121,10 @@ TEST_F(CloudMapMission, PlannersTakeTheGroundFromTheMap) {
   };
   const std::vector<double> before = heights("before");
   ASSERT_GT(before.size(), 20u);
-  const worlds::CloudMap map = worlds::load_map(map_folder());
-  worlds::CloudMap raised = map;
+  const mapping::CloudMap map = mapping::load_map(map_folder());
+  mapping::CloudMap raised = map;
   for (float& z : raised.map.terrain->heights_m) z += 1.5f;
-  worlds::save_map(raised, map_folder());
+  mapping::save_map(raised, map_folder());
   const std::vector<double> after = heights("after");
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t k = 0; k < after.size(); ++k) EXPECT_NEAR(after[k] - before[k], 1.5, 1e-4);
@@ -140,7 +140,7 @@ TEST_F(CloudMapMission, PlannersTakeTheGroundFromTheMap) {
       terrain.heights_m.push_back(whole.heights_m[static_cast<std::size_t>(j) * whole.columns + i]);
     }
   }
-  worlds::save_map(raised, map_folder());
+  mapping::save_map(raised, map_folder());
   try {
     heights("half");
     ADD_FAILURE() << "planned over ground that the map does not have";
@@ -148,7 +148,7 @@ TEST_F(CloudMapMission, PlannersTakeTheGroundFromTheMap) {
     EXPECT_NE(std::string(error.what()).find("path leaves the ground"), std::string::npos)
         << error.what();
   }
-  worlds::save_map(map, map_folder());
+  mapping::save_map(map, map_folder());
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ using test::scenario_file;
 using test::ScratchFolder;
 
 struct Mapped {
-  worlds::CloudTruth truth;
-  worlds::CloudMap map;
+  mapping::CloudTruth truth;
+  mapping::CloudMap map;
   std::vector<int> row_of;   ///< mapped row of every true one, -1: not found
   double worst_end_m = 0.0;  ///< of the rows found, horizontally
   double worst_bearing_deg = 0.0;
@@ -32,15 +32,15 @@ Mapped map_of(const std::string& name, const std::string& cloud_arguments) {
   const std::string out = (folder.path() / "map").string();
   const auto made = run_vinerow("cloud " + cloud_arguments + " --out " + cloud);
   if (made.status != 0) throw std::runtime_error(made.output);
-  const worlds::CloudTruth truth = worlds::read_cloud_truth(worlds::truth_file_of(cloud));
+  const mapping::CloudTruth truth = mapping::read_cloud_truth(mapping::truth_file_of(cloud));
   const auto mapped = run_vinerow("map " + cloud + " --no-pictures --out " + out);
   if (mapped.status != 0) throw std::runtime_error(mapped.output);
-  Mapped result{truth, worlds::load_map(out), {}, 0.0, 0.0};
-  for (const worlds::RowTruth& row : truth.rows) {
+  Mapped result{truth, mapping::load_map(out), {}, 0.0, 0.0};
+  for (const mapping::RowTruth& row : truth.rows) {
     // The nearest by both ends; a map may count rows from the other side and other end.
     int best = -1;
     double best_m = 1.0;
-    for (const worlds::MappedRowFigures& found : result.map.report.rows) {
+    for (const mapping::MappedRowFigures& found : result.map.report.rows) {
       const auto apart = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
         return (a - b).head<2>().norm();
       };
@@ -60,7 +60,7 @@ Mapped map_of(const std::string& name, const std::string& cloud_arguments) {
         180.0);
     result.worst_bearing_deg = std::max(result.worst_bearing_deg, std::abs(off_deg));
   }
-  const worlds::CloudMapReport& report = result.map.report;
+  const mapping::CloudMapReport& report = result.map.report;
   std::printf(
       "%s: %zu rows of %zu, direction %.4f deg (worst row %.4f), spacing %.4f m off, ends %.3f m "
       "at "
@@ -83,7 +83,7 @@ void expect_every_row_once(const Mapped& mapped) {
 
 TEST(CloudToMap, ParcelFAtFullDensity) {
   const Mapped mapped = map_of("parcel_f", scenario_file("map_parcel"));
-  const worlds::CloudMapReport& report = mapped.map.report;
+  const mapping::CloudMapReport& report = mapped.map.report;
   EXPECT_GT(report.points, 6'500'000);
   ASSERT_EQ(report.rows.size(), 16u);
   expect_every_row_once(mapped);

@@ -22,14 +22,14 @@ class CooperativeMission : public test::FolderTest {
  protected:
   CooperativeMission() : FolderTest("cooperative") { register_all(registry_); }
 
-  RunResult run(std::vector<std::string> sets = {}) {
-    io::Overrides overrides;
+  run::RunResult run(std::vector<std::string> sets = {}) {
+    scenario::Overrides overrides;
     overrides.sets = std::move(sets);
-    RunOptions options;
+    run::RunOptions options;
     options.out = folder_;
     options.pictures = false;
-    const RunResult result = run_scenario(
-        io::load_scenario(test::scenario_file("cooperative_small"), registry_, overrides),
+    const run::RunResult result = run::run_scenario(
+        scenario::load_scenario(test::scenario_file("cooperative_small"), registry_, overrides),
         registry_, options);
     for (const PhaseReport& phase : result.phases) {
       std::printf("%-12s %-11s %s\n", phase.name.c_str(), to_string(phase.state),
@@ -37,7 +37,7 @@ class CooperativeMission : public test::FolderTest {
     }
     return result;
   }
-  static const PhaseReport& phase(const RunResult& result, const std::string& name) {
+  static const PhaseReport& phase(const run::RunResult& result, const std::string& name) {
     for (const PhaseReport& report : result.phases) {
       if (report.name == name) return report;
     }
@@ -48,8 +48,8 @@ class CooperativeMission : public test::FolderTest {
 };
 
 TEST_F(CooperativeMission, FromFlightToRowsEveryPhaseSucceedsAndTwiceTheSameBits) {
-  RunResult result = run();
-  EXPECT_EQ(result.status, RunStatus::kAllMet);
+  run::RunResult result = run();
+  EXPECT_EQ(result.status, run::RunStatus::kAllMet);
   for (const PhaseReport& report : result.phases) {
     EXPECT_EQ(report.state, PhaseState::kSucceeded) << report.name << ": " << report.reason;
   }
@@ -60,21 +60,21 @@ TEST_F(CooperativeMission, FromFlightToRowsEveryPhaseSucceedsAndTwiceTheSameBits
   // The rover follows where the quadrotor has been: it waits for the first alley.
   EXPECT_GT(result.metrics.at("rover").at("min_vehicle_distance_m"), 0.55);  // 0.60 m is reached
   result.lock.reset();  // the folder is free for the next run
-  const RunResult again = run();
+  const run::RunResult again = run();
   EXPECT_EQ(again.digest, result.digest);
 }
 
 TEST_F(CooperativeMission, TooMuchWindKeepsTheSurveyFromBeginning) {
-  const RunResult result = run({"world.wind.mean_speed_mps=9"});
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  const run::RunResult result = run({"world.wind.mean_speed_mps=9"});
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
   EXPECT_EQ(phase(result, "survey").state, PhaseState::kFailed);
   EXPECT_THAT(phase(result, "survey").reason, StartsWith("no window of weak wind came"));
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kBlocked);
 }
 
 TEST_F(CooperativeMission, AMapWithARowMissingIsNotWorkedOn) {
-  const RunResult result = run({"phases.build_cloud.job.missing_rows=[2]"});
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  const run::RunResult result = run({"phases.build_cloud.job.missing_rows=[2]"});
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
   EXPECT_EQ(phase(result, "build_map").state, PhaseState::kFailed);
   EXPECT_THAT(phase(result, "build_map").reason, StartsWith("missed rows = "));
   EXPECT_THAT(phase(result, "build_map").reason, HasSubstr("(at least 4)"));
@@ -85,10 +85,10 @@ TEST_F(CooperativeMission, AMapWithARowMissingIsNotWorkedOn) {
 }
 
 TEST_F(CooperativeMission, ABlockedRoverStopsAndFailsAlone) {
-  const RunResult result = run(
+  const run::RunResult result = run(
       {"world.obstacles=[{name: pallet, alley: 1, distance_m: 20, lateral_m: 0, size_m: [1.2, 0.8, "
        "0.6]}]"});
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kFailed);
   EXPECT_THAT(phase(result, "spray").reason, StartsWith("rover had not finished after 400 s"));
   EXPECT_EQ(result.metrics.at("rover").at("contact_count"), 0.0)
@@ -100,7 +100,7 @@ TEST_F(CooperativeMission, ABlockedRoverStopsAndFailsAlone) {
 
 TEST_F(CooperativeMission, ACrashLeavesTheOtherAtWork) {
   // A rotor stops between the rows.
-  const RunResult result =
+  const run::RunResult result =
       run({"drone.faults=[{kind: rotor_failure, rotor: 1, at_s: 330, remaining: 0}]"});
   EXPECT_EQ(phase(result, "scout").state, PhaseState::kFailed);
   EXPECT_THAT(phase(result, "scout").reason, HasSubstr("drone crashed"));

@@ -53,16 +53,17 @@ TEST(Determinism, LogAndItsRateChangeNothing) {
   Registry registry;
   register_all(registry);
   const auto digest_with = [&](bool log, const std::vector<std::string>& sets) {
-    io::Overrides overrides;
+    scenario::Overrides overrides;
     overrides.sets = sets;
     overrides.sets.push_back("duration_s=4");
     overrides.sets.push_back("criteria=[]");
-    RunOptions options;
+    run::RunOptions options;
     options.out = folder.path();
     options.log = log;
     options.pictures = false;
-    return run_scenario(io::load_scenario(scenario_file("riseholme_rover"), registry, overrides),
-                        registry, options)
+    return run::run_scenario(
+               scenario::load_scenario(scenario_file("riseholme_rover"), registry, overrides),
+               registry, options)
         .digest;
   };
   const std::string base = digest_with(true, {});

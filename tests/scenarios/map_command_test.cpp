@@ -45,7 +45,7 @@ class MapCommand : public ::testing::Test {
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static std::string truth_file() { return worlds::truth_file_of(cloud_).string(); }
+  static std::string truth_file() { return mapping::truth_file_of(cloud_).string(); }
   static fs::path out() { return folder_->path() / "map"; }
 
   static inline std::unique_ptr<ScratchFolder> folder_;
@@ -54,13 +54,13 @@ class MapCommand : public ::testing::Test {
 };
 
 TEST_F(MapCommand, FindsTheRowsAndSaysSo) {
-  const worlds::CloudMap map = worlds::load_map(out());
+  const mapping::CloudMap map = mapping::load_map(out());
   ASSERT_EQ(map.map.rows.size(), 4u);
   EXPECT_EQ(map.map.alleys.size(), 3u);
   EXPECT_EQ(value_in(result_.output, "rows").substr(0, 2), "4,");
   EXPECT_NE(result_.output.find("rows found     4 of 4\n"), std::string::npos) << result_.output;
   // The table's numbers follow from the two files.
-  const worlds::CloudTruth truth = worlds::read_cloud_truth(truth_file());
+  const mapping::CloudTruth truth = mapping::read_cloud_truth(truth_file());
   const double volume_error = map.report.volume_m3 / truth.volume_m3 - 1.0;
   char line[80];
   std::snprintf(line, sizeof line, "volume         %+.2f %% of %.2f m3", 100.0 * volume_error,
@@ -75,7 +75,7 @@ TEST_F(MapCommand, FindsTheRowsAndSaysSo) {
 }
 
 TEST_F(MapCommand, ReportsFiguresOfTheMap) {
-  const worlds::CloudMap map = worlds::load_map(out());
+  const mapping::CloudMap map = mapping::load_map(out());
   const json report = json::parse(test::read_text(out() / "report.json"));
   EXPECT_EQ(report["cloud"]["file"], "parcel.las");
   EXPECT_EQ(report["cloud"]["bytes"], fs::file_size(cloud_));
@@ -208,7 +208,7 @@ TEST_F(MapCommand, TheSameBytesAgainButForTheTiming) {
 
 TEST_F(MapCommand, TakesABoundaryAndLeavesWallsOut) {
   // 3 m around the rows, as the map has them.
-  const worlds::CloudMap map = worlds::load_map(out());
+  const mapping::CloudMap map = mapping::load_map(out());
   Eigen::AlignedBox2d box;
   for (const PlantRow& row : map.map.rows) {
     for (const auto& p : row.line_W) box.extend(Eigen::Vector2d(p.head<2>()));
@@ -224,7 +224,7 @@ TEST_F(MapCommand, TakesABoundaryAndLeavesWallsOut) {
                   (folder_->path() / "world.yaml").string() + " --boundary " +
                   folder_->file("boundary.csv", text) + " --out " + folder.string());
   ASSERT_EQ(result.status, 0) << result.output;
-  const worlds::CloudMap bounded = worlds::load_map(folder);
+  const mapping::CloudMap bounded = mapping::load_map(folder);
   ASSERT_EQ(bounded.map.boundary_W.size(), 4u);
   Eigen::AlignedBox2d parcel;
   for (const Eigen::Vector2d& p : bounded.map.boundary_W) parcel.extend(p);

@@ -23,9 +23,9 @@ class Hero : public ::testing::Test {
  protected:
   Hero() : folder_("report_hero") {
     run_.scenario.emplace();
-    add_camera("rover", io::CameraKind::kChase, "rover");
-    add_camera("drone", io::CameraKind::kChase, "drone");
-    add_camera("above", io::CameraKind::kTop, "");
+    add_camera("rover", scenario::CameraKind::kChase, "rover");
+    add_camera("drone", scenario::CameraKind::kChase, "drone");
+    add_camera("above", scenario::CameraKind::kTop, "");
     run_.world = std::make_unique<WorldModel>();
     PlantRow row;
     row.line_W = {{0, 1, 0}, {20, 1, 0}};
@@ -43,8 +43,8 @@ class Hero : public ::testing::Test {
       }
     }
   }
-  void add_camera(const char* name, io::CameraKind kind, const char* vehicle) {
-    io::CameraConfig camera;
+  void add_camera(const char* name, scenario::CameraKind kind, const char* vehicle) {
+    scenario::CameraConfig camera;
     camera.name = name;
     camera.kind = kind;
     camera.vehicle = vehicle;
@@ -54,7 +54,7 @@ class Hero : public ::testing::Test {
     const render::Image image{2, 1, {1, 2, 3, 4, 5, 6}};
     const fs::path file = folder_.path() / (name + ".png");
     std::map<std::string, std::string> words;
-    if (!seen.empty()) words[kSeenKey] = seen_text(seen);
+    if (!seen.empty()) words[playback::kSeenKey] = playback::seen_text(seen);
     render::write_png(file.string(), image, words);
     Picture& picture = frames_.emplace_back();
     picture.file = file;

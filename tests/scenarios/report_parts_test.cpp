@@ -429,12 +429,12 @@ TEST(ReportSetup, TellsSlopeAndSensorsOfTheScenario) {
   run.world->terrain = field;
   run.world->soil.name = "wet_soil";
   run.scenario.emplace();
-  io::VehicleConfig rover;
+  scenario::VehicleConfig rover;
   rover.name = "<rover>";
   rover.vehicle.type = "diff_drive_rover";
   for (const auto& [name, type] :
        {std::pair{"imu", "imu"}, {"left", "ultrasound"}, {"right", "ultrasound"}}) {
-    io::NamedPart sensor;
+    scenario::NamedPart sensor;
     sensor.name = name;
     sensor.part.type = type;
     rover.sensors.push_back(sensor);
@@ -520,11 +520,11 @@ TEST(ReportPlot, PutsABandThatWouldFillThePlotIntoWords) {
 }
 
 TEST(ReportColours, AreThoseOfTheFrames) {
-  EXPECT_EQ(hex_colour(vehicle_colour(0).rgb), "#ffb80d");
-  EXPECT_EQ(hex_colour(vehicle_colour(8).rgb), "#ffb80d");
-  for (std::size_t v = 0; v < kVehicleColours.size(); ++v) {
-    EXPECT_THAT(page_style(), HasSubstr(hex_colour(vehicle_colour(v).rgb)));
-    EXPECT_THAT(page_style(), HasSubstr(vehicle_colour(v).on_paper));
+  EXPECT_EQ(playback::hex_colour(playback::vehicle_colour(0).rgb), "#ffb80d");
+  EXPECT_EQ(playback::hex_colour(playback::vehicle_colour(8).rgb), "#ffb80d");
+  for (std::size_t v = 0; v < playback::kVehicleColours.size(); ++v) {
+    EXPECT_THAT(page_style(), HasSubstr(playback::hex_colour(playback::vehicle_colour(v).rgb)));
+    EXPECT_THAT(page_style(), HasSubstr(playback::vehicle_colour(v).on_paper));
   }
 }
 

@@ -159,7 +159,7 @@ TEST(Session, BuildsAWorldAnewThatTheSeedChanges) {
   PartSpec spec;
   spec.name = "seeded_ground";
   registry->add_world(spec, make_seeded_ground);
-  const io::Scenario scenario = io::parse_scenario(
+  const scenario::Scenario scenario = scenario::parse_scenario(
       "{vinerow: 1, name: x, seed: 3, duration_s: 1, world: {type: seeded_ground}, "
       "vehicles: {rover: {type: diff_drive_rover, spawn: {x_m: 0, y_m: 0, yaw_deg: 0}}}}",
       ".", *registry);
@@ -235,12 +235,12 @@ TEST(Session, TellsWhatThereIs) {
 TEST(Session, AScenarioWithAnotherSeedIsWhatLoadingItGives) {
   Registry registry;
   register_all(registry);
-  io::Overrides overrides;
+  scenario::Overrides overrides;
   overrides.seed = 18446744073709551ull;
-  const auto load = [&](const io::Overrides& with) {
-    return io::load_scenario(scenario_file("cooperative_small"), registry, with);
+  const auto load = [&](const scenario::Overrides& with) {
+    return scenario::load_scenario(scenario_file("cooperative_small"), registry, with);
   };
-  const io::Scenario changed = io::with_seed(load({}), *overrides.seed);
+  const scenario::Scenario changed = scenario::with_seed(load({}), *overrides.seed);
   EXPECT_EQ(changed.resolved_yaml, load(overrides).resolved_yaml);
   EXPECT_EQ(changed.seed, *overrides.seed);
 }

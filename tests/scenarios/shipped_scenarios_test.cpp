@@ -31,7 +31,7 @@ std::vector<std::string> shipped_scenarios() {
 
 /// Planting a large vineyard takes longer than all else here, under sanitizers minutes: four of its
 /// rows do.
-std::vector<std::string> with_few_rows(const io::Scenario& scenario) {
+std::vector<std::string> with_few_rows(const scenario::Scenario& scenario) {
   if (scenario.world.type != "vineyard") return {};
   const bool is_large = scenario.world.parameters.integer("row_count") > 16;
   // A mission's vehicles are built on row meshes once before it begins.
@@ -40,8 +40,8 @@ std::vector<std::string> with_few_rows(const io::Scenario& scenario) {
 }
 
 /// Of a mission: whether its phase waits for another.
-bool waits(const io::Scenario& scenario, const std::string& vehicle) {
-  for (const io::PhaseConfig& phase : scenario.phases) {
+bool waits(const scenario::Scenario& scenario, const std::string& vehicle) {
+  for (const scenario::PhaseConfig& phase : scenario.phases) {
     const bool works = std::count(phase.vehicles.begin(), phase.vehicles.end(), vehicle) > 0;
     if (works && (!phase.after.empty() || phase.weather)) return true;
   }
@@ -49,7 +49,7 @@ bool waits(const io::Scenario& scenario, const std::string& vehicle) {
 }
 
 /// Whether it sets out within 3 s: who has no controller stands, and who starts later waits.
-bool moves_soon(const io::VehicleConfig& vehicle) {
+bool moves_soon(const scenario::VehicleConfig& vehicle) {
   if (!vehicle.controller) return false;
   if (!vehicle.guidance) return true;
   const auto& specs = vehicle.guidance->parameters.specs();
@@ -59,9 +59,9 @@ bool moves_soon(const io::VehicleConfig& vehicle) {
 }
 
 /// Whether one of the scenario's metrics declares the number, with such a value.
-void expect_declared(const io::Scenario& scenario, const std::string& name, double value) {
-  for (const io::NamedPart& part : scenario.metrics) {
-    const MetricNumber* number = find_metric_number(part.part.type, name);
+void expect_declared(const scenario::Scenario& scenario, const std::string& name, double value) {
+  for (const scenario::NamedPart& part : scenario.metrics) {
+    const metrics::MetricNumber* number = metrics::find_metric_number(part.part.type, name);
     if (!number) continue;
     EXPECT_TRUE(std::isnan(value) || number->can_be_in(value, value)) << name << " = " << value;
     return;
@@ -75,9 +75,9 @@ TEST_P(ShippedScenario, RunsAShortWhile) {
   const std::string file = test::scenario_file(GetParam());
   Registry registry;
   register_all(registry);
-  TestRun run = TestRun::from_file(file, with_few_rows(io::load_scenario(file, registry)));
+  TestRun run = TestRun::from_file(file, with_few_rows(scenario::load_scenario(file, registry)));
   run.run_for_s(3.0);
-  for (const io::VehicleConfig& vehicle : run.simulation().scenario().vehicles) {
+  for (const scenario::VehicleConfig& vehicle : run.simulation().scenario().vehicles) {
     if (waits(run.simulation().scenario(), vehicle.name)) {
       EXPECT_TRUE(std::isnan(run.metric(vehicle.name, "distance_m"))) << vehicle.name;
       continue;
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, ::testing::ValuesIn(shipped_scena
                          [](const auto& parameter) { return parameter.param; });
 
 /// Whether a vehicle that acts takes its state, or part of it, from the truth all the time.
-bool goes_by_truth(const io::VehicleConfig& vehicle) {
+bool goes_by_truth(const scenario::VehicleConfig& vehicle) {
   if (!vehicle.controller) return false;
   if (!vehicle.estimator || vehicle.estimator->type == "truth") return true;
   const ParameterSet& parameters = vehicle.estimator->parameters;
@@ -141,7 +141,8 @@ TEST(ShippedScenarios, OnlyTheseGoByTheTruth) {
   register_all(registry);
   std::vector<std::string> found;
   for (const std::string& name : shipped_scenarios()) {
-    const io::Scenario scenario = io::load_scenario(test::scenario_file(name), registry);
+    const scenario::Scenario scenario =
+        scenario::load_scenario(test::scenario_file(name), registry);
     if (std::any_of(scenario.vehicles.begin(), scenario.vehicles.end(), goes_by_truth)) {
       found.push_back(name);
     }

@@ -97,6 +97,20 @@ REGISTERS = re.compile(r"(vehicles|worlds|controllers)/register_\w+\.(h|cpp)")
 WITHOUT_WORLD = [MODEL, READING, ROWS, HULLS, GRID, FOLDER, PIPELINE]
 WORLD_HEADERS = ["engine/api/world_model.h", "engine/api/scene_query.h"]
 
+# Namespaces follow folders. `vinerow` itself is what plug-ins and programs of others see.
+NAMESPACE = {
+    **{room: "vinerow" for room in (CORE, MATH, API, SIM, "tools/parts")},
+    "tools/testing": "vinerow",
+    **{room: "vinerow::" + room.split("/")[1]
+       for room in (PHYSICS, IO, SCENARIO, SENSORS, RENDER, RECORD, METRICS, PLAYBACK, RUN)},
+    "vehicles": "vinerow::vehicles",
+    "worlds": "vinerow::worlds",
+    MAPPING: "vinerow::mapping",
+    "controllers": "vinerow::controllers",
+    "tools": "vinerow::tools",
+    "tools/study": "vinerow::study",
+}
+
 # An outside library is included in one folder only: pattern of the header -> folders.
 OUTSIDE = {
     r"bt[A-Z]|Bullet": [PHYSICS],
@@ -161,6 +175,21 @@ def faults_of(file: pathlib.Path) -> list[str]:
     return faults
 
 
+def wrong_namespace(file: pathlib.Path) -> list[str]:
+    """The last one opened counts: forward declarations of others stand before it."""
+    name = file.relative_to(ROOT).as_posix()
+    rooms = [room for room in NAMESPACE if holds(room, name)]
+    opened = re.findall(r"^namespace (vinerow[\w:]*) \{", file.read_text(encoding="utf-8"), re.MULTILINE)
+    if not rooms or not opened:
+        return []
+    wanted = NAMESPACE[max(rooms, key=len)]
+    if opened[-1] in (wanted, "vinerow::internal", "vinerow::testing"):
+        return []
+    if wanted != "vinerow" and opened[-1].startswith(wanted + "::"):
+        return []
+    return [f"{name} is in namespace {opened[-1]}, its folder's is {wanted}"]
+
+
 def circles() -> list[str]:
     """Rooms that ALLOWED lets include each other."""
     def reach(room, seen):
@@ -180,7 +209,7 @@ def main() -> int:
         for file in sorted((ROOT / top).rglob("*")):
             if file.suffix in (".h", ".cpp") and "node_modules" not in file.parts:
                 count += 1
-                faults += faults_of(file)
+                faults += faults_of(file) + wrong_namespace(file)
     for fault in faults:
         print(fault)
     print(f"{count} files, {len(faults)} wrong includes")

@@ -71,7 +71,7 @@ TEST_F(ReplayRunPage, HoldsThePosesOfTheLog) {
   run_into(folder, 12.0);
   const ReplayPage page(replay_of(folder, "replay.html"));
   const ReplayRun run = read_run(folder);
-  const VehicleTrace& trace = run.trace.vehicles.at("drone");
+  const playback::VehicleTrace& trace = run.trace.vehicles.at("drone");
   ASSERT_EQ(page.index["vehicles"].size(), 1u);
   const json& vehicle = page.index["vehicles"][0];
   EXPECT_EQ(vehicle["name"], "drone");
@@ -140,7 +140,7 @@ TEST_F(ReplayRunPage, HoldsThePosesOfWheels) {
   ASSERT_EQ(result.status, 0) << result.output;
   const ReplayPage page(replay_of(folder, "replay.html"));
   const ReplayRun run = read_run(folder);
-  const VehicleTrace& trace = run.trace.vehicles.at("rover");
+  const playback::VehicleTrace& trace = run.trace.vehicles.at("rover");
   const json& vehicle = page.index["vehicles"][0];
   const auto n = vehicle["samples"].get<std::size_t>();
   const auto times = page.numbers<std::uint32_t>(vehicle["times"], n);
@@ -257,7 +257,7 @@ TEST_F(ReplaySection, PosesCenturiesApartAreNotFilledIn) {
   run_into(folder, 2.0);
   ReplayRun run = read_run(folder);
   // False stamps: the last pose 280 years after the others.
-  VehicleTrace& drone = run.trace.vehicles.at("drone");
+  playback::VehicleTrace& drone = run.trace.vehicles.at("drone");
   const Time far = run.trace.first + duration_from_s(280.0 * 365.25 * 86400.0);
   drone.truth.times.back() = drone.links.times.back() = run.trace.last = far;
   const ReplayPage page(replay_section(run.input()));

@@ -18,14 +18,14 @@ using ::testing::HasSubstr;
 struct Map {
   CLI::App app{"for tests"};
   std::shared_ptr<const ParameterSet> values =
-      add_table_flags(app, worlds::cloud_map_job_table().specs(),
+      add_table_flags(app, mapping::cloud_map_job_table().specs(),
                       {.without = {"boundary"},
                        .names = {{"row_spacing_m", "--spacing"}},
                        .group = "Method",
                        .general = {"crs"}});
-  worlds::CloudMapJobParams parse(const std::string& line) {
+  mapping::CloudMapJobParams parse(const std::string& line) {
     app.parse(line);
-    return worlds::cloud_map_job_table().read(*values, "");
+    return mapping::cloud_map_job_table().read(*values, "");
   }
 };
 
@@ -54,8 +54,8 @@ TEST(TableFlags, NamesFlagsByTheirKeysWithoutUnits) {
 }
 
 TEST(TableFlags, GivesTheTablesDefaults) {
-  const worlds::CloudMapJobParams read = Map().parse("");
-  const worlds::CloudMapJobParams plain;
+  const mapping::CloudMapJobParams read = Map().parse("");
+  const mapping::CloudMapJobParams plain;
   EXPECT_EQ(read.options.slice_m, plain.options.slice_m);
   EXPECT_EQ(read.options.corners, plain.options.corners);
   EXPECT_EQ(read.options.occupancy.virtual_walls, plain.options.occupancy.virtual_walls);
@@ -63,21 +63,21 @@ TEST(TableFlags, GivesTheTablesDefaults) {
   EXPECT_EQ(read.reading.thin, plain.reading.thin);
 
   CLI::App app;
-  const auto values = add_table_flags(app, worlds::photogrammetry_job_table().specs(), {});
+  const auto values = add_table_flags(app, mapping::photogrammetry_job_table().specs(), {});
   app.parse("");
-  const auto pictures = worlds::photogrammetry_job_table().read(*values, "").options;
-  EXPECT_EQ(pictures.max_incidence_rad, worlds::PhotogrammetryOptions().max_incidence_rad);
+  const auto pictures = mapping::photogrammetry_job_table().read(*values, "").options;
+  EXPECT_EQ(pictures.max_incidence_rad, mapping::PhotogrammetryOptions().max_incidence_rad);
   EXPECT_FALSE(pictures.density_per_m2.has_value());
 }
 
 TEST(TableFlags, TakesValuesOfEveryKind) {
-  const worlds::CloudMapJobParams read = Map().parse(
+  const mapping::CloudMapJobParams read = Map().parse(
       "--slice 0.2 --corners 6 --no-virtual-walls --first-wall last --row-spacing 2,3 --thin 4 "
       "--crs EPSG:32632");
   EXPECT_EQ(read.options.slice_m, 0.2);
   EXPECT_EQ(read.options.corners, 6);
   EXPECT_FALSE(read.options.occupancy.virtual_walls);
-  EXPECT_EQ(read.options.occupancy.first_wall, worlds::RowEnd::kLast);
+  EXPECT_EQ(read.options.occupancy.first_wall, mapping::RowEnd::kLast);
   EXPECT_EQ(read.options.spacing_low_m, 2.0);
   EXPECT_EQ(read.options.spacing_high_m, 3.0);
   EXPECT_EQ(read.reading.thin, 4u);
@@ -86,9 +86,9 @@ TEST(TableFlags, TakesValuesOfEveryKind) {
   EXPECT_TRUE(Map().parse("--virtual-walls").options.occupancy.virtual_walls);
 
   CLI::App app;
-  const auto values = add_table_flags(app, worlds::photogrammetry_job_table().specs(), {});
+  const auto values = add_table_flags(app, mapping::photogrammetry_job_table().specs(), {});
   app.parse("--area -1 2 3 4 5 6 --truth-classes");
-  const auto pictures = worlds::photogrammetry_job_table().read(*values, "");
+  const auto pictures = mapping::photogrammetry_job_table().read(*values, "");
   EXPECT_THAT(pictures.area_m, ElementsAre(-1, 2, 3, 4, 5, 6));
   EXPECT_TRUE(pictures.file.truth_classes);
 }

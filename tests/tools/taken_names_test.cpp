@@ -36,12 +36,12 @@ TEST(TakenNames, AreThoseOfTheDocs) {
   const std::set<std::string> told = words_in(text.substr(begin, text.find("\n\n", begin) - begin));
 
   const Registry registry = make_registry({});
-  std::set<std::string> taken(io::reserved_signal_names().begin(),
-                              io::reserved_signal_names().end());
+  std::set<std::string> taken(scenario::reserved_signal_names().begin(),
+                              scenario::reserved_signal_names().end());
   for (const PartKind kind : {PartKind::kVehicle, PartKind::kEstimator, PartKind::kPlanner,
                               PartKind::kGuidance, PartKind::kController}) {
     for (const std::string& type : registry.names(kind)) {
-      const auto signals = io::fixed_signals(registry.spec(kind, type));
+      const auto signals = scenario::fixed_signals(registry.spec(kind, type));
       taken.insert(signals.begin(), signals.end());
     }
   }

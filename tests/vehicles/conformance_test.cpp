@@ -31,7 +31,7 @@ struct Setup {
 
 std::vector<Setup> setups() {
   Registry registry;
-  register_vehicles(registry);
+  vehicles::register_vehicles(registry);
   std::vector<Setup> result;
   for (const std::string& name : registry.names(PartKind::kVehicle)) {
     if (name == "urdf_rover") {
@@ -83,7 +83,7 @@ class Rig {
   Rig(const Setup& setup, WorldModel model, double yaw_rad = 0.0)
       : world_model_(std::move(model)), world_(physics::PhysicsSettings{}, world_model_) {
     Registry registry;
-    register_vehicles(registry);
+    vehicles::register_vehicles(registry);
     const PartSpec& spec = registry.spec(PartKind::kVehicle, setup.type);
     ParameterSet parameters(spec.parameters, setup.type);
     setup.set(parameters);

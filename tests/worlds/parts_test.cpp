@@ -18,7 +18,7 @@ namespace vinerow::worlds::parts_test {
 namespace {
 
 TEST(RowCurve, PositionsByArcLength) {
-  const RowCurve row({{0, 0}, {3, 0}, {3, 4}});
+  const mapping::RowCurve row({{0, 0}, {3, 0}, {3, 4}});
   EXPECT_DOUBLE_EQ(row.length_m(), 7.0);
   EXPECT_EQ(row.point_W(1.0), Eigen::Vector2d(1, 0));
   EXPECT_EQ(row.point_W(5.0), Eigen::Vector2d(3, 2));
@@ -31,7 +31,7 @@ TEST(RowCurve, PositionsByArcLength) {
 
 TEST(RowCurve, FrameLeansAlongTheRowAndStandsUprightAcross) {
   const auto ground = [](double x, double y) { return 0.5 * x + 0.3 * y; };
-  const Pose X_WR = row_frame(RowCurve({{0, 0}, {10, 0}}), ground, 4.0);
+  const Pose X_WR = mapping::row_frame(mapping::RowCurve({{0, 0}, {10, 0}}), ground, 4.0);
   EXPECT_TRUE(X_WR.p.isApprox(Eigen::Vector3d(4, 0, 2)));
   EXPECT_TRUE(
       (X_WR.q * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(1, 0, 0.5).normalized(), 1e-9));
@@ -40,18 +40,18 @@ TEST(RowCurve, FrameLeansAlongTheRowAndStandsUprightAcross) {
 
 TEST(RowMap, OrdersMixedUpRowsAcrossTheBlock) {
   // Three rows to the north, given in disorder and one of them southward.
-  std::vector<RowCurve> rows;
+  std::vector<mapping::RowCurve> rows;
   rows.emplace_back(std::vector<Eigen::Vector2d>{{0, 0}, {0, 10}});
   rows.emplace_back(std::vector<Eigen::Vector2d>{{5, 10}, {5, 0}});
   rows.emplace_back(std::vector<Eigen::Vector2d>{{2.5, 0}, {2.5, 10}});
-  const auto ordered = order_rows(rows);
+  const auto ordered = mapping::order_rows(rows);
   ASSERT_EQ(ordered.size(), 3u);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(ordered[static_cast<std::size_t>(i)].points_W().front(), Eigen::Vector2d(2.5 * i, 0));
   }
-  EXPECT_EQ(middle_line(ordered[0], ordered[1]),
+  EXPECT_EQ(mapping::middle_line(ordered[0], ordered[1]),
             (std::vector<Eigen::Vector2d>{{1.25, 0}, {1.25, 10}}));
-  const auto boundary = parcel_boundary(ordered, 8.0, 2.0);
+  const auto boundary = mapping::parcel_boundary(ordered, 8.0, 2.0);
   double area = 0.0;  // shoelace; positive is counter-clockwise
   for (std::size_t i = 0; i < 4; ++i) {
     const auto &a = boundary[i], &b = boundary[(i + 1) % 4];

@@ -50,7 +50,7 @@ TEST(Surveyed, SurroundingsAreGroundAndNoParcel) {
 TEST(Surveyed, MiddleLinesAgreeWithTheAuthorsMidRowLines) {
   VINEROW_OUTSIDE_DATA(file, "vineyard_detection/data/mid_row_lines.geojson");
   const auto world = test::make_world("surveyed", riseholme());
-  const io::LocalFrame frame(world->origin);
+  const LocalFrame frame(world->origin);
   const auto lines = io::read_survey(file, "mid_row_line").rows;
   ASSERT_EQ(lines.size(), 9u);
   for (const io::GeoFeature& line : lines) {
@@ -71,7 +71,7 @@ TEST(Surveyed, MiddleLinesAgreeWithTheAuthorsMidRowLines) {
 
 TEST(Surveyed, EveryVineAndPoleStandsWhereItWasMeasured) {
   const auto world = test::make_world("surveyed", riseholme());
-  const io::LocalFrame frame(world->origin);
+  const LocalFrame frame(world->origin);
   std::vector<Eigen::Vector3f> trunks;
   for (const MeshInstance& m : world->meshes) {
     if (m.surface == SurfaceClass::kTrunk && m.collides) {

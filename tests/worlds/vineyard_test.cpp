@@ -127,10 +127,10 @@ TEST(Vineyard, ReliefUnderTheRowsIsThirtyMetres) {
 }
 
 TEST(Vineyard, ParcelLiesInsideThePapersCoordinates) {
-  const io::LocalFrame frame(parcel_f().origin);
+  const LocalFrame frame(parcel_f().origin);
   for (const PlantRow& row : parcel_f().rows->rows) {
     for (const Eigen::Vector3d& p : row.line_W) {
-      const io::Geodetic g = frame.to_geodetic(p);
+      const Geodetic g = frame.to_geodetic(p);
       EXPECT_GT(deg_from_rad(g.latitude_rad), 44.6150);
       EXPECT_LT(deg_from_rad(g.latitude_rad), 44.6157);
       EXPECT_GT(deg_from_rad(g.longitude_rad), 7.9244);

@@ -27,7 +27,7 @@ inline const Registry& world_registry() {
   static const Registry registry = [] {
     ::setenv("VINEROW_CACHE", world_cache_folder().c_str(), 1);
     Registry r;
-    register_worlds(r);
+    worlds::register_worlds(r);
     return r;
   }();
   return registry;

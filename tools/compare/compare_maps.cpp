@@ -194,7 +194,7 @@ MapComparison compare_maps(const std::filesystem::path& a, const std::filesystem
                     with.string(), without.string()));
   }
   if (first.origin) {
-    const io::LocalFrame frame_a(*first.origin), frame_b(*second.origin);
+    const LocalFrame frame_a(*first.origin), frame_b(*second.origin);
     for (MapRow& row : second.rows) {
       row.first_W = frame_a.to_local(frame_b.to_geodetic(row.first_W));
       row.last_W = frame_a.to_local(frame_b.to_geodetic(row.last_W));
@@ -252,9 +252,9 @@ std::string comparison_geojson(const MapComparison& comparison) {
                     "GeoJSON; --json gives the numbers",
                     comparison.folder_a));
   }
-  const io::LocalFrame frame(*comparison.origin);
+  const LocalFrame frame(*comparison.origin);
   const auto position = [&](const Eigen::Vector3d& p_W) {
-    const io::Geodetic place = frame.to_geodetic(p_W);
+    const Geodetic place = frame.to_geodetic(p_W);
     // 1e-9 deg is 0.1 mm. Divided by whole numbers: the double nearest to the decimal.
     const auto rounded = [](double value, double parts) {
       return std::round(value * parts) / parts;

@@ -11,11 +11,11 @@
 namespace vinerow {
 
 void register_all(Registry& registry) {
-  register_worlds(registry);
-  register_vehicles(registry);
-  register_sensors(registry);
-  register_controllers(registry);
-  register_metrics(registry);
+  worlds::register_worlds(registry);
+  vehicles::register_vehicles(registry);
+  sensors::register_sensors(registry);
+  controllers::register_controllers(registry);
+  metrics::register_metrics(registry);
   register_truth_estimator(registry);
   register_plan_job(registry);
 }

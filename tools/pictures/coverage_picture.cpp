@@ -28,7 +28,7 @@ constexpr int kPanelMargin = 32, kPanelGap = 36, kTitle = 34, kScales = 86, kNum
 constexpr int kTallestPanel = 900;
 
 /// What both maps show of the world: the parcel. Where the plane turns is of no interest.
-Eigen::AlignedBox2d extent_of(const SurveyCoverage& coverage) {
+Eigen::AlignedBox2d extent_of(const playback::SurveyCoverage& coverage) {
   Eigen::AlignedBox2d box;
   for (const Vector2d& p : coverage.options.parcel_W) box.extend(p);
   const Vector2d margin = Vector2d::Constant(0.08 * box.sizes().maxCoeff());
@@ -94,7 +94,7 @@ using Paint = std::function<std::optional<Rgb>(std::size_t cell)>;
 
 /// The cell's colour; of a cell outside the parcel that of a neighbour inside it, so that colours
 /// reach the parcel's edge.
-std::optional<Rgb> colour_near(const CoverageMap& map, const Paint& paint, int i, int j) {
+std::optional<Rgb> colour_near(const metrics::CoverageMap& map, const Paint& paint, int i, int j) {
   if (i >= 0 && j >= 0 && i < map.columns && j < map.rows) {
     if (const auto colour = paint(map.cell(i, j))) return colour;
   }
@@ -108,7 +108,7 @@ std::optional<Rgb> colour_near(const CoverageMap& map, const Paint& paint, int i
 }
 
 /// Cells with all their neighbours inside the parcel: no need to look where its edge is.
-std::vector<char> inner_cells(const CoverageMap& map) {
+std::vector<char> inner_cells(const metrics::CoverageMap& map) {
   std::vector<char> inner(map.pictures.size(), 0);
   for (int j = 1; j + 1 < map.rows; ++j) {
     for (int i = 1; i + 1 < map.columns; ++i) {
@@ -121,10 +121,10 @@ std::vector<char> inner_cells(const CoverageMap& map) {
   return inner;
 }
 
-void draw_cells(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage,
+void draw_cells(Canvas& canvas, const Panel& panel, const playback::SurveyCoverage& coverage,
                 const Paint& paint) {
   constexpr int kSamples = 3;
-  const CoverageMap& map = coverage.map;
+  const metrics::CoverageMap& map = coverage.map;
   const std::vector<char> inner = inner_cells(map);
   for (int y = static_cast<int>(panel.top); y < panel.top + panel.height; ++y) {
     for (int x = static_cast<int>(panel.left); x < panel.left + panel.width; ++x) {
@@ -152,7 +152,7 @@ void draw_cells(Canvas& canvas, const Panel& panel, const SurveyCoverage& covera
   }
 }
 
-void draw_world(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage) {
+void draw_world(Canvas& canvas, const Panel& panel, const playback::SurveyCoverage& coverage) {
   for (const auto& row : coverage.rows) {
     if (!panel.contains(row[0]) || !panel.contains(row[1])) continue;
     canvas.line(panel(row[0]), panel(row[1]), 1.0, kInk, 0.22);
@@ -164,7 +164,7 @@ void draw_world(Canvas& canvas, const Panel& panel, const SurveyCoverage& covera
     const bool over_parcel = contains(coverage.options.parcel_W, a);
     canvas.line(panel(a), panel(b), 1.6, over_parcel ? kTrack : kFaint, 0.85);
   }
-  for (const LaneShot& taken : coverage.shots) {
+  for (const metrics::LaneShot& taken : coverage.shots) {
     if (!panel.contains(taken.shot.X_WS.p.head<2>())) continue;
     const Vector2d at = panel(Vector2d(taken.shot.X_WS.p.head<2>()));
     Polygon dot, rim;
@@ -207,8 +207,8 @@ void draw_patch(Canvas& canvas, double right, double top, const Rgb& colour,
   canvas.text(words, 15, {right - 120, top + 14}, kInk);
 }
 
-void draw_counts(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage) {
-  const CoverageMap& map = coverage.map;
+void draw_counts(Canvas& canvas, const Panel& panel, const playback::SurveyCoverage& coverage) {
+  const metrics::CoverageMap& map = coverage.map;
   const int most = std::max(1, *std::max_element(map.pictures.begin(), map.pictures.end()));
   // As many colours as counts: each step of the scale is one picture more.
   const auto colour_of = [most](int count) {
@@ -232,8 +232,8 @@ void draw_counts(Canvas& canvas, const Panel& panel, const SurveyCoverage& cover
   draw_patch(canvas, panel.left + panel.width, top, kNone, "no picture");
 }
 
-void draw_overlaps(Canvas& canvas, const Panel& panel, const SurveyCoverage& coverage) {
-  const CoverageMap& map = coverage.map;
+void draw_overlaps(Canvas& canvas, const Panel& panel, const playback::SurveyCoverage& coverage) {
+  const metrics::CoverageMap& map = coverage.map;
   const double wanted = coverage.options.wanted_overlap;
   double least = wanted;
   for (const float overlap : map.forward_overlap) {
@@ -266,7 +266,7 @@ std::string percent(double share) {
 }
 
 /// The overlap that every pair keeps on half of the parcel or more of it.
-double held_on_half(const CoverageMap& map) {
+double held_on_half(const metrics::CoverageMap& map) {
   std::vector<float> held;
   std::copy_if(map.forward_overlap.begin(), map.forward_overlap.end(), std::back_inserter(held),
                [](float overlap) { return overlap >= 0.0f; });
@@ -276,11 +276,11 @@ double held_on_half(const CoverageMap& map) {
   return *middle;
 }
 
-void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& coverage) {
+void draw_numbers(Canvas& canvas, const Layout& layout, const playback::SurveyCoverage& coverage) {
   const auto number = [&](const char* name) { return coverage.map.numbers.at(name); };
   const double left = kPanelMargin, top = layout.numbers_top + 18;
-  canvas.text(fmt::format("{}: {} of {}", title_of_name(coverage.scenario), coverage.camera,
-                          coverage.vehicle),
+  canvas.text(fmt::format("{}: {} of {}", playback::title_of_name(coverage.scenario),
+                          coverage.camera, coverage.vehicle),
               22, {left, top + 6}, kInk);
   const double area_ha = 1e-4 * std::abs(signed_area_m2(coverage.options.parcel_W));
   std::vector<std::string> lines;
@@ -315,8 +315,8 @@ void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& co
   for (std::size_t i = 0; i < lines.size(); ++i) {
     canvas.text(lines[i], 16, {left, top + 34 + 24 * static_cast<double>(i)}, kFaint);
   }
-  const auto outside =
-      std::count_if(coverage.shots.begin(), coverage.shots.end(), [&](const LaneShot& taken) {
+  const auto outside = std::count_if(
+      coverage.shots.begin(), coverage.shots.end(), [&](const metrics::LaneShot& taken) {
         return !layout.panels[0].contains(taken.shot.X_WS.p.head<2>());
       });
   std::string key =
@@ -327,7 +327,7 @@ void draw_numbers(Canvas& canvas, const Layout& layout, const SurveyCoverage& co
 
 }  // namespace
 
-render::Image draw_coverage(const SurveyCoverage& coverage) {
+render::Image draw_coverage(const playback::SurveyCoverage& coverage) {
   const Layout layout(extent_of(coverage));
   Canvas canvas(kPictureWidth, layout.height, kPaper);
   for (const Panel& panel : layout.panels) {

@@ -9,6 +9,6 @@ namespace vinerow::tools {
 
 /// North is up. Both maps show the parcel, the plant rows, the vehicle's track and where pictures
 /// were taken; a scale of colours below each, and the numbers of CoverageMap.
-render::Image draw_coverage(const SurveyCoverage& coverage);
+render::Image draw_coverage(const playback::SurveyCoverage& coverage);
 
 }  // namespace vinerow::tools

@@ -45,11 +45,11 @@ void draw_taken_cells(Canvas& canvas, const PlanView& view, const WorldModel& wo
   // What of the taken cells is a row.
   OccupancyGrid rows;
   if (boundary.size() >= 3) {
-    worlds::OccupancyOptions options;
+    mapping::OccupancyOptions options;
     options.cell_m = grid.cell_m;
     options.row_end_margin_m = 0.5;  // only cells that the map has anyway are coloured
     options.virtual_walls = false;
-    rows = worlds::make_occupancy_grid(world.rows, options);
+    rows = mapping::make_occupancy_grid(world.rows, options);
   }
   for (int y = 0; y < view.map_height; ++y) {
     for (int x = 0; x < kPictureWidth; ++x) {
@@ -61,7 +61,7 @@ void draw_taken_cells(Canvas& canvas, const PlanView& view, const WorldModel& wo
         if (state_at(grid, p) != 1) continue;
         ++taken;
         const bool row = !rows.empty() && state_at(rows, p) == 1;
-        const bool inside = boundary.empty() || worlds::is_inside(p, boundary);
+        const bool inside = boundary.empty() || mapping::is_inside(p, boundary);
         const Rgb& colour = !inside ? kOutside : row ? kPlants : kTaken;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
       }
@@ -107,20 +107,20 @@ void draw_alley_numbers(Canvas& canvas, const PlanView& view, const RowMap& map)
 
 }  // namespace
 
-render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& report,
+render::Image draw_grid(const WorldModel& world, const mapping::OccupancyReport& report,
                         const std::string& title) {
   const OccupancyGrid& grid = world.rows->occupancy;
   const PlanView view(grid.corner_W, grid.cell_m * Vector2d(grid.columns, grid.rows), kNarrowMargin,
                       kTallestPlan, 104);
   Canvas canvas(kPictureWidth, view.height, kPaper);
   draw_free_ground(canvas, view, grid);
-  for (const worlds::TurningArea& area : report.turning_areas) {
+  for (const mapping::TurningArea& area : report.turning_areas) {
     canvas.fill(view(area.polygon_W), kTurning, 0.5);
     canvas.outline(view(area.polygon_W), 1.0, {196, 146, 10}, 0.7);
   }
   draw_taken_cells(canvas, view, world);
   canvas.outline(view(world.rows->boundary_W), 2.5, kBoundary);
-  for (const worlds::VirtualWall& wall : report.walls) {
+  for (const mapping::VirtualWall& wall : report.walls) {
     canvas.line(view(wall.from_W), view(wall.to_W), 3.5, kWall);
   }
   draw_alley_numbers(canvas, view, world.rows);
@@ -130,7 +130,7 @@ render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& 
   canvas.text(title, 22, {static_cast<double>(view.margin), top + 14.0}, kInk);
   canvas.text(fmt::format("{} rows, {} alleys (numbered), {} x {} cells of {:g} m, {:.1f} % free",
                           world.rows->rows.size(), world.rows->alleys.size(), grid.columns,
-                          grid.rows, grid.cell_m, 100.0 * worlds::free_share(grid)),
+                          grid.rows, grid.cell_m, 100.0 * mapping::free_share(grid)),
               16, {static_cast<double>(view.margin), top + 40.0}, kFaint);
   double x = view.margin;
   const auto legend = [&](const Rgb& colour, const std::string& words, bool shown) {

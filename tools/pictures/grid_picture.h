@@ -13,7 +13,7 @@ namespace vinerow::tools {
 /// taken cells dark; alleys carry their numbers, boxes that the map does not have are outlined.
 /// @param world  with an occupancy grid
 /// @param title  first line below the map
-render::Image draw_grid(const WorldModel& world, const worlds::OccupancyReport& report,
+render::Image draw_grid(const WorldModel& world, const mapping::OccupancyReport& report,
                         const std::string& title);
 
 }  // namespace vinerow::tools

@@ -19,15 +19,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const PhaseReport* find_phase(const RunResult& result, const std::string& name) {
+const PhaseReport* find_phase(const run::RunResult& result, const std::string& name) {
   const auto at = std::find_if(result.phases.begin(), result.phases.end(),
                                [&](const PhaseReport& phase) { return phase.name == name; });
   return at == result.phases.end() ? nullptr : &*at;
 }
 
 /// Of the product that the phase took. @returns nothing where it never was
-std::optional<fs::path> cloud_of(const io::PhaseConfig& phase, const RunResult& result) {
-  for (const io::ProductSource& source : phase.takes) {
+std::optional<fs::path> cloud_of(const scenario::PhaseConfig& phase, const run::RunResult& result) {
+  for (const scenario::ProductSource& source : phase.takes) {
     const PhaseReport* giver = find_phase(result, source.phase);
     if (source.kind == ProductKind::kCloud && giver != nullptr && giver->product) {
       return giver->product->file;
@@ -38,9 +38,9 @@ std::optional<fs::path> cloud_of(const io::PhaseConfig& phase, const RunResult& 
 
 }  // namespace
 
-std::vector<fs::path> write_map_pictures(const worlds::CloudMap& map,
-                                         const worlds::ParcelCloud& cloud,
-                                         const worlds::OccupancyOptions& options,
+std::vector<fs::path> write_map_pictures(const mapping::CloudMap& map,
+                                         const mapping::ParcelCloud& cloud,
+                                         const mapping::OccupancyOptions& options,
                                          const std::string& title, const fs::path& folder) {
   io::make_folder(folder);
   std::vector<fs::path> files;
@@ -57,9 +57,10 @@ std::vector<fs::path> write_map_pictures(const worlds::CloudMap& map,
   return files;
 }
 
-std::vector<fs::path> write_job_pictures(const io::Scenario& scenario, const RunResult& result) {
+std::vector<fs::path> write_job_pictures(const scenario::Scenario& scenario,
+                                         const run::RunResult& result) {
   std::vector<fs::path> files;
-  for (const io::PhaseConfig& phase : scenario.phases) {
+  for (const scenario::PhaseConfig& phase : scenario.phases) {
     const PhaseReport* report = find_phase(result, phase.name);
     if (report == nullptr || !report->product || report->product->kind != ProductKind::kMap) {
       continue;
@@ -67,11 +68,11 @@ std::vector<fs::path> write_job_pictures(const io::Scenario& scenario, const Run
     const fs::path& folder = report->product->file;
     const auto cloud = cloud_of(phase, result);
     if (folder.empty() || !cloud) continue;
-    const std::optional<worlds::MapPoints> points = worlds::load_map_points(folder);
+    const std::optional<mapping::MapPoints> points = mapping::load_map_points(folder);
     if (!points) continue;
-    const auto drawn =
-        write_map_pictures(worlds::load_map(folder), worlds::read_classified_cloud(*points, *cloud),
-                           points->occupancy, picture_title(scenario), folder);
+    const auto drawn = write_map_pictures(
+        mapping::load_map(folder), mapping::read_classified_cloud(*points, *cloud),
+        points->occupancy, playback::picture_title(scenario), folder);
     files.insert(files.end(), drawn.begin(), drawn.end());
   }
   return files;

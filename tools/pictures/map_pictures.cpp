@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using worlds::PointClass;
+using mapping::PointClass;
 
 constexpr Rgb kGroundPoints = {172, 144, 112}, kLow = {196, 192, 88}, kOther = {142, 146, 150};
 constexpr Rgb kRows[2] = {{46, 122, 52}, {104, 172, 62}};
@@ -27,14 +27,14 @@ constexpr int kStrip = 74;
 constexpr std::size_t kMostSplats = 6'000'000;
 
 /// Every n-th point, few enough to draw.
-std::size_t stride_of(const worlds::ParcelCloud& cloud, std::size_t most) {
+std::size_t stride_of(const mapping::ParcelCloud& cloud, std::size_t most) {
   return std::max<std::size_t>(1, (cloud.points.size() + most - 1) / most);
 }
 
 /// The map as pictures need it: heights above the ground, and rows by place.
 class Scene {
  public:
-  Scene(const worlds::CloudMap& map, const worlds::ParcelCloud& cloud)
+  Scene(const mapping::CloudMap& map, const mapping::ParcelCloud& cloud)
       : map_(map), cloud_(cloud), rows_(map.map.rows, 1.5) {
     top_m_ = std::max(0.5, map.report.canopy_top_m);
   }
@@ -50,13 +50,13 @@ class Scene {
     Rgb colour = kOther;
     double light = 1.0;
     switch (cloud_.classes[k]) {
-      case PointClass::kGround:
+      case mapping::PointClass::kGround:
         colour = kGroundPoints;
         break;
-      case PointClass::kLowVegetation:
+      case mapping::PointClass::kLowVegetation:
         colour = kLow;
         break;
-      case PointClass::kCanopy:
+      case mapping::PointClass::kCanopy:
         colour = kRows[static_cast<std::size_t>(std::max(0, row_at(p))) % std::size(kRows)];
         light = 0.62 + 0.55 * std::clamp(above_m(p) / top_m_, 0.0, 1.1);
         break;
@@ -81,12 +81,12 @@ class Scene {
     return static_cast<float>(std::clamp(1.7 / std::sqrt(per_m2), 0.015, 0.6));
   }
 
-  const worlds::CloudMap& map() const { return map_; }
-  const worlds::ParcelCloud& cloud() const { return cloud_; }
+  const mapping::CloudMap& map() const { return map_; }
+  const mapping::ParcelCloud& cloud() const { return cloud_; }
 
  private:
-  const worlds::CloudMap& map_;
-  const worlds::ParcelCloud& cloud_;
+  const mapping::CloudMap& map_;
+  const mapping::ParcelCloud& cloud_;
   RowLookup rows_;
   double top_m_;
 };
@@ -150,11 +150,11 @@ void draw_ground_below_rows(const Scene& scene, CloudView& view) {
 }
 
 void splat_cloud(const Scene& scene, CloudView& view, bool with_canopy, std::size_t most) {
-  const worlds::ParcelCloud& cloud = scene.cloud();
+  const mapping::ParcelCloud& cloud = scene.cloud();
   const std::size_t stride = stride_of(cloud, most);
   const float size_m = scene.splat_m(stride);
   for (std::size_t k = 0; k < cloud.points.size(); k += stride) {
-    if (!with_canopy && cloud.classes[k] == PointClass::kCanopy) continue;
+    if (!with_canopy && cloud.classes[k] == mapping::PointClass::kCanopy) continue;
     const Vector3d p = cloud.point_W(k);
     view.splat(p, size_m, scene.colour_of(k, p));
   }
@@ -249,7 +249,7 @@ Vector3d stretch_middle(const RowMap& map) {
 
 }  // namespace
 
-render::Image draw_classes(const worlds::CloudMap& map, const worlds::ParcelCloud& cloud,
+render::Image draw_classes(const mapping::CloudMap& map, const mapping::ParcelCloud& cloud,
                            const std::string& title) {
   constexpr int kHeight = 860;
   const Scene scene(map, cloud);
@@ -260,7 +260,7 @@ render::Image draw_classes(const worlds::CloudMap& map, const worlds::ParcelClou
   splat_cloud(scene, view, true, kMostSplats);
   Canvas canvas = framed(view.finish(kPaper), kStrip);
   draw_row_numbers(canvas, view, map.map, camera);
-  const worlds::CloudMapReport& r = map.report;
+  const mapping::CloudMapReport& r = map.report;
   canvas.text(title, 22, {kNarrowMargin, kHeight + 26.0}, kInk);
   draw_class_legend(canvas, kHeight + 44.0,
                     {{kRows[0], "canopy, rows in turn: " + share_text(r.canopy_points, r.points)},
@@ -275,7 +275,7 @@ render::Image draw_classes(const worlds::CloudMap& map, const worlds::ParcelClou
   return canvas.image();
 }
 
-render::Image draw_meshes(const worlds::CloudMap& map, const worlds::ParcelCloud& cloud,
+render::Image draw_meshes(const mapping::CloudMap& map, const mapping::ParcelCloud& cloud,
                           const std::string& title) {
   constexpr int kHeight = 760, kDetailHeight = 520, kGap = 8, kHalf = (kPictureWidth - kGap) / 2;
   const Scene scene(map, cloud);
@@ -312,7 +312,7 @@ render::Image draw_meshes(const worlds::CloudMap& map, const worlds::ParcelCloud
     if ((p - middle).head<2>().squaredNorm() > kDetailReach_m * kDetailReach_m) continue;
     const Rgb colour = scene.natural_colour_of(k, p);
     points.splat(p, size_m, colour);
-    if (cloud.classes[k] != PointClass::kCanopy) meshes.splat(p, size_m, colour);
+    if (cloud.classes[k] != mapping::PointClass::kCanopy) meshes.splat(p, size_m, colour);
   }
   draw_row_meshes(map.map, meshes, true);
   for (CloudView* view : {&points, &meshes}) draw_ground_below_rows(scene, *view);
@@ -323,7 +323,7 @@ render::Image draw_meshes(const worlds::CloudMap& map, const worlds::ParcelCloud
   canvas.paste(meshes.finish(kPaper, kSoft), kHalf + kGap, kHeight + kGap);
   draw_row_numbers(canvas, whole, map.map, whole_camera);
   const double top = kHeight + kGap + kDetailHeight;
-  const worlds::CloudMapReport& r = map.report;
+  const mapping::CloudMapReport& r = map.report;
   canvas.text(title, 22, {kNarrowMargin, top + 26.0}, kInk);
   canvas.text(
       fmt::format("Above: the parcel with its row meshes. Below: the points of a stretch of "
@@ -338,12 +338,12 @@ render::Image draw_meshes(const worlds::CloudMap& map, const worlds::ParcelCloud
   return canvas.image();
 }
 
-render::Image draw_map_grid(const worlds::CloudMap& map, const worlds::OccupancyOptions& options,
+render::Image draw_map_grid(const mapping::CloudMap& map, const mapping::OccupancyOptions& options,
                             const std::string& title) {
   WorldModel world;
   world.name = title;
   world.rows = map.map;
-  return draw_grid(world, worlds::plan_occupancy(map.map, options), title);
+  return draw_grid(world, mapping::plan_occupancy(map.map, options), title);
 }
 
 }  // namespace vinerow::tools

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using worlds::PointClass;
+using mapping::PointClass;
 
 constexpr Rgb kRowLine = {255, 255, 255}, kRowEnd = {196, 40, 40}, kNoCanopy = {236, 112, 20};
 constexpr Rgb kMapContour = {170, 150, 116}, kUnseenGround = {240, 236, 226};
@@ -39,20 +39,21 @@ struct CanopyPixels {
   std::vector<float> canopy_m;       ///< highest canopy above the ground; 0: none
   std::vector<std::uint8_t> others;  ///< a point of no row that is as high as canopy
 
-  CanopyPixels(const PlanView& view, const worlds::CloudMap& map, const worlds::ParcelCloud& cloud)
+  CanopyPixels(const PlanView& view, const mapping::CloudMap& map,
+               const mapping::ParcelCloud& cloud)
       : canopy_m(static_cast<std::size_t>(kPictureWidth) * view.map_height, 0.0f),
         others(canopy_m.size(), 0) {
     const std::size_t stride =
         std::max<std::size_t>(1, (cloud.points.size() + kMostPoints - 1) / kMostPoints);
     for (std::size_t k = 0; k < cloud.points.size(); k += stride) {
-      const PointClass is = cloud.classes[k];
-      if (is != PointClass::kCanopy && is != PointClass::kOther) continue;
+      const mapping::PointClass is = cloud.classes[k];
+      if (is != mapping::PointClass::kCanopy && is != mapping::PointClass::kOther) continue;
       const Vector3d p = cloud.point_W(k);
       const Vector2d at = view(p);
       const int x = static_cast<int>(std::floor(at.x())), y = static_cast<int>(std::floor(at.y()));
       if (x < 0 || y < 0 || x >= kPictureWidth || y >= view.map_height) continue;
       const std::size_t pixel = static_cast<std::size_t>(y) * kPictureWidth + x;
-      if (is == PointClass::kOther) {
+      if (is == mapping::PointClass::kOther) {
         others[pixel] = 1;
         continue;
       }
@@ -128,7 +129,7 @@ void draw_disc(Canvas& canvas, const Vector2d& at, double radius_px, const Rgb& 
   canvas.fill(disc, colour);
 }
 
-void draw_rows(Canvas& canvas, const PlanView& view, const worlds::CloudMap& map) {
+void draw_rows(Canvas& canvas, const PlanView& view, const mapping::CloudMap& map) {
   constexpr double kApart_px = 15.0;  // numbers nearer than that could not be read
   std::optional<Vector2d> drawn[2];   // of either end
   for (std::size_t k = 0; k < map.map.rows.size(); ++k) {
@@ -138,7 +139,7 @@ void draw_rows(Canvas& canvas, const PlanView& view, const worlds::CloudMap& map
     for (std::size_t i = 0; i + 1 < line_W.size(); ++i) {
       canvas.line(view(line_W[i]), view(line_W[i + 1]), 1.2, kRowLine, 0.6);
     }
-    const worlds::RowCurve curve(line_W);
+    const mapping::RowCurve curve(line_W);
     if (k < map.report.rows.size()) {
       for (const auto& [from_m, to_m] : map.report.rows[k].gaps_m) {
         canvas.line(view(curve.point_W(from_m)), view(curve.point_W(to_m)), 3.6, kNoCanopy);
@@ -203,7 +204,7 @@ void draw_top_legend(Canvas& canvas, double y, double low_m, double high_m, bool
 
 }  // namespace
 
-render::Image draw_top(const worlds::CloudMap& map, const worlds::ParcelCloud& cloud,
+render::Image draw_top(const mapping::CloudMap& map, const mapping::ParcelCloud& cloud,
                        const std::string& title) {
   const PlanView view = plan_of(map.map);
   Canvas canvas(kPictureWidth, view.height, kPaper);
@@ -229,7 +230,7 @@ render::Image draw_top(const worlds::CloudMap& map, const worlds::ParcelCloud& c
       {{0, top}, {kPictureWidth, top}, {kPictureWidth, top + kTopLegend}, {0, top + kTopLegend}},
       kPaper);
   canvas.text(title, 22, {kNumberedMargin, top + 26.0}, kInk);
-  const worlds::CloudMapReport& r = map.report;
+  const mapping::CloudMapReport& r = map.report;
   canvas.text(fmt::format("{} rows, {:.0f} m of them, {:.2f} m apart, bearing {:.1f}°",
                           r.rows.size(), length_m, r.spacing_m, r.bearing_deg),
               16, {kNumberedMargin, top + 52.0}, kFaint);

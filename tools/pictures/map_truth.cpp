@@ -5,8 +5,8 @@
 
 namespace vinerow::tools {
 
-std::string comparison_text(const worlds::MapComparison& c, const worlds::CloudMap& map,
-                            const worlds::CloudTruth& truth) {
+std::string comparison_text(const mapping::MapComparison& c, const mapping::CloudMap& map,
+                            const mapping::CloudTruth& truth) {
   std::string out = "against the truth\n";
   out += fmt::format("  rows found     {} of {}{}\n", c.found(), c.rows.size(),
                      c.extra_rows.empty()
@@ -26,7 +26,7 @@ std::string comparison_text(const worlds::MapComparison& c, const worlds::CloudM
                      "volume", "gaps");
   out += fmt::format("  {:>4} {:>6} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>8} {:>9}\n", "",
                      "as", "deg", "m", "m", "m", "m", "m", "m", "%", "of true");
-  for (const worlds::RowComparison& r : c.rows) {
+  for (const mapping::RowComparison& r : c.rows) {
     if (r.mapped_row < 0) {
       out += fmt::format("  {:>4} {:>6}\n", r.true_row, "none");
       continue;

@@ -8,7 +8,7 @@
 namespace vinerow::tools {
 
 /// A table: all rows together, then row by row.
-std::string comparison_text(const worlds::MapComparison& comparison, const worlds::CloudMap& map,
-                            const worlds::CloudTruth& truth);
+std::string comparison_text(const mapping::MapComparison& comparison, const mapping::CloudMap& map,
+                            const mapping::CloudTruth& truth);
 
 }  // namespace vinerow::tools

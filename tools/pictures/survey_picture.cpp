@@ -23,10 +23,12 @@ constexpr Rgb kNoGround = {214, 212, 206}, kArea = {20, 24, 26}, kWay = {92, 98,
 constexpr Rgb kSurveyContour = {150, 140, 116}, kFootprint = {214, 84, 26}, kStart = {196, 40, 40};
 constexpr int kSurveyLegend = 122;
 
-std::vector<Vector2d> footprint_of(const SurveyCamera& camera, const SurveyShot& shot) {
-  const Vector2d along = 0.5 * camera.footprint_length_m(shot.height_m) * direction(shot.yaw_rad);
+std::vector<Vector2d> footprint_of(const SurveyCamera& camera,
+                                   const controllers::SurveyShot& shot) {
+  const Vector2d along =
+      0.5 * camera.footprint_length_m(shot.height_m) * controllers::direction(shot.yaw_rad);
   const Vector2d across =
-      0.5 * camera.footprint_width_m(shot.height_m) * left_of(direction(shot.yaw_rad));
+      0.5 * camera.footprint_width_m(shot.height_m) * left_of(controllers::direction(shot.yaw_rad));
   const Vector2d middle = shot.p_W.head<2>();
   return {middle + along + across, middle - along + across, middle - along - across,
           middle + along - across};
@@ -35,7 +37,7 @@ std::vector<Vector2d> footprint_of(const SurveyCamera& camera, const SurveyShot&
 /// Heights at every second pixel, for shading and contour lines.
 class Relief {
  public:
-  Relief(const PlanView& view, const GroundHeight& ground)
+  Relief(const PlanView& view, const controllers::GroundHeight& ground)
       : rows_((view.map_height + 1) / kStep + 2) {
     for (int j = 0; j < rows_; ++j) {
       for (int i = 0; i < kColumns; ++i) {
@@ -117,7 +119,7 @@ class Relief {
 };
 
 /// The lane's place in the order, as a colour; the bright end is left out, it is lost on paper.
-Rgb colour_of(const SurveyPlan& plan, int lane) {
+Rgb colour_of(const controllers::SurveyPlan& plan, int lane) {
   const auto at = std::find(plan.order.begin(), plan.order.end(), lane);
   const double count = std::max(1.0, static_cast<double>(plan.order.size()) - 1.0);
   return viridis(0.86 * static_cast<double>(at - plan.order.begin()) / count);
@@ -131,7 +133,7 @@ void draw_arrow(Canvas& canvas, const Vector2d& tip, const Vector2d& way, double
               colour);
 }
 
-void draw_way(Canvas& canvas, const PlanView& view, const SurveyPlan& plan) {
+void draw_way(Canvas& canvas, const PlanView& view, const controllers::SurveyPlan& plan) {
   const auto& points = plan.path.points;
   for (const bool lanes : {false, true}) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -149,7 +151,7 @@ void draw_way(Canvas& canvas, const PlanView& view, const SurveyPlan& plan) {
   }
 }
 
-void draw_waypoints(Canvas& canvas, const PlanView& view, const SurveyPlan& plan) {
+void draw_waypoints(Canvas& canvas, const PlanView& view, const controllers::SurveyPlan& plan) {
   constexpr int kSize_px = 12;
   std::vector<Vector2d> taken;
   for (std::size_t i = 0; i < plan.path.points.size(); ++i) {
@@ -163,7 +165,7 @@ void draw_waypoints(Canvas& canvas, const PlanView& view, const SurveyPlan& plan
                     at + Vector2d(-4.5, 0)},
                    1.6, colour);
     // Beside the way, where no other number is.
-    const Vector2d way = direction(point.yaw_rad);
+    const Vector2d way = controllers::direction(point.yaw_rad);
     const Vector2d beside(-way.y(), -way.x());
     for (const double side : {1.0, -1.0}) {
       const Vector2d middle = at + side * 13.0 * beside;
@@ -178,8 +180,8 @@ void draw_waypoints(Canvas& canvas, const PlanView& view, const SurveyPlan& plan
   }
 }
 
-void draw_survey_legend(Canvas& canvas, double y, const SurveyPlan& plan, double contour_m,
-                        bool is_flat) {
+void draw_survey_legend(Canvas& canvas, double y, const controllers::SurveyPlan& plan,
+                        double contour_m, bool is_flat) {
   double x = kNumberedMargin;
   const auto words = [&](const std::string& text) {
     canvas.text(text, 16, {x, y + 5.5}, kInk);
@@ -208,12 +210,13 @@ void draw_survey_legend(Canvas& canvas, double y, const SurveyPlan& plan, double
 
 }  // namespace
 
-render::Image draw_survey(const SurveyRequest& request, const SurveyPlan& plan,
-                          const GroundHeight& ground, const std::string& title) {
+render::Image draw_survey(const controllers::SurveyRequest& request,
+                          const controllers::SurveyPlan& plan,
+                          const controllers::GroundHeight& ground, const std::string& title) {
   Eigen::AlignedBox2d box;
   for (const Vector2d& p : request.polygon_W) box.extend(p);
   for (const PathPoint& point : plan.path.points) box.extend(Vector2d(point.p_W.head<2>()));
-  const SurveyShot& shown = plan.shots[plan.shots.size() / 3];
+  const controllers::SurveyShot& shown = plan.shots[plan.shots.size() / 3];
   const std::vector<Vector2d> footprint_W = footprint_of(request.camera, shown);
   for (const Vector2d& p : footprint_W) box.extend(p);
   const PlanView view(box.min(), box.sizes(), kNumberedMargin, kTallestPlan, kSurveyLegend);

@@ -12,7 +12,8 @@ namespace vinerow::tools {
 /// North is up. Terrain shaded with contour lines, the area, lanes coloured in the order flown,
 /// waypoints numbered, turns and the ways there and home thin, the footprint of one picture.
 /// @param title  first line below the map
-render::Image draw_survey(const SurveyRequest& request, const SurveyPlan& plan,
-                          const GroundHeight& ground, const std::string& title);
+render::Image draw_survey(const controllers::SurveyRequest& request,
+                          const controllers::SurveyPlan& plan,
+                          const controllers::GroundHeight& ground, const std::string& title);
 
 }  // namespace vinerow::tools

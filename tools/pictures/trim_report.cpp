@@ -14,21 +14,22 @@ constexpr double kIntegrator_radps = 1e-6;
 constexpr double kBankAccuracy_rad = rad_from_deg(0.01);
 constexpr double kSteepestBank_rad = rad_from_deg(85.0);
 
-bool oscillates(const FlightMode& mode) {
+bool oscillates(const controllers::FlightMode& mode) {
   return mode.root.imag() > 0.0;
 }
 
-std::vector<FlightMode> without_integrators(const LinearAxis& axis) {
-  std::vector<FlightMode> modes = calc_modes(axis);
-  std::erase_if(modes,
-                [](const FlightMode& mode) { return mode.frequency_radps < kIntegrator_radps; });
+std::vector<controllers::FlightMode> without_integrators(const controllers::LinearAxis& axis) {
+  std::vector<controllers::FlightMode> modes = controllers::calc_modes(axis);
+  std::erase_if(modes, [](const controllers::FlightMode& mode) {
+    return mode.frequency_radps < kIntegrator_radps;
+  });
   return modes;
 }
 
 /// Of two oscillations the slow one is the phugoid, the fast one the short period.
-std::vector<NamedMode> name_lon(const LinearAxis& axis) {
+std::vector<NamedMode> name_lon(const controllers::LinearAxis& axis) {
   std::vector<NamedMode> named;
-  const std::vector<FlightMode> modes = without_integrators(axis);
+  const std::vector<controllers::FlightMode> modes = without_integrators(axis);
   const bool usual = modes.size() == 2 && oscillates(modes[0]) && oscillates(modes[1]);
   for (std::size_t i = 0; i < modes.size(); ++i) {
     named.push_back({!usual ? "mode" : i == 0 ? "phugoid" : "short period", modes[i]});
@@ -37,11 +38,11 @@ std::vector<NamedMode> name_lon(const LinearAxis& axis) {
 }
 
 /// One oscillation, the dutch roll; the slow real root is the spiral, the fast one the roll.
-std::vector<NamedMode> name_lat(const LinearAxis& axis) {
+std::vector<NamedMode> name_lat(const controllers::LinearAxis& axis) {
   std::vector<NamedMode> named;
-  const std::vector<FlightMode> modes = without_integrators(axis);
+  const std::vector<controllers::FlightMode> modes = without_integrators(axis);
   int real = 0;
-  for (const FlightMode& mode : modes) {
+  for (const controllers::FlightMode& mode : modes) {
     named.push_back({oscillates(mode) ? "dutch roll" : real++ == 0 ? "spiral" : "roll", mode});
   }
   if (modes.size() != 3 || real != 2) {
@@ -50,10 +51,10 @@ std::vector<NamedMode> name_lat(const LinearAxis& axis) {
   return named;
 }
 
-double find_steepest_bank(const Aircraft& aircraft, double airspeed_mps) {
+double find_steepest_bank(const controllers::Aircraft& aircraft, double airspeed_mps) {
   double good = 0.0, bad = kSteepestBank_rad;
   const auto flies = [&](double bank_rad) {
-    return find_trim(aircraft, {airspeed_mps, 0.0, bank_rad}).ok();
+    return controllers::find_trim(aircraft, {airspeed_mps, 0.0, bank_rad}).ok();
   };
   if (flies(bad)) return bad;
   while (bad - good > kBankAccuracy_rad) {
@@ -74,7 +75,7 @@ std::string matrix_text(const char* name, const Eigen::MatrixXd& matrix) {
 }
 
 std::string mode_text(const NamedMode& named) {
-  const FlightMode& mode = named.mode;
+  const controllers::FlightMode& mode = named.mode;
   if (!oscillates(mode)) {
     return fmt::format("  {:<14} {:.4f} /s, {} by e in {:.3g} s\n", named.name, mode.root.real(),
                        mode.root.real() > 0.0 ? "grows" : "falls",
@@ -86,22 +87,26 @@ std::string mode_text(const NamedMode& named) {
 
 }  // namespace
 
-TrimReport make_trim_report(const Aircraft& aircraft, const TrimRequest& request, double period_s,
+TrimReport make_trim_report(const controllers::Aircraft& aircraft,
+                            const controllers::TrimRequest& request, double period_s,
                             const std::string& who) {
-  const Result<Trim> trim = find_trim(aircraft, request);
+  const Result<controllers::Trim> trim = controllers::find_trim(aircraft, request);
   if (!trim) throw ConfigError(fmt::format("{}: {}", who, trim.reason()));
   TrimReport report;
   report.aircraft = aircraft;
   report.trim = *trim;
   report.period_s = period_s;
-  const AircraftLinear linear = linearise(aircraft, *trim);
+  const controllers::AircraftLinear linear = controllers::linearise(aircraft, *trim);
   report.lon_modes = name_lon(linear.longitudinal);
   report.lat_modes = name_lat(linear.lateral);
-  report.laws = make_aircraft_laws(aircraft, *trim, period_s, {}, who);
-  if (const Result<SpeedRange> level = find_speed_range(aircraft, 0.0, 0.0)) report.level = *level;
-  const TrimRequest straight{request.airspeed_mps, 0.0, 0.0};
+  report.laws = controllers::make_aircraft_laws(aircraft, *trim, period_s, {}, who);
+  if (const Result<controllers::SpeedRange> level =
+          controllers::find_speed_range(aircraft, 0.0, 0.0))
+    report.level = *level;
+  const controllers::TrimRequest straight{request.airspeed_mps, 0.0, 0.0};
   const auto climb_at = [&](double throttle) -> std::optional<double> {
-    const Result<Trim> found = find_trim_at_throttle(aircraft, straight, throttle);
+    const Result<controllers::Trim> found =
+        controllers::find_trim_at_throttle(aircraft, straight, throttle);
     if (!found) return std::nullopt;
     return found->request.climb_angle_rad;
   };
@@ -112,7 +117,7 @@ TrimReport make_trim_report(const Aircraft& aircraft, const TrimRequest& request
 }
 
 std::string to_text(const TrimReport& report) {
-  const Trim& t = report.trim;
+  const controllers::Trim& t = report.trim;
   // Rounding shall not show as "-0.000".
   const auto deg = [](double angle_rad) {
     return std::round(deg_from_rad(angle_rad) * 1e6) * 1e-6 + 0.0;
@@ -148,7 +153,7 @@ std::string to_text(const TrimReport& report) {
        fmt::format("bank {:.2f} deg at most, radius {:.2f} m", deg(report.bank_max_rad),
                    V * V / (report.aircraft.gravity_mps2 * std::tan(report.bank_max_rad))));
   const auto axis = [&](const char* title, const std::vector<NamedMode>& modes,
-                        const AxisLaw& law) {
+                        const controllers::AxisLaw& law) {
     text += fmt::format("\n{}\n", title);
     for (const NamedMode& mode : modes) text += mode_text(mode);
     text += matrix_text("A", law.model.A) + matrix_text("B", law.model.B) +

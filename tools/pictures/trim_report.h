@@ -13,16 +13,16 @@ namespace vinerow::tools {
 
 struct NamedMode {
   std::string name;  ///< "short period", "phugoid", "roll", "dutch roll", "spiral", or "mode"
-  FlightMode mode;
+  controllers::FlightMode mode;
 };
 
 struct TrimReport {
-  Aircraft aircraft;
-  Trim trim;
+  controllers::Aircraft aircraft;
+  controllers::Trim trim;
   double period_s = 0.05;
   std::vector<NamedMode> lon_modes, lat_modes;  ///< without the integrators of height and heading
-  AircraftLaws laws;
-  SpeedRange level;  ///< straight and level
+  controllers::AircraftLaws laws;
+  controllers::SpeedRange level;  ///< straight and level
   /// At the trim's speed with wings level: full throttle and none. Absent where the elevons do not
   /// hold it.
   std::optional<double> climb_max_rad, climb_min_rad;
@@ -30,7 +30,8 @@ struct TrimReport {
 };
 
 /// @throws ConfigError "<who>: no steady flight at ..."
-TrimReport make_trim_report(const Aircraft& aircraft, const TrimRequest& request, double period_s,
+TrimReport make_trim_report(const controllers::Aircraft& aircraft,
+                            const controllers::TrimRequest& request, double period_s,
                             const std::string& who);
 
 /// Several lines, angles in deg.

@@ -18,7 +18,7 @@ ordered_json rows(const Eigen::MatrixXd& matrix) {
   return all;
 }
 
-ordered_json axis(const std::vector<NamedMode>& modes, const AxisLaw& law) {
+ordered_json axis(const std::vector<NamedMode>& modes, const controllers::AxisLaw& law) {
   ordered_json json;
   json["modes"] = ordered_json::array();
   for (const NamedMode& named : modes) {
@@ -32,14 +32,14 @@ ordered_json axis(const std::vector<NamedMode>& modes, const AxisLaw& law) {
   json["B"] = rows(law.model.B);
   json["E"] = rows(law.model.E);
   json["K_lqr"] = rows(law.K);
-  json["spectral_radius_lqr"] = spectral_radius(law.model.A + law.model.B * law.K);
+  json["spectral_radius_lqr"] = controllers::spectral_radius(law.model.A + law.model.B * law.K);
   return json;
 }
 
 }  // namespace
 
 std::string to_json(const TrimReport& report) {
-  const Trim& t = report.trim;
+  const controllers::Trim& t = report.trim;
   ordered_json json;
   json["vehicle"] = {{"type", report.aircraft.type},
                      {"mass_kg", report.aircraft.flight_model->mass_kg()},

@@ -23,10 +23,10 @@ struct ReplayPhase {
 
 /// What a replay shows. Pointers are read while the section is made, and not kept.
 struct ReplayInput {
-  const io::Scenario* scenario = nullptr;
+  const scenario::Scenario* scenario = nullptr;
   const WorldModel* world = nullptr;
   const std::vector<std::unique_ptr<Vehicle>>* vehicles = nullptr;  ///< order of the scenario's
-  const LogTrace* trace = nullptr;                                  ///< with these vehicles
+  const playback::LogTrace* trace = nullptr;                        ///< with these vehicles
   std::vector<ReplayPhase> phases;
 };
 

@@ -70,7 +70,7 @@ void add_plans(const ReplayInput& input, const ReplayLimits& limits, ReplayTrack
   std::size_t left = limits.plan_points;
   std::size_t left_out = 0;
   for (json& vehicle : tracks.index["vehicles"]) {
-    const Trace<PlannedPath>& plans =
+    const playback::Trace<PlannedPath>& plans =
         input.trace->vehicles.at(vehicle["name"].get<std::string>()).plan;
     vehicle["plans"] = json::array();
     std::vector<Eigen::Vector3d> last;

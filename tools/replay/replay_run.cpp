@@ -54,12 +54,13 @@ std::vector<ReplayPhase> phases_of_summary(const std::string& summary,
 ReplayRun read_replay_run(const std::filesystem::path& run, const Registry& registry) {
   const std::filesystem::path log = log_to_replay(run);
   ReplayRun result;
-  result.scenario = scenario_of_log(log, registry);
+  result.scenario = playback::scenario_of_log(log, registry);
   result.world = build_world(result.scenario, registry);
-  result.vehicles = vehicles_of_scenario(result.scenario, registry);
+  result.vehicles = playback::vehicles_of_scenario(result.scenario, registry);
   std::vector<std::string> names;
-  for (const io::VehicleConfig& vehicle : result.scenario.vehicles) names.push_back(vehicle.name);
-  result.trace = read_trace(record::LogReader(log), names);
+  for (const scenario::VehicleConfig& vehicle : result.scenario.vehicles)
+    names.push_back(vehicle.name);
+  result.trace = playback::read_trace(record::LogReader(log), names);
   const std::filesystem::path summary = log.parent_path() / "summary.json";
   if (std::filesystem::exists(summary)) {
     std::ifstream stream(summary, std::ios::binary);

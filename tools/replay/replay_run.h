@@ -12,10 +12,10 @@
 namespace vinerow::tools {
 
 struct ReplayRun {
-  io::Scenario scenario;
+  scenario::Scenario scenario;
   std::unique_ptr<WorldModel> world;
   std::vector<std::unique_ptr<Vehicle>> vehicles;  ///< order of the scenario's
-  LogTrace trace;
+  playback::LogTrace trace;
   std::vector<ReplayPhase> phases;
 
   ReplayInput input() const { return {&scenario, world.get(), &vehicles, &trace, phases}; }

@@ -68,7 +68,7 @@ bool same(const Pose& a, const Pose& b) {
 
 /// Every 1 / rate_Hz, or where the log holds poses if those are fewer: few poses lie far apart
 /// where they were written seldom, or with false stamps centuries apart.
-std::vector<Time> sample_times(const VehicleTrace& trace, double rate_Hz) {
+std::vector<Time> sample_times(const playback::VehicleTrace& trace, double rate_Hz) {
   const std::vector<Time>& poses = trace.truth.times;
   const Time first = poses.front(), last = poses.back();
   const double count = std::ceil((last - first).s() * rate_Hz);
@@ -85,7 +85,7 @@ std::vector<Time> sample_times(const VehicleTrace& trace, double rate_Hz) {
   return times;
 }
 
-Samples take_samples(const VehicleTrace& trace, std::size_t links, double rate_Hz) {
+Samples take_samples(const playback::VehicleTrace& trace, std::size_t links, double rate_Hz) {
   Samples all;
   all.X_BL.resize(links);
   for (const Time t : sample_times(trace, rate_Hz)) {
@@ -118,15 +118,15 @@ Samples take_samples(const VehicleTrace& trace, std::size_t links, double rate_H
 }
 
 /// Axis in the link that it spins about; nothing where its samples show how it turns.
-std::optional<Eigen::Vector3d> spin_axis(const Trace<LinkPoses>& links, std::size_t link,
-                                         const Trace<Odometry>& truth) {
+std::optional<Eigen::Vector3d> spin_axis(const playback::Trace<LinkPoses>& links, std::size_t link,
+                                         const playback::Trace<Odometry>& truth) {
   std::vector<double> turns_rad;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::optional<Eigen::Quaterniond> last;
   for (std::size_t i = 0; i < links.values.size(); ++i) {
     if (link >= links.values[i].X_WL.size()) return std::nullopt;
-    const Eigen::Quaterniond q =
-        odometry_at(truth, links.times[i]).X_WB.q.conjugate() * links.values[i].X_WL[link].q;
+    const Eigen::Quaterniond q = playback::odometry_at(truth, links.times[i]).X_WB.q.conjugate() *
+                                 links.values[i].X_WL[link].q;
     if (last) {
       const Eigen::AngleAxisd turn(last->conjugate() * q);
       const double angle_rad = std::abs(std::remainder(turn.angle(), 2.0 * EIGEN_PI));
@@ -185,9 +185,9 @@ json link_index(const std::string& name, const std::vector<Pose>& X_BL,
 }
 
 json vehicle_index(const ReplayInput& input, std::size_t v, double rate_Hz, std::string& bytes) {
-  const io::VehicleConfig& config = input.scenario->vehicles[v];
+  const scenario::VehicleConfig& config = input.scenario->vehicles[v];
   const Vehicle& vehicle = *(*input.vehicles)[v];
-  const VehicleTrace& trace = input.trace->vehicles.at(config.name);
+  const playback::VehicleTrace& trace = input.trace->vehicles.at(config.name);
   const VehicleDescription& description = vehicle.description();
   const Samples samples = take_samples(trace, vehicle.links().size(), rate_Hz);
 
@@ -208,7 +208,7 @@ json vehicle_index(const ReplayInput& input, std::size_t v, double rate_Hz, std:
       {"name", config.name},
       {"type", config.vehicle.type},
       {"index", v},
-      {"colour", hex_colour(vehicle_colour(v).rgb)},
+      {"colour", playback::hex_colour(playback::vehicle_colour(v).rgb)},
       {"flies", description.flies()},
       {"foot_m", description.height_above_ground_m},
       {"size_m", 2.0 * description.collision_half_extents_m.head<2>().maxCoeff()},

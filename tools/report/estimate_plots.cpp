@@ -55,12 +55,12 @@ struct Errors {
   bool states_any = false;
 };
 
-Errors errors_of(const Trace<Odometry>& estimate, const Trace<Odometry>& truth,
+Errors errors_of(const playback::Trace<Odometry>& estimate, const playback::Trace<Odometry>& truth,
                  const std::vector<PolylineDistance>& rows) {
   Errors errors;
   for (std::size_t i = 0; i < estimate.values.size(); ++i) {
     const Time t = estimate.times[i];
-    const Odometry true_now = odometry_at(truth, t);
+    const Odometry true_now = playback::odometry_at(truth, t);
     const Eigen::Vector2d e = (estimate.values[i].X_WB.p - true_now.X_WB.p).head<2>();
     const Eigen::Vector2d d = along(rows, true_now.X_WB), n(-d.y(), d.x());
     const Eigen::Matrix2d P = estimate.values[i].position_covariance().topLeftCorner<2, 2>();

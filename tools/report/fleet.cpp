@@ -44,7 +44,8 @@ Samples distance_of(const VehicleLog& a, const VehicleLog& b) {
   if (a.truth.empty() || b.truth.empty()) return samples;
   for (std::size_t i = 0; i < a.truth.times.size(); ++i) {
     const Time t = a.truth.times[i];
-    samples.add(t.s(), (a.truth.values[i].X_WB.p - odometry_at(b.truth, t).X_WB.p).norm());
+    samples.add(t.s(),
+                (a.truth.values[i].X_WB.p - playback::odometry_at(b.truth, t).X_WB.p).norm());
   }
   return samples;
 }

@@ -15,7 +15,7 @@ namespace {
 
 using report::escaped;
 
-constexpr const char* kStyle = R"(
+constexpr const char* kMapStyle = R"(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
 body { margin: 0; background: #faf9f5; color: #262c2e; font: 16px/1.5 "Helvetica Neue", Arial, "DejaVu Sans", sans-serif; }
@@ -45,7 +45,7 @@ footer { margin-top: 48px; font-size: 13px; color: #787c7a; }
 )";
 
 /// "7 012 345", with narrow spaces that do not break.
-std::string grouped(std::int64_t number) {
+std::string grouped_count(std::int64_t number) {
   std::string digits = std::to_string(std::abs(number)), out;
   for (std::size_t k = 0; k < digits.size(); ++k) {
     if (k > 0 && (digits.size() - k) % 3 == 0) out += "\u202f";
@@ -59,25 +59,26 @@ std::string megabytes(std::int64_t bytes) {
   return fmt::format("{:.{}f} MB", mb, mb < 10.0 ? 2 : mb < 100.0 ? 1 : 0);
 }
 
-double total_length_m(const worlds::CloudMapReport& r) {
+double total_length_m(const mapping::CloudMapReport& r) {
   double sum_m = 0.0;
   for (const auto& row : r.rows) sum_m += row.length_m;
   return sum_m;
 }
 
-double gaps_of_m(const worlds::MappedRowFigures& row) {
+double gaps_of_m(const mapping::MappedRowFigures& row) {
   double sum_m = 0.0;
   for (const auto& [from_m, to_m] : row.gaps_m) sum_m += to_m - from_m;
   return sum_m;
 }
 
-double all_gaps_m(const worlds::CloudMapReport& r) {
+double all_gaps_m(const mapping::CloudMapReport& r) {
   double sum_m = 0.0;
   for (const auto& row : r.rows) sum_m += gaps_of_m(row);
   return sum_m;
 }
 
-std::string card(const std::string& value, const std::string& unit, const std::string& what) {
+std::string figure_card(const std::string& value, const std::string& unit,
+                        const std::string& what) {
   return fmt::format(
       "<div class=\"card\"><div class=\"value\">{}{}</div><div class=\"what\">{}</div></div>\n",
       value, unit.empty() ? "" : fmt::format(" <small>{}</small>", unit), what);
@@ -87,37 +88,37 @@ std::string fact(const std::string& what, const std::string& value) {
   return fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", what, escaped(value));
 }
 
-std::string cards(const worlds::CloudMap& map) {
-  const worlds::CloudMapReport& r = map.report;
+std::string cards(const mapping::CloudMap& map) {
+  const mapping::CloudMapReport& r = map.report;
   const double area_ha = 1e-4 * std::abs(signed_area_m2(map.map.boundary_W));
   std::string out = "<div class=\"cards\">\n";
-  out += card(std::to_string(r.rows.size()), "", "rows");
-  out += card(fmt::format("{:.0f}", total_length_m(r)), "m", "length of all rows");
-  out += card(fmt::format("{:.2f}", r.spacing_m), fmt::format("± {:.2f} m", r.spacing_std_m),
-              "between rows");
-  out += card(fmt::format("{:.1f}°", r.bearing_deg), "from north", "direction of the rows");
-  out += card(fmt::format("{:.2f}", r.canopy_top_m), "m", "canopy height above the ground");
-  out += card(fmt::format("{:.2f}", r.canopy_width_m), "m", "canopy width");
-  out += card(fmt::format("{:.0f}", r.volume_m3),
-              area_ha > 0.0 ? fmt::format("m³, {:.0f} m³/ha", r.volume_m3 / area_ha) : "m³",
-              "volume inside the meshes");
-  out += card(fmt::format("{:.0f}", r.seen_volume_m3), "m³",
-              "canopy that was seen, without what noise adds");
-  out +=
-      card(fmt::format("{:.0f}", all_gaps_m(r)),
-           fmt::format("m, {:.1f} %",
-                       total_length_m(r) > 0.0 ? 100.0 * all_gaps_m(r) / total_length_m(r) : 0.0),
-           "of the rows without canopy");
-  out += card(fmt::format("{:.1f} %", 100.0 * r.containment), "",
-              "of canopy points within 1 cm of the meshes");
-  out += card(fmt::format("{:.1f} %", 100.0 * r.reduction),
-              fmt::format("{} of {}", megabytes(r.mesh_bytes), megabytes(r.cloud_bytes)),
-              "less data than the point cloud");
+  out += figure_card(std::to_string(r.rows.size()), "", "rows");
+  out += figure_card(fmt::format("{:.0f}", total_length_m(r)), "m", "length of all rows");
+  out += figure_card(fmt::format("{:.2f}", r.spacing_m), fmt::format("± {:.2f} m", r.spacing_std_m),
+                     "between rows");
+  out += figure_card(fmt::format("{:.1f}°", r.bearing_deg), "from north", "direction of the rows");
+  out += figure_card(fmt::format("{:.2f}", r.canopy_top_m), "m", "canopy height above the ground");
+  out += figure_card(fmt::format("{:.2f}", r.canopy_width_m), "m", "canopy width");
+  out += figure_card(fmt::format("{:.0f}", r.volume_m3),
+                     area_ha > 0.0 ? fmt::format("m³, {:.0f} m³/ha", r.volume_m3 / area_ha) : "m³",
+                     "volume inside the meshes");
+  out += figure_card(fmt::format("{:.0f}", r.seen_volume_m3), "m³",
+                     "canopy that was seen, without what noise adds");
+  out += figure_card(
+      fmt::format("{:.0f}", all_gaps_m(r)),
+      fmt::format("m, {:.1f} %",
+                  total_length_m(r) > 0.0 ? 100.0 * all_gaps_m(r) / total_length_m(r) : 0.0),
+      "of the rows without canopy");
+  out += figure_card(fmt::format("{:.1f} %", 100.0 * r.containment), "",
+                     "of canopy points within 1 cm of the meshes");
+  out += figure_card(fmt::format("{:.1f} %", 100.0 * r.reduction),
+                     fmt::format("{} of {}", megabytes(r.mesh_bytes), megabytes(r.cloud_bytes)),
+                     "less data than the point cloud");
   return out + "</div>\n";
 }
 
-std::string row_table(const worlds::CloudMap& map) {
-  const worlds::CloudMapReport& r = map.report;
+std::string row_table(const mapping::CloudMap& map) {
+  const mapping::CloudMapReport& r = map.report;
   std::string out =
       "<div class=\"scroll\"><table>\n<thead><tr><th>row</th><th>length<br/><small>m</small></th>"
       "<th>bearing<br/><small>°</small></th><th>to the next<br/><small>m</small></th>"
@@ -126,7 +127,7 @@ std::string row_table(const worlds::CloudMap& map) {
       "<th>without canopy<br/><small>m (gaps)</small></th>"
       "<th>contained<br/><small>%</small></th><th>points</th><th>triangles</th>"
       "</tr></thead>\n<tbody>\n";
-  for (const worlds::MappedRowFigures& f : r.rows) {
+  for (const mapping::MappedRowFigures& f : r.rows) {
     out += fmt::format(
         "<tr><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td>"
         "<td>{:.2f}</td><td>{:.1f}</td><td>{}</td><td>{:.2f}</td><td>{}</td><td>{}</td></tr>\n",
@@ -134,18 +135,19 @@ std::string row_table(const worlds::CloudMap& map) {
         f.spacing_m > 0.0 ? fmt::format("{:.3f}", f.spacing_m) : "", f.canopy_base_m,
         f.canopy_top_m, f.canopy_width_m, f.volume_m3,
         f.gaps_m.empty() ? "0" : fmt::format("{:.1f} ({})", gaps_of_m(f), f.gaps_m.size()),
-        100.0 * f.containment, grouped(f.points), grouped(f.triangles));
+        100.0 * f.containment, grouped_count(f.points), grouped_count(f.triangles));
   }
   out += fmt::format(
       "</tbody>\n<tfoot><tr><td>all</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.3f}</td><td></td>"
       "<td>{:.2f}</td><td>{:.2f}</td><td>{:.1f}</td><td>{:.1f}</td><td>{:.2f}</td><td>{}</td>"
       "<td>{}</td></tr></tfoot>\n</table></div>\n",
       total_length_m(r), r.bearing_deg, r.spacing_m, r.canopy_top_m, r.canopy_width_m, r.volume_m3,
-      all_gaps_m(r), 100.0 * r.containment, grouped(r.canopy_points), grouped(r.triangles));
+      all_gaps_m(r), 100.0 * r.containment, grouped_count(r.canopy_points),
+      grouped_count(r.triangles));
   return out;
 }
 
-std::string end_table(const worlds::CloudMap& map) {
+std::string end_table(const mapping::CloudMap& map) {
   std::string out =
       "<div class=\"scroll\"><table>\n<thead><tr><th>row</th><th>end</th><th>east<br/>"
       "<small>m</small></th><th>north<br/><small>m</small></th><th>up<br/><small>m</small></th>";
@@ -155,13 +157,13 @@ std::string end_table(const worlds::CloudMap& map) {
         "<th>altitude<br/><small>m</small></th>";
   }
   out += "</tr></thead>\n<tbody>\n";
-  for (const worlds::MappedRowFigures& f : map.report.rows) {
+  for (const mapping::MappedRowFigures& f : map.report.rows) {
     for (const bool last : {false, true}) {
       const Eigen::Vector3d& p = last ? f.last_W : f.first_W;
       out += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td>",
                          f.row, last ? "last" : "first", p.x(), p.y(), p.z());
       if (map.has_origin) {
-        const io::Geodetic place = io::LocalFrame(map.origin).to_geodetic(p);
+        const Geodetic place = LocalFrame(map.origin).to_geodetic(p);
         out += fmt::format("<td>{:.7f}</td><td>{:.7f}</td><td>{:.2f}</td>",
                            deg_from_rad(place.latitude_rad), deg_from_rad(place.longitude_rad),
                            place.altitude_m);
@@ -172,19 +174,19 @@ std::string end_table(const worlds::CloudMap& map) {
   return out + "</tbody>\n</table></div>\n";
 }
 
-std::string facts(const worlds::CloudMap& map) {
-  const worlds::CloudMapReport& r = map.report;
+std::string facts(const mapping::CloudMap& map) {
+  const mapping::CloudMapReport& r = map.report;
   const auto share = [&](std::int64_t part) {
-    return fmt::format("{} ({:.1f} %)", grouped(part),
+    return fmt::format("{} ({:.1f} %)", grouped_count(part),
                        r.points > 0 ? 100.0 * static_cast<double>(part) / r.points : 0.0);
   };
   std::string out = "<table class=\"facts\"><tbody>\n";
   out += fact("file", r.file + (r.format.empty() ? "" : ", " + r.format));
   out += fact("coordinate reference system", r.crs.empty() ? "none, local metres" : r.crs);
-  out += fact("points",
-              grouped(r.points) + (r.not_finite > 0 ? fmt::format(", {} more left out, not finite",
-                                                                  grouped(r.not_finite))
-                                                    : ""));
+  out += fact("points", grouped_count(r.points) +
+                            (r.not_finite > 0 ? fmt::format(", {} more left out, not finite",
+                                                            grouped_count(r.not_finite))
+                                              : ""));
   out += fact("density", fmt::format("{:.0f} per m²", r.density_per_m2));
   out += fact("noise", fmt::format("{:.1f} cm (1 sigma of ground points)", 100.0 * r.noise_m));
   out += fact("ground points", share(r.ground_points));
@@ -210,15 +212,15 @@ std::string facts(const worlds::CloudMap& map) {
 
 }  // namespace
 
-std::string map_report_html(const worlds::CloudMap& map, const std::vector<ReportPicture>& pictures,
-                            const std::string& title) {
-  const worlds::CloudMapReport& r = map.report;
+std::string map_report_html(const mapping::CloudMap& map,
+                            const std::vector<ReportPicture>& pictures, const std::string& title) {
+  const mapping::CloudMapReport& r = map.report;
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>{0}: map of the vineyard</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
       "<h1>{0}</h1>\n<p class=\"lead\">Map of the vineyard from {2} points</p>\n",
-      escaped(title), kStyle, grouped(r.points));
+      escaped(title), kMapStyle, grouped_count(r.points));
   out += cards(map);
   if (!r.notes.empty()) {
     out += "<h2>Notes</h2>\n<ul>\n";
@@ -240,8 +242,8 @@ std::string map_report_html(const worlds::CloudMap& map, const std::vector<Repor
   return out;
 }
 
-std::string map_report_text(const worlds::CloudMap& map) {
-  const worlds::CloudMapReport& r = map.report;
+std::string map_report_text(const mapping::CloudMap& map) {
+  const mapping::CloudMapReport& r = map.report;
   const auto percent = [&](std::int64_t part) {
     return r.points > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(r.points) : 0.0;
   };

@@ -16,10 +16,10 @@ struct ReportPicture {
 
 /// One page that opens without a network: headline figures, pictures, a table of rows, notes. Well
 /// formed as XML, too. @param title  of the page, like the parcel's name
-std::string map_report_html(const worlds::CloudMap& map, const std::vector<ReportPicture>& pictures,
-                            const std::string& title);
+std::string map_report_html(const mapping::CloudMap& map,
+                            const std::vector<ReportPicture>& pictures, const std::string& title);
 
 /// The same figures for a terminal, a line each, keys first.
-std::string map_report_text(const worlds::CloudMap& map);
+std::string map_report_text(const mapping::CloudMap& map);
 
 }  // namespace vinerow::tools

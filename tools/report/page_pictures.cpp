@@ -57,9 +57,9 @@ FrameName frame_name(const fs::path& file) {
   return {stem.substr(0, at), 1e-3 * static_cast<double>(std::stoll(stem.substr(at + 1)))};
 }
 
-const io::CameraConfig* camera_of(const RunFolder& run, const std::string& name) {
+const scenario::CameraConfig* camera_of(const RunFolder& run, const std::string& name) {
   if (!run.scenario) return nullptr;
-  for (const io::CameraConfig& camera : run.scenario->pictures.cameras) {
+  for (const scenario::CameraConfig& camera : run.scenario->pictures.cameras) {
     if (camera.name == name) return &camera;
   }
   return nullptr;
@@ -68,13 +68,13 @@ const io::CameraConfig* camera_of(const RunFolder& run, const std::string& name)
 std::string frame_caption(const RunFolder& run, const fs::path& file) {
   const FrameName name = frame_name(file);
   if (name.camera.empty()) return file.stem().string();
-  const io::CameraConfig* camera = camera_of(run, name.camera);
+  const scenario::CameraConfig* camera = camera_of(run, name.camera);
   std::string what = name.camera;
-  if (camera && camera->kind == io::CameraKind::kTop) what += ", seen from above";
-  if (camera && camera->kind == io::CameraKind::kChase) what += ", behind " + camera->vehicle;
-  if (camera && camera->kind == io::CameraKind::kOnBoard)
+  if (camera && camera->kind == scenario::CameraKind::kTop) what += ", seen from above";
+  if (camera && camera->kind == scenario::CameraKind::kChase) what += ", behind " + camera->vehicle;
+  if (camera && camera->kind == scenario::CameraKind::kOnBoard)
     what += ", on board of " + camera->vehicle;
-  if (camera && camera->kind == io::CameraKind::kShots) {
+  if (camera && camera->kind == scenario::CameraKind::kShots) {
     what += ", what the camera of " + camera->vehicle + " took";
   }
   return fmt::format("{}, after {}", what, duration_text(name.time_s));
@@ -83,8 +83,8 @@ std::string frame_caption(const RunFolder& run, const fs::path& file) {
 /// Share of a frame that shows each vehicle, as its file says; empty where it does not say.
 std::map<std::string, double> seen_in(const fs::path& file) {
   const std::map<std::string, std::string> words = render::read_png_words(file.string());
-  const auto text = words.find(kSeenKey);
-  return text == words.end() ? std::map<std::string, double>() : parse_seen(text->second);
+  const auto text = words.find(playback::kSeenKey);
+  return text == words.end() ? std::map<std::string, double>() : playback::parse_seen(text->second);
 }
 
 /// Between rows or beside one: where the work is.
@@ -108,11 +108,11 @@ constexpr double kFillsPicture = 0.2;
 double score_of(const RunFolder& run, const fs::path& file,
                 const std::vector<VehicleLog>& vehicles) {
   const FrameName name = frame_name(file);
-  const io::CameraConfig* camera = camera_of(run, name.camera);
+  const scenario::CameraConfig* camera = camera_of(run, name.camera);
   if (camera == nullptr) return 0.0;
   double score = 0.0;
   const bool aslant =
-      camera->kind != io::CameraKind::kTop && camera->kind != io::CameraKind::kShots;
+      camera->kind != scenario::CameraKind::kTop && camera->kind != scenario::CameraKind::kShots;
   const bool plain = !camera->show_map && !camera->show_estimate && !camera->show_grid;
   score += aslant ? 10'000 : 0;
   score += plain ? 5'000 : 0;
@@ -120,7 +120,8 @@ double score_of(const RunFolder& run, const fs::path& file,
   double moving_share = 0.0;
   for (const VehicleLog& vehicle : vehicles) {
     if (vehicle.truth.empty()) continue;
-    const Odometry truth = odometry_at(vehicle.truth, Time{} + duration_from_s(name.time_s));
+    const Odometry truth =
+        playback::odometry_at(vehicle.truth, Time{} + duration_from_s(name.time_s));
     const bool moves = truth.v_WB_B.norm() > kMoves_mps;
     const auto share = seen.find(vehicle.name);
     if (moves && share != seen.end()) moving_share += share->second;

@@ -11,9 +11,9 @@ namespace {
 /// --v0 and so on: the vehicles' colours, as in frames and replay.
 std::string vehicle_style() {
   std::string paper, dark, classes;
-  for (std::size_t v = 0; v < kVehicleColours.size(); ++v) {
-    paper += fmt::format("--v{}: {}; ", v, kVehicleColours[v].on_paper);
-    dark += fmt::format("--v{}: {}; ", v, hex_colour(kVehicleColours[v].rgb));
+  for (std::size_t v = 0; v < playback::kVehicleColours.size(); ++v) {
+    paper += fmt::format("--v{}: {}; ", v, playback::kVehicleColours[v].on_paper);
+    dark += fmt::format("--v{}: {}; ", v, playback::hex_colour(playback::kVehicleColours[v].rgb));
     classes += fmt::format(".v{0} {{ --c: var(--v{0}); }}\n", v);
   }
   return fmt::format(

@@ -125,7 +125,7 @@ std::string first_screen(const PageMaterial& m) {
   const std::string description = m.run.scenario ? m.run.scenario->description : "";
   std::string out =
       fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n",
-                  escaped(title_of_name(m.run.text("scenario"))), escaped(description));
+                  escaped(playback::title_of_name(m.run.text("scenario"))), escaped(description));
   Verdict verdict = make_verdict(m.run);
   verdict.remark = canopy_remark(m.run, m.canopies, m.vehicles);
   return out + verdict_box(verdict) + event_notice(m.events) + key_numbers(m.run, m.vehicles) +
@@ -249,7 +249,7 @@ std::string replay_chapter(const PageMaterial& m) {
   const RunFolder& run = m.run;
   m.step();
   if (!run.log || !run.world) return "";
-  const LogTrace trace = read_trace(*run.log, run.vehicles);
+  const playback::LogTrace trace = playback::read_trace(*run.log, run.vehicles);
   ReplayInput input{&*run.scenario, run.world.get(), &run.models, &trace, {}};
   input.phases = phases_of_summary(run.summary.dump(), run.path / "summary.json", trace.last.s());
   return replay_section(input);
@@ -283,7 +283,7 @@ std::string page(const PageMaterial& m) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>{}: report of the run</title>\n<style>{}</style>\n</head>\n<body>\n<nav><div>\n",
-      escaped(title_of_name(m.run.text("scenario"))), page_style());
+      escaped(playback::title_of_name(m.run.text("scenario"))), page_style());
   out += links + "</div></nav>\n<main>\n" + first;
   out += content;
   return out + "</main>\n" + picture_dialog() + "<script>//<![CDATA[" + page_script() +

@@ -67,13 +67,13 @@ void read_scenario(RunFolder& run, const Registry& registry) {
     if (found != attachments.end()) run.resolved_yaml = found->second;
   }
   if (run.resolved_yaml.empty()) return;
-  run.scenario = io::parse_scenario(run.resolved_yaml, run.path, registry);
+  run.scenario = scenario::parse_scenario(run.resolved_yaml, run.path, registry);
   if (run.scenario->name != run.text("scenario")) {
     throw ConfigError(fmt::format("{}: is scenario '{}', summary.json beside it is of '{}'",
                                   file.string(), run.scenario->name, run.text("scenario")));
   }
   run.world = build_world(*run.scenario, registry);
-  for (const io::VehicleConfig& config : run.scenario->vehicles) {
+  for (const scenario::VehicleConfig& config : run.scenario->vehicles) {
     VehicleContext context;
     context.vehicle = context.part = config.name;
     context.seed = run.scenario->seed;
@@ -123,7 +123,7 @@ RunFolder read_run_folder(const fs::path& folder, const Registry& registry) {
     std::sort(run.frames.begin(), run.frames.end());
   }
   if (run.scenario) {
-    for (const io::VehicleConfig& vehicle : run.scenario->vehicles) {
+    for (const scenario::VehicleConfig& vehicle : run.scenario->vehicles) {
       run.vehicles.push_back(vehicle.name);
     }
   } else if (run.summary.contains("metrics")) {

@@ -21,7 +21,7 @@ struct RunFolder {
   std::filesystem::path path;
   Json summary;
   std::string resolved_yaml;                     ///< "" where the run left none
-  std::optional<io::Scenario> scenario;          ///< of resolved_yaml
+  std::optional<scenario::Scenario> scenario;    ///< of resolved_yaml
   std::unique_ptr<WorldModel> world;             ///< null where the scenario is not known
   std::vector<std::unique_ptr<Vehicle>> models;  ///< of the scenario's vehicles, in its order
   std::unique_ptr<record::LogReader> log;        ///< null where the run wrote none

@@ -93,9 +93,9 @@ std::string type_text(std::string type) {
 }
 
 /// "imu, gnss, 4 × ultrasound", in the order of their first one.
-std::string sensors_text(const io::VehicleConfig& vehicle) {
+std::string sensors_text(const scenario::VehicleConfig& vehicle) {
   std::vector<std::pair<std::string, int>> types;
-  for (const io::NamedPart& sensor : vehicle.sensors) {
+  for (const scenario::NamedPart& sensor : vehicle.sensors) {
     const auto known = std::find_if(types.begin(), types.end(), [&](const auto& type) {
       return type.first == sensor.part.type;
     });
@@ -113,14 +113,15 @@ std::string sensors_text(const io::VehicleConfig& vehicle) {
   return out.empty() ? "none" : out;
 }
 
-std::string parts_text(const io::VehicleConfig& vehicle, const RunFolder& run, std::size_t v) {
+std::string parts_text(const scenario::VehicleConfig& vehicle, const RunFolder& run,
+                       std::size_t v) {
   std::string out = type_text(vehicle.vehicle.type);
   const double mass_kg = v < run.models.size() ? run.models[v]->description().mass_kg : 0.0;
   if (mass_kg > 0.0) out += fmt::format(", {} kg", number_text(mass_kg));
   if (vehicle.controller) out += ", controller " + type_text(vehicle.controller->type);
   out += vehicle.estimator ? ", estimator " + type_text(vehicle.estimator->type)
                            : ", knows its true state";
-  for (const io::NamedPart& payload : vehicle.payloads) out += ", payload " + payload.name;
+  for (const scenario::NamedPart& payload : vehicle.payloads) out += ", payload " + payload.name;
   return out;
 }
 
@@ -141,7 +142,7 @@ std::string setup_table(const RunFolder& run) {
   add("wind", wind_text(run.world->wind));
   rows.push_back({"place", place});
   for (std::size_t v = 0; v < run.scenario->vehicles.size(); ++v) {
-    const io::VehicleConfig& vehicle = run.scenario->vehicles[v];
+    const scenario::VehicleConfig& vehicle = run.scenario->vehicles[v];
     rows.push_back(
         {escaped(vehicle.name),
          fmt::format("{}<br/><span class=\"sensors\">sensors: {}</span>",

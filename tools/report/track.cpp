@@ -14,7 +14,7 @@ constexpr double kStandsForGood_mps = 0.02;
 constexpr double kShown_s = 2.0;
 
 /// Index behind the last sample that is shown.
-std::size_t end_of_work(const Trace<Odometry>& truth) {
+std::size_t end_of_work(const playback::Trace<Odometry>& truth) {
   std::size_t last = 0;
   for (std::size_t i = 0; i < truth.values.size(); ++i) {
     if (truth.values[i].v_WB_B.norm() > kStandsForGood_mps) last = i;
@@ -26,7 +26,7 @@ std::size_t end_of_work(const Trace<Odometry>& truth) {
 
 /// What the guidance of a fixed wing last told at t; null before it does. @param at  where to look
 /// first, moved on
-const AirReference* last_told(const Trace<AirReference>& trace, Time t, std::size_t& at) {
+const AirReference* last_told(const playback::Trace<AirReference>& trace, Time t, std::size_t& at) {
   while (at + 1 < trace.times.size() && trace.times[at + 1] <= t) ++at;
   return at < trace.times.size() && trace.times[at] <= t ? &trace.values[at] : nullptr;
 }

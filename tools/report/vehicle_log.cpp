@@ -14,7 +14,7 @@ constexpr const char* kColumns[] = {"actuators", "wheels", "deviation", "steerin
                                     "wrench",    "rotors", "air"};
 
 template <class T>
-void read_into(const record::LogReader& log, const std::string& topic, Trace<T>& trace) {
+void read_into(const record::LogReader& log, const std::string& topic, playback::Trace<T>& trace) {
   log.read<T>(topic, [&](Time t, const T& value) {
     trace.times.push_back(t);
     trace.values.push_back(value);
@@ -52,12 +52,12 @@ void read_reference(const record::LogReader& log, const std::string& topic,
 /// its estimate is the truth wherever both were logged at one instant.
 bool acts_on_truth(const RunFolder& run, const VehicleLog& vehicle) {
   if (run.scenario) {
-    for (const io::VehicleConfig& config : run.scenario->vehicles) {
+    for (const scenario::VehicleConfig& config : run.scenario->vehicles) {
       if (config.name == vehicle.name)
         return !config.estimator || config.estimator->type == "truth";
     }
   }
-  const Trace<Odometry>& estimate = vehicle.estimates.at("estimate");
+  const playback::Trace<Odometry>& estimate = vehicle.estimates.at("estimate");
   for (std::size_t i = 0; i < estimate.times.size(); ++i) {
     const auto at =
         std::lower_bound(vehicle.truth.times.begin(), vehicle.truth.times.end(), estimate.times[i]);
@@ -76,7 +76,7 @@ void read_signal(const record::LogReader& log, const record::ChannelInfo& channe
   if (type == Odometry::kType && signal == "truth") {
     read_into(log, channel.topic, vehicle.truth);
   } else if (type == Odometry::kType) {
-    if (!is_truth_beside(log, channel.topic)) {
+    if (!playback::is_truth_beside(log, channel.topic)) {
       read_into(log, channel.topic, vehicle.estimates[signal]);
     }
   } else if (type == PlannedPath::kType && signal == "plan") {
@@ -121,7 +121,7 @@ std::vector<VehicleLog> read_vehicles(const RunFolder& run) {
   for (const std::string& name : run.vehicles) {
     VehicleLog& vehicle = vehicles.emplace_back();
     vehicle.name = name;
-    vehicle.style = fmt::format("v{}", (vehicles.size() - 1) % kVehicleColours.size());
+    vehicle.style = fmt::format("v{}", (vehicles.size() - 1) % playback::kVehicleColours.size());
     // Without a scenario nothing is known but the signals.
     if (!run.models.empty()) describe(run.models[vehicles.size() - 1]->description(), vehicle);
     const std::string prefix = "/" + name + "/";

@@ -38,15 +38,15 @@ struct VehicleLog {
   bool flies = false;
   bool has_wings = false;
   std::vector<ActuatorSpec> actuators;
-  Trace<Odometry> truth;
-  Trace<PlannedPath> plan;
-  std::map<std::string, Trace<Odometry>> estimates;  ///< "estimate" where it is not the truth;
-                                                     ///< those of observers
+  playback::Trace<Odometry> truth;
+  playback::Trace<PlannedPath> plan;
+  std::map<std::string, playback::Trace<Odometry>> estimates;  ///< "estimate" where it is not the
+                                                               ///< truth; those of observers
   FlightReference reference;
-  Trace<AirReference> air_reference;
-  Trace<VelocityCommand> command;
-  Trace<BatteryState> battery;
-  Trace<MovementAuthority> authority;
+  playback::Trace<AirReference> air_reference;
+  playback::Trace<VelocityCommand> command;
+  playback::Trace<BatteryState> battery;
+  playback::Trace<MovementAuthority> authority;
   std::map<std::string, Columns> columns;  ///< by signal: actuators, wheels, deviation, steering...
 
   const Columns* find(const std::string& signal) const;

@@ -29,7 +29,7 @@ constexpr std::array<std::pair<CellState, const char*>, 9> kWords = {{
 }};
 
 /// Why a run that came to its end did not meet what it should, most important first.
-std::string reason_of(const RunResult& result) {
+std::string reason_of(const run::RunResult& result) {
   if (!result.error.empty()) return result.error;
   for (const PhaseReport& phase : result.phases) {
     if (phase.state != PhaseState::kSucceeded) {
@@ -43,11 +43,11 @@ std::string reason_of(const RunResult& result) {
   return "";
 }
 
-CellResult result_of(const RunResult& run) {
+CellResult result_of(const run::RunResult& run) {
   CellResult cell;
-  cell.state = run.status == RunStatus::kAllMet      ? CellState::kMet
-               : run.status == RunStatus::kBrokenOff ? CellState::kBrokenOff
-                                                     : CellState::kNotMet;
+  cell.state = run.status == run::RunStatus::kAllMet      ? CellState::kMet
+               : run.status == run::RunStatus::kBrokenOff ? CellState::kBrokenOff
+                                                          : CellState::kNotMet;
   if (cell.state != CellState::kMet) cell.reason = reason_of(run);
   cell.digest = run.digest;
   for (const auto& [owner, numbers] : run.metrics) {
@@ -140,18 +140,19 @@ CellResult cell_result_of(const std::string& text, const std::string& file) {
   }
 }
 
-CellResult run_cell(const io::ScenarioSource& source, const io::Overrides& overrides,
+CellResult run_cell(const scenario::ScenarioSource& source, const scenario::Overrides& overrides,
                     const Registry& registry, const std::shared_ptr<RunShelf>& shelf,
-                    io::KeepRuns keep, const std::filesystem::path& folder) {
+                    scenario::KeepRuns keep, const std::filesystem::path& folder) {
   CellResult result;
   try {
-    RunOptions options;
+    run::RunOptions options;
     options.out = folder;
-    options.log = keep == io::KeepRuns::kLog || keep == io::KeepRuns::kFailed;
+    options.log = keep == scenario::KeepRuns::kLog || keep == scenario::KeepRuns::kFailed;
     options.pictures = false;
     options.measure_cost = false;
     options.shelf = shelf;
-    const RunResult run = run_scenario(source.load(registry, overrides), registry, options);
+    const run::RunResult run =
+        run::run_scenario(source.load(registry, overrides), registry, options);
     if (!run.write_failure.empty()) throw WriteError(run.write_failure);
     return result_of(run);
   } catch (const ConfigError& error) {

@@ -62,8 +62,8 @@ CellResult cell_result_of(const std::string& json, const std::string& file);
 /// @param shelf  what cells of one process share
 /// @param folder  where the run's files go; empty: none
 /// @throws WriteError where they cannot be stored, which says nothing of the cell
-CellResult run_cell(const io::ScenarioSource& source, const io::Overrides& overrides,
+CellResult run_cell(const scenario::ScenarioSource& source, const scenario::Overrides& overrides,
                     const Registry& registry, const std::shared_ptr<RunShelf>& shelf,
-                    io::KeepRuns keep, const std::filesystem::path& folder);
+                    scenario::KeepRuns keep, const std::filesystem::path& folder);
 
 }  // namespace vinerow::study

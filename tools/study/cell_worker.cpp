@@ -30,10 +30,10 @@ fs::path work_folder(const fs::path& kept) {
 void run_and_store(const OpenStudy& open, const StudyFolder& folder, std::size_t cell,
                    const std::shared_ptr<RunShelf>& shelf) {
   const std::string identity = open.identity.of(cell);
-  const io::KeepRuns keep = open.study.keep;
+  const scenario::KeepRuns keep = open.study.keep;
   const fs::path kept = folder.kept(cell, identity);
   fs::path work;
-  if (keep != io::KeepRuns::kNothing) {
+  if (keep != scenario::KeepRuns::kNothing) {
     work = work_folder(kept);
     io::make_folder(work);
   }
@@ -72,10 +72,10 @@ std::vector<std::string> worker_command(const OpenStudy& open, const StudyFolder
           folder.cells.string()};
 }
 
-bool leaves_files(io::KeepRuns keep, CellState state) {
+bool leaves_files(scenario::KeepRuns keep, CellState state) {
   const bool has_run = has_numbers(state) || state == CellState::kBrokenOff;
-  if (keep == io::KeepRuns::kFailed) return has_run && state != CellState::kMet;
-  return keep != io::KeepRuns::kNothing && has_run;
+  if (keep == scenario::KeepRuns::kFailed) return has_run && state != CellState::kMet;
+  return keep != scenario::KeepRuns::kNothing && has_run;
 }
 
 CellResult result_of_end(const EndedCell& ended) {

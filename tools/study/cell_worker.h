@@ -18,7 +18,7 @@ namespace vinerow::study {
 std::vector<std::string> worker_command(const OpenStudy& open, const StudyFolder& folder);
 
 /// Whether a run of this state leaves its files.
-bool leaves_files(io::KeepRuns keep, CellState state);
+bool leaves_files(scenario::KeepRuns keep, CellState state);
 
 /// The result of a cell whose worker could not tell it.
 CellResult result_of_end(const EndedCell& ended);

@@ -9,21 +9,21 @@ namespace vinerow::study {
 namespace {
 
 /// Metrics have points in their names.
-mu::Parser make_parser(const io::DerivedColumn& column) {
+mu::Parser make_parser(const scenario::DerivedColumn& column) {
   mu::Parser parser;
   parser.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
   parser.SetExpr(column.expression);
   return parser;
 }
 
-[[noreturn]] void fail(const io::DerivedColumn& column, const mu::ParserError& error) {
+[[noreturn]] void fail(const scenario::DerivedColumn& column, const mu::ParserError& error) {
   io::fail_at(column.where, fmt::format("derived.{} = '{}' is no expression: {}", column.name,
                                         column.expression, error.GetMsg()));
 }
 
 }  // namespace
 
-std::vector<std::string> variables_of(const io::DerivedColumn& column) {
+std::vector<std::string> variables_of(const scenario::DerivedColumn& column) {
   try {
     mu::Parser parser = make_parser(column);
     std::vector<std::string> names;
@@ -35,13 +35,13 @@ std::vector<std::string> variables_of(const io::DerivedColumn& column) {
 }
 
 struct Expression::Parser {
-  io::DerivedColumn column;
+  scenario::DerivedColumn column;
   mu::Parser parser;
   std::vector<std::string> names;
   std::vector<double> values;
 };
 
-Expression::Expression(const io::DerivedColumn& column)
+Expression::Expression(const scenario::DerivedColumn& column)
     : parser_(
           std::make_unique<Parser>(Parser{column, make_parser(column), variables_of(column), {}})) {
   parser_->values.resize(parser_->names.size());

@@ -12,13 +12,13 @@ namespace vinerow::study {
 
 /// Names that an expression uses. @throws ConfigError "study.yaml:9: derived.cost: ..." where it is
 /// no expression
-std::vector<std::string> variables_of(const io::DerivedColumn& column);
+std::vector<std::string> variables_of(const scenario::DerivedColumn& column);
 
 /// An expression ready to be computed many times. Operators and functions are those of muParser.
 class Expression {
  public:
   /// @throws ConfigError as variables_of()
-  explicit Expression(const io::DerivedColumn& column);
+  explicit Expression(const scenario::DerivedColumn& column);
   ~Expression();
   Expression(Expression&&) noexcept;
 

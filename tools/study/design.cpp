@@ -7,9 +7,9 @@
 namespace vinerow::study {
 namespace {
 
-bool changes_world(const io::Factor& factor) {
-  for (const io::FactorLevel& level : factor.levels) {
-    for (const io::OverrideValue& value : level.values) {
+bool changes_world(const scenario::Factor& factor) {
+  for (const scenario::FactorLevel& level : factor.levels) {
+    for (const scenario::OverrideValue& value : level.values) {
       const std::string key = value.path.substr(0, value.path.find('.'));
       if (key == "world" || key == "physics" || key == "gravity_mps2") return true;
     }
@@ -19,8 +19,8 @@ bool changes_world(const io::Factor& factor) {
 
 }  // namespace
 
-Design::Design(const io::Study& study) : study_(study) {
-  for (const io::Factor& factor : study.factors) {
+Design::Design(const scenario::Study& study) : study_(study) {
+  for (const scenario::Factor& factor : study.factors) {
     VINEROW_DEMAND(!factor.levels.empty());
     settings_ *= factor.levels.size();
     changes_world_.push_back(changes_world(factor));
@@ -38,8 +38,8 @@ std::vector<std::size_t> Design::levels(std::size_t setting) const {
   return levels;
 }
 
-io::Overrides Design::overrides_of(const std::vector<std::size_t>& levels) const {
-  io::Overrides overrides;
+scenario::Overrides Design::overrides_of(const std::vector<std::size_t>& levels) const {
+  scenario::Overrides overrides;
   overrides.values = study_.set;
   for (std::size_t k = 0; k < levels.size(); ++k) {
     const auto& values = study_.factors[k].levels[levels[k]].values;
@@ -48,8 +48,8 @@ io::Overrides Design::overrides_of(const std::vector<std::size_t>& levels) const
   return overrides;
 }
 
-io::Overrides Design::overrides(std::size_t cell) const {
-  io::Overrides overrides = overrides_of(levels(setting_of(cell)));
+scenario::Overrides Design::overrides(std::size_t cell) const {
+  scenario::Overrides overrides = overrides_of(levels(setting_of(cell)));
   overrides.seed = seed_of(cell);
   return overrides;
 }

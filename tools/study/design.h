@@ -17,9 +17,9 @@ namespace vinerow::study {
 class Design {
  public:
   /// @param study  outlives the design
-  explicit Design(const io::Study& study);
+  explicit Design(const scenario::Study& study);
 
-  const io::Study& study() const { return study_; }
+  const scenario::Study& study() const { return study_; }
   std::size_t settings() const { return settings_; }
   std::size_t seeds() const { return study_.seeds.size(); }
   std::size_t cells() const { return settings_ * seeds(); }
@@ -32,9 +32,9 @@ class Design {
   /// The level of each factor.
   std::vector<std::size_t> levels(std::size_t setting) const;
   /// What the cell's run sets over the scenario.
-  io::Overrides overrides(std::size_t cell) const;
+  scenario::Overrides overrides(std::size_t cell) const;
   /// The same with the levels of your choice, one for each factor, and no seed.
-  io::Overrides overrides_of(const std::vector<std::size_t>& levels) const;
+  scenario::Overrides overrides_of(const std::vector<std::size_t>& levels) const;
 
   /// Columns of all factors, and what stands in them for a setting.
   const std::vector<std::string>& columns() const { return columns_; }
@@ -45,7 +45,7 @@ class Design {
   std::vector<std::size_t> settings_in_running_order() const;
 
  private:
-  const io::Study& study_;
+  const scenario::Study& study_;
   std::size_t settings_ = 1;
   std::vector<std::string> columns_;
   std::vector<bool> changes_world_;  ///< by factor

@@ -200,7 +200,7 @@ class Driver {
 
 DriveResult drive(const OpenStudy& open, const DriveOptions& options) {
   io::make_folder(options.folder.out);
-  const FolderLock lock(options.folder.out);
+  const run::FolderLock lock(options.folder.out);
   remove_leftovers(options.folder);
   return Driver(open, options).run();
 }

@@ -51,9 +51,10 @@ bool may_be_path(const std::string& text) {
          text != "." && text != "..";
 }
 
-std::string digest_of_values(const std::vector<io::OverrideValue>& values, FileDigests& files) {
+std::string digest_of_values(const std::vector<scenario::OverrideValue>& values,
+                             FileDigests& files) {
   Hasher hasher;
-  for (const io::OverrideValue& value : values) {
+  for (const scenario::OverrideValue& value : values) {
     hasher.add(value.path);
     hasher.add(io::to_yaml(value.value));
     hasher.add(files.of(value.value));
@@ -115,19 +116,19 @@ std::string FileDigests::of(const io::YamlNode& tree) {
 
 std::string program_digest() {
   Hasher hasher;
-  hasher.add(program_version());
+  hasher.add(run::program_version());
   hasher.add(read_bytes("/proc/self/exe").value_or(""));
   Dl_info library{};
-  if (dladdr(reinterpret_cast<const void*>(&run_scenario), &library) != 0) {
+  if (dladdr(reinterpret_cast<const void*>(&run::run_scenario), &library) != 0) {
     hasher.add(read_bytes(library.dli_fname).value_or(""));
   }
   return hasher.hex();
 }
 
-Identity::Identity(const Design& design, const io::ScenarioSource& source,
+Identity::Identity(const Design& design, const scenario::ScenarioSource& source,
                    const std::string& program)
     : design_(design), program_(program) {
-  const io::Study& study = design.study();
+  const scenario::Study& study = design.study();
   FileDigests files;
   Hasher scenario;
   scenario.add(io::to_yaml(source.tree()));
@@ -140,10 +141,10 @@ Identity::Identity(const Design& design, const io::ScenarioSource& source,
   common_ = common.hex();
   Hasher list;
   list.add(digest_of_values(study.set, files));
-  for (const io::Factor& factor : study.factors) {
+  for (const scenario::Factor& factor : study.factors) {
     list.add(factor.name);
     std::vector<std::string>& digests = levels_.emplace_back();
-    for (const io::FactorLevel& level : factor.levels) {
+    for (const scenario::FactorLevel& level : factor.levels) {
       digests.push_back(digest_of_values(level.values, files));
       for (const std::string& text : level.texts) list.add(text);
       list.add(digests.back());

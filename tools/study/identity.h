@@ -30,7 +30,8 @@ std::string program_digest();
 class Identity {
  public:
   /// @param source  of the study's scenario @param program  of program_digest()
-  Identity(const Design& design, const io::ScenarioSource& source, const std::string& program);
+  Identity(const Design& design, const scenario::ScenarioSource& source,
+           const std::string& program);
 
   /// Digest of a cell: scenario with all files that it names, values set over it, seed, program.
   std::string of(std::size_t cell) const;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vinerow {
+namespace vinerow::study {
 
 std::string last_line_of(const std::string& text) {
   constexpr std::size_t kLongest = 300;
@@ -12,4 +12,4 @@ std::string last_line_of(const std::string& text) {
   return text.substr(begin, std::min(end + 1 - begin, kLongest));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::study

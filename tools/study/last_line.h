@@ -3,10 +3,10 @@
 
 #include <string>
 
-namespace vinerow {
+namespace vinerow::study {
 
 /// The last line of a text that is not blank, without what is beyond 300 characters; "" where there
 /// is none.
 std::string last_line_of(const std::string& text);
 
-}  // namespace vinerow
+}  // namespace vinerow::study

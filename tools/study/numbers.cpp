@@ -14,7 +14,7 @@ std::optional<double> number_in(const std::string& text) {
 Numbers::Numbers(const Results& results) : results_(results) {
   const Design& design = results.design();
   for (std::size_t k = 0; k < design.columns().size(); ++k) factors_[design.columns()[k]] = k;
-  for (const io::DerivedColumn& column : design.study().derived) {
+  for (const scenario::DerivedColumn& column : design.study().derived) {
     expressions_.emplace(column.name, column);
   }
 }

@@ -19,7 +19,7 @@ namespace vinerow::study {
 namespace {
 
 /// Levels that are tried before the first cell: all, or of many those at the ends of a number.
-std::vector<std::size_t> levels_to_try(const io::Factor& factor) {
+std::vector<std::size_t> levels_to_try(const scenario::Factor& factor) {
   constexpr std::size_t kMost = 100;
   std::vector<std::size_t> all(factor.levels.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
@@ -57,16 +57,16 @@ struct UsedName {
   io::SourceMark mark;
 };
 
-std::vector<UsedName> used_names(const io::Study& study) {
+std::vector<UsedName> used_names(const scenario::Study& study) {
   std::vector<UsedName> used;
   for (const std::string& metric : study.metrics) {
     used.push_back({metric, "metrics", study.metrics_mark});
   }
   std::set<std::string> own;
-  for (const io::Factor& factor : study.factors) {
+  for (const scenario::Factor& factor : study.factors) {
     own.insert(factor.columns.begin(), factor.columns.end());
   }
-  for (const io::DerivedColumn& column : study.derived) {
+  for (const scenario::DerivedColumn& column : study.derived) {
     for (const std::string& name : variables_of(column)) {
       if (!own.contains(name)) used.push_back({name, "derived." + column.name, column.where});
     }
@@ -79,7 +79,7 @@ std::vector<UsedName> used_names(const io::Study& study) {
 }
 
 /// Known only behind the run: what planners count, numbers of jobs.
-bool is_known_later(const std::string& name, const io::Scenario& scenario) {
+bool is_known_later(const std::string& name, const scenario::Scenario& scenario) {
   const std::string owner = name.substr(0, name.find('.'));
   if (owner == "planning") return true;
   if (name == "run.phases" || name == "run.phases_succeeded") return !scenario.phases.empty();
@@ -94,7 +94,8 @@ void check_names(const OpenStudy& open) {
   std::set<std::string> known;
   const auto look = [&](const std::vector<std::size_t>& levels) {
     known.merge(numbers_of(open, levels, shelf));
-    const io::Scenario scenario = open.source.load(open.registry, open.design.overrides_of(levels));
+    const scenario::Scenario scenario =
+        open.source.load(open.registry, open.design.overrides_of(levels));
     std::erase_if(missing, [&](const UsedName& used) {
       return known.contains(used.name) || is_known_later(used.name, scenario);
     });
@@ -115,13 +116,13 @@ void check_names(const OpenStudy& open) {
   constexpr std::size_t kShown = 12;
   io::fail_at(used.mark,
               fmt::format("{}: no cell has a number '{}'{} (known: {})", used.what, used.name,
-                          did_you_mean(used.name, names), io::list_known(names, kShown)));
+                          did_you_mean(used.name, names), scenario::list_known(names, kShown)));
 }
 
 }  // namespace
 
 OpenStudy::OpenStudy(const std::filesystem::path& file)
-    : study(io::load_study(file)),
+    : study(scenario::load_study(file)),
       design(study),
       source(study.scenario),
       registry([this] {
@@ -129,7 +130,7 @@ OpenStudy::OpenStudy(const std::filesystem::path& file)
         register_all(made);
         const std::vector<std::size_t> first(study.factors.size(), 0);
         for (const auto& plugin :
-             io::load_plugin_list(study.scenario, design.overrides_of(first))) {
+             scenario::load_plugin_list(study.scenario, design.overrides_of(first))) {
           load_plugin(plugin, made);
         }
         return made;

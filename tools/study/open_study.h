@@ -17,9 +17,9 @@ struct OpenStudy {
   OpenStudy(const OpenStudy&) = delete;
   OpenStudy& operator=(const OpenStudy&) = delete;
 
-  const io::Study study;
+  const scenario::Study study;
   const Design design;
-  const io::ScenarioSource source;
+  const scenario::ScenarioSource source;
   Registry registry;
   const Identity identity;
 };

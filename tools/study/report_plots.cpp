@@ -31,7 +31,7 @@ struct Column {
 /// "m" of a factor called lookahead that sets rover.controller.lookahead_m and nothing else.
 std::string unit_of_column(const Design& design, const std::string& name) {
   std::string path = name;
-  for (const io::Factor& factor : design.study().factors) {
+  for (const scenario::Factor& factor : design.study().factors) {
     const auto& values = factor.levels.front().values;
     if (factor.name == name && factor.columns.size() == 1 && values.size() == 1) {
       path = values.front().path;

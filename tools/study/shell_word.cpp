@@ -1,6 +1,6 @@
 #include "tools/study/shell_word.h"
 
-namespace vinerow {
+namespace vinerow::study {
 
 std::string shell_quoted(const std::string& text) {
   std::string out = "'";
@@ -8,4 +8,4 @@ std::string shell_quoted(const std::string& text) {
   return out + "'";
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::study

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace vinerow {
+namespace vinerow::study {
 
 /// Between single quotes of a POSIX shell.
 std::string shell_quoted(const std::string& text);
 
-}  // namespace vinerow
+}  // namespace vinerow::study

@@ -9,14 +9,14 @@ namespace vinerow::study {
 
 StopJudge::StopJudge(const Results& results)
     : results_(results), wanted_(results.design().settings(), results.design().seeds()) {
-  const std::optional<io::StopRule>& rule = results.design().study().stop;
+  const std::optional<scenario::StopRule>& rule = results.design().study().stop;
   if (!rule) return;
   numbers_.emplace(results);
   std::fill(wanted_.begin(), wanted_.end(), static_cast<std::size_t>(rule->at_least));
 }
 
 bool StopJudge::is_narrow(std::size_t setting, std::size_t seeds) {
-  const io::StopRule& rule = *results_.design().study().stop;
+  const scenario::StopRule& rule = *results_.design().study().stop;
   std::vector<double> values;
   for (std::size_t k = 0; k < seeds; ++k) {
     const double value = numbers_->value(results_.design().cell_of(setting, k), rule.metric);

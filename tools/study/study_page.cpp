@@ -106,7 +106,7 @@ std::string settings_table(const OpenStudy& open, const Results& results,
 
 /// Which factors move a number, by the share of the variance between settings.
 std::string effects_table(const Results& results, const std::vector<std::string>& names) {
-  const io::Study& study = results.design().study();
+  const scenario::Study& study = results.design().study();
   constexpr std::size_t kMostLevels = 60;
   std::vector<int> level_counts;
   std::vector<std::size_t> used;
@@ -165,12 +165,12 @@ std::string effects_table(const Results& results, const std::vector<std::string>
 /// Each level of a factor against its first, everything else and the seed being equal.
 std::string differences_table(const Results& results, const std::vector<std::string>& names) {
   const Design& design = results.design();
-  const io::Study& study = design.study();
+  const scenario::Study& study = design.study();
   constexpr std::size_t kMostLevels = 12;
   Numbers numbers(results);
   std::vector<std::vector<std::string>> rows;
   std::size_t stride = design.settings();
-  for (const io::Factor& factor : study.factors) {
+  for (const scenario::Factor& factor : study.factors) {
     const std::size_t count = factor.levels.size();
     stride /= count;  // between settings that differ in this factor alone
     if (count < 2 || count > kMostLevels) continue;
@@ -218,15 +218,16 @@ std::vector<std::string> drawn_numbers(const OpenStudy& open, const Results& res
   std::vector<std::string> names = open.study.metrics;
   if (names.empty()) {
     const std::vector<std::size_t> first(open.study.factors.size(), 0);
-    const io::Scenario scenario = open.source.load(open.registry, open.design.overrides_of(first));
-    for (const io::Criterion& criterion : scenario.criteria) {
+    const scenario::Scenario scenario =
+        open.source.load(open.registry, open.design.overrides_of(first));
+    for (const scenario::Criterion& criterion : scenario.criteria) {
       if (std::find(names.begin(), names.end(), criterion.metric) == names.end()) {
         names.push_back(criterion.metric);
       }
     }
   }
   if (names.empty()) names = results.names();
-  for (const io::DerivedColumn& column : open.study.derived) names.push_back(column.name);
+  for (const scenario::DerivedColumn& column : open.study.derived) names.push_back(column.name);
   if (names.size() > kMostDrawn) names.resize(kMostDrawn);
   return names;
 }

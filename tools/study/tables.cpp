@@ -38,9 +38,9 @@ class Row {
 }  // namespace
 
 std::vector<std::string> kept_numbers(const Results& results) {
-  const io::Study& study = results.design().study();
+  const scenario::Study& study = results.design().study();
   std::vector<std::string> names = study.metrics.empty() ? results.names() : study.metrics;
-  for (const io::DerivedColumn& column : study.derived) names.push_back(column.name);
+  for (const scenario::DerivedColumn& column : study.derived) names.push_back(column.name);
   return names;
 }
 

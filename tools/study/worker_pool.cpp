@@ -53,7 +53,8 @@ struct WorkerPool::Worker {
   std::string answer;  ///< what of a line has been read
 };
 
-WorkerPool::WorkerPool(std::vector<std::string> command, int count, const io::CellBudget& budget)
+WorkerPool::WorkerPool(std::vector<std::string> command, int count,
+                       const scenario::CellBudget& budget)
     : command_(std::move(command)), budget_(budget) {
   VINEROW_DEMAND(count >= 1);
   for (int k = 0; k < count; ++k) workers_.push_back(std::make_unique<Worker>());

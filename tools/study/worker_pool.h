@@ -18,7 +18,7 @@ namespace vinerow::study {
 class WorkerPool final : public CellRunner {
  public:
   /// @param command  of a worker: `vinerow study cell FILE --serve ...` @param count  >= 1
-  WorkerPool(std::vector<std::string> command, int count, const io::CellBudget& budget);
+  WorkerPool(std::vector<std::string> command, int count, const scenario::CellBudget& budget);
   /// Ends all workers at once.
   ~WorkerPool() override;
   WorkerPool(const WorkerPool&) = delete;
@@ -39,7 +39,7 @@ class WorkerPool final : public CellRunner {
   void check_budget(Worker& worker, std::vector<EndedCell>& ended);
 
   std::vector<std::string> command_;
-  io::CellBudget budget_;
+  scenario::CellBudget budget_;
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 

@@ -7,7 +7,7 @@
 namespace vinerow {
 namespace {
 
-io::Overrides overrides_of(const ScenarioChanges& changes) {
+scenario::Overrides overrides_of(const ScenarioChanges& changes) {
   return {changes.sets, changes.seed};
 }
 
@@ -17,9 +17,9 @@ Session open_session(const std::filesystem::path& file, const ScenarioChanges& c
                      SessionOptions options) {
   auto registry = std::make_shared<Registry>();
   register_all(*registry);
-  const io::Overrides overrides = overrides_of(changes);
-  for (const auto& plugin : io::load_plugin_list(file, overrides)) load_plugin(plugin, *registry);
-  const io::Scenario scenario = io::load_scenario(file, *registry, overrides);
+  const scenario::Overrides overrides = overrides_of(changes);
+  for (const auto& plugin : scenario::load_plugin_list(file, overrides)) load_plugin(plugin, *registry);
+  const scenario::Scenario scenario = scenario::load_scenario(file, *registry, overrides);
   return Session(scenario, std::move(registry), std::move(options));
 }
 
@@ -27,8 +27,8 @@ Session open_session_text(const std::string& yaml, const std::filesystem::path& 
                           const ScenarioChanges& changes, SessionOptions options) {
   auto registry = std::make_shared<Registry>();
   register_all(*registry);
-  const io::Scenario scenario =
-      io::parse_scenario(yaml, folder, *registry, overrides_of(changes));
+  const scenario::Scenario scenario =
+      scenario::parse_scenario(yaml, folder, *registry, overrides_of(changes));
   return Session(scenario, std::move(registry), std::move(options));
 }
 

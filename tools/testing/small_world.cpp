@@ -286,8 +286,8 @@ TestRun SmallWorld::build() const {
   register_all(*registry);
   for (const auto& plugin : impl_->plugins) load_plugin(plugin, *registry);
   for (const auto& add : impl_->parts) add(*registry);
-  const io::Scenario scenario =
-      io::parse_scenario(yaml(), std::filesystem::current_path(), *registry);
+  const scenario::Scenario scenario =
+      scenario::parse_scenario(yaml(), std::filesystem::current_path(), *registry);
   return TestRun(Session(scenario, std::move(registry)));
 }
 

@@ -30,7 +30,7 @@ struct CloudArguments {
 };
 
 void check_cloud_arguments(const CloudArguments& arguments,
-                           const worlds::PhotogrammetryJobParams& params) {
+                           const mapping::PhotogrammetryJobParams& params) {
   const bool uniform = arguments.uniform_per_m2.has_value();
   if (arguments.scenario.file.empty() && arguments.log.empty()) {
     throw ConfigError("cloud: give a scenario, or a flown survey by --log");
@@ -51,8 +51,8 @@ void check_cloud_arguments(const CloudArguments& arguments,
   }
 }
 
-worlds::UniformCloudOptions uniform_of(const CloudArguments& arguments, std::uint64_t seed) {
-  worlds::UniformCloudOptions options;
+mapping::UniformCloudOptions uniform_of(const CloudArguments& arguments, std::uint64_t seed) {
+  mapping::UniformCloudOptions options;
   options.density_per_m2 = *arguments.uniform_per_m2;
   options.noise_m = arguments.noise_m.value_or(0.0);
   options.weeds.height_m = arguments.weeds_m.value_or(0.0);
@@ -61,10 +61,10 @@ worlds::UniformCloudOptions uniform_of(const CloudArguments& arguments, std::uin
   return options;
 }
 
-void print_cloud(const worlds::WrittenCloud& written, double wall_s, const std::string& source) {
-  const worlds::CloudTruth& truth = written.truth;
-  const worlds::CloudTally& tally = written.tally;
-  const worlds::CloudSampling& s = truth.sampling;
+void print_cloud(const mapping::WrittenCloud& written, double wall_s, const std::string& source) {
+  const mapping::CloudTruth& truth = written.truth;
+  const mapping::CloudTally& tally = written.tally;
+  const mapping::CloudSampling& s = truth.sampling;
   const auto share = [&](std::int64_t part) {
     return 100.0 * static_cast<double>(part) /
            static_cast<double>(std::max<std::int64_t>(s.points, 1));
@@ -93,21 +93,21 @@ void print_cloud(const worlds::WrittenCloud& written, double wall_s, const std::
              truth.rows.size(), truth.bearing_deg, truth.spacing_m, truth.volume_m3);
   fmt::print("time           {:.1f} s\n", wall_s);
   fmt::print("file           {} ({:.1f} MB)\n", s.file, 1e-6 * static_cast<double>(written.bytes));
-  fmt::print("truth file     {}\n", worlds::truth_file_of(s.file).string());
+  fmt::print("truth file     {}\n", mapping::truth_file_of(s.file).string());
 }
 
 void make_cloud(const CloudArguments& arguments) {
-  worlds::PhotogrammetryJobParams params =
-      worlds::photogrammetry_job_table().read(*arguments.method, "cloud");
-  worlds::check_options(params.options);
+  mapping::PhotogrammetryJobParams params =
+      mapping::photogrammetry_job_table().read(*arguments.method, "cloud");
+  mapping::check_options(params.options);
   check_cloud_arguments(arguments, params);
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path log = arguments.log.empty() ? "" : log_of(arguments.log);
   Registry registry;
-  io::Scenario scenario;
+  scenario::Scenario scenario;
   if (arguments.scenario.file.empty()) {
     registry = make_registry(arguments.scenario.plugins);
-    scenario = scenario_of_log(log, registry, arguments.scenario.overrides);
+    scenario = playback::scenario_of_log(log, registry, arguments.scenario.overrides);
   } else {
     scenario = load(arguments.scenario, registry);
   }
@@ -122,15 +122,16 @@ void make_cloud(const CloudArguments& arguments) {
   const std::unique_ptr<WorldModel> world = build_world(scenario, registry);
   physics::check_world(*world);
   const physics::WorldScene scene(*world);
-  const worlds::SurveyArea area =
-      worlds::make_survey_area(params.area_m, params.margin_m, *world, "--area");
+  const mapping::SurveyArea area =
+      mapping::make_survey_area(params.area_m, params.margin_m, *world, "--area");
   io::make_folder_of(arguments.out);
-  const worlds::CloudTarget target = {arguments.out, params.file, arguments.out.string(),
-                                      scenario.name};
-  const Result<worlds::WrittenCloud> written =
-      uniform ? worlds::write_uniform_cloud(scene, *world, area,
-                                            uniform_of(arguments, scenario.seed), target)
-              : worlds::write_photogrammetry(scene, *world, pictures, area, params.options, target);
+  const mapping::CloudTarget target = {arguments.out, params.file, arguments.out.string(),
+                                       scenario.name};
+  const Result<mapping::WrittenCloud> written =
+      uniform
+          ? mapping::write_uniform_cloud(scene, *world, area, uniform_of(arguments, scenario.seed),
+                                         target)
+          : mapping::write_photogrammetry(scene, *world, pictures, area, params.options, target);
   if (!written) throw ConfigError("cloud: " + written.reason());
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -156,7 +157,7 @@ void add_cloud_command(CLI::App& app, int& exit_status) {
                       "default: those that the scenario's survey plans");
   command->add_option("--vehicle", arguments->vehicle, "that surveys, where several do");
   command->add_option("--sensor", arguments->sensor, "camera_trigger, where it has several");
-  arguments->method = add_table_flags(*command, worlds::photogrammetry_job_table().specs(),
+  arguments->method = add_table_flags(*command, mapping::photogrammetry_job_table().specs(),
                                       {.without = {},
                                        .names = {},
                                        .group = "Pictures",

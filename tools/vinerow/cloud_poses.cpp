@@ -28,7 +28,7 @@ std::vector<Camera> find_cameras(const record::LogReader& log) {
   for (const record::ChannelInfo& channel : log.info().channels) {
     const auto type = channel.metadata.find("vinerow_type");
     if (type == channel.metadata.end() || type->second != CameraShot::kType ||
-        channel.messages == 0 || is_truth_beside(log, channel.topic)) {
+        channel.messages == 0 || playback::is_truth_beside(log, channel.topic)) {
       continue;
     }
     const std::size_t slash = channel.topic.find('/', 1);
@@ -38,11 +38,11 @@ std::vector<Camera> find_cameras(const record::LogReader& log) {
   return cameras;
 }
 
-const io::NamedPart& part_of(const io::Scenario& scenario, const Camera& camera,
-                             const std::filesystem::path& log) {
-  for (const io::VehicleConfig& vehicle : scenario.vehicles) {
+const scenario::NamedPart& part_of(const scenario::Scenario& scenario, const Camera& camera,
+                                   const std::filesystem::path& log) {
+  for (const scenario::VehicleConfig& vehicle : scenario.vehicles) {
     if (vehicle.name != camera.vehicle) continue;
-    for (const io::NamedPart& sensor : vehicle.sensors) {
+    for (const scenario::NamedPart& sensor : vehicle.sensors) {
       if (sensor.name == camera.sensor) return sensor;
     }
   }
@@ -56,7 +56,7 @@ std::vector<Eigen::Vector3d> told_places(const record::LogReader& log, const std
                                          const std::vector<Time>& times,
                                          const Eigen::Vector3d& p_BS) {
   std::vector<Eigen::Vector3d> places;
-  Trace<Odometry> estimates;
+  playback::Trace<Odometry> estimates;
   const auto& channels = log.info().channels;
   const bool is_logged =
       std::any_of(channels.begin(), channels.end(), [&](const record::ChannelInfo& channel) {
@@ -106,8 +106,8 @@ PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& reg
                           log.string(), names));
   }
   PictureSet pictures;
-  const io::Scenario scenario = scenario_of_log(log, registry);
-  const io::NamedPart& part = part_of(scenario, chosen.front(), log);
+  const scenario::Scenario scenario = playback::scenario_of_log(log, registry);
+  const scenario::NamedPart& part = part_of(scenario, chosen.front(), log);
   pictures.camera = read_survey_camera(part.part.parameters);
   std::vector<Time> times;
   reader.read<CameraShot>(chosen.front().topic, [&](Time t, const CameraShot& shot) {
@@ -121,18 +121,18 @@ PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& reg
   return pictures;
 }
 
-PictureSet pictures_of_plan(const io::Scenario& scenario, const std::filesystem::path& file,
+PictureSet pictures_of_plan(const scenario::Scenario& scenario, const std::filesystem::path& file,
                             const Registry& registry, const std::string& vehicle) {
   SurveyArguments arguments;
   arguments.scenario.file = file;
   arguments.vehicle = vehicle;
   Simulation simulation(scenario, registry);
   const SurveyTask task = task_of_scenario(arguments, scenario, simulation);
-  const auto plan = plan_survey(task.request, task.start_W, task.ground);
+  const auto plan = controllers::plan_survey(task.request, task.start_W, task.ground);
   if (!plan) throw ConfigError("survey: " + plan.reason());
   PictureSet pictures;
   pictures.camera = task.request.camera;
-  for (const SurveyShot& shot : plan->shots) {
+  for (const controllers::SurveyShot& shot : plan->shots) {
     pictures.X_WS.push_back(
         {quaternion_from_rpy({0.0, 0.5 * std::numbers::pi, shot.yaw_rad}), shot.p_W});
   }

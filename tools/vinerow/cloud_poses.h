@@ -19,7 +19,7 @@ PictureSet pictures_of_log(const std::filesystem::path& log, const Registry& reg
 /// As they are planned by a vehicle's planner `survey`: straight down, heading along the lane.
 /// @param vehicle  name, or "" for the first that surveys
 /// @throws ConfigError: none does, the survey cannot be planned
-PictureSet pictures_of_plan(const io::Scenario& scenario, const std::filesystem::path& file,
+PictureSet pictures_of_plan(const scenario::Scenario& scenario, const std::filesystem::path& file,
                             const Registry& registry, const std::string& vehicle);
 
 }  // namespace vinerow::tools

@@ -124,14 +124,14 @@ std::string bash_completion(const CLI::App& app) {
     if (!is_action(command)) commands += command.name + " ";
     if (!command.actions.empty()) with_actions += command.name + " ";
     const auto& words = command.actions.empty() ? command.choices : command.actions;
-    options_by_command +=
-        fmt::format("    '{}') options={} words={} ;;\n", command.name,
-                    shell_quoted(names_of(command.options)), shell_quoted(join(words, " ")));
+    options_by_command += fmt::format("    '{}') options={} words={} ;;\n", command.name,
+                                      study::shell_quoted(names_of(command.options)),
+                                      study::shell_quoted(join(words, " ")));
     for (const CompletedOption& option : command.options) {
       if (!option.takes_value) continue;
       for (const std::string& name : option.names) {
         values += fmt::format("    '{} {}') valued=1 words={} ;;\n", command.name, name,
-                              shell_quoted(join(option.choices, " ")));
+                              study::shell_quoted(join(option.choices, " ")));
       }
     }
   }
@@ -168,8 +168,8 @@ _vinerow() {{
 }}
 complete -F _vinerow vinerow
 )script",
-                     shell_quoted(commands + names_of(options_of(app))),
-                     shell_quoted(" " + with_actions), options_by_command, values);
+                     study::shell_quoted(commands + names_of(options_of(app))),
+                     study::shell_quoted(" " + with_actions), options_by_command, values);
 }
 
 std::string zsh_completion(const CLI::App& app) {
@@ -177,10 +177,10 @@ std::string zsh_completion(const CLI::App& app) {
   for (const CompletedCommand& command : commands_of(app)) {
     if (!command.actions.empty()) with_actions += command.name + " ";
     if (!is_action(command)) {
-      commands +=
-          fmt::format("    {}\n", shell_quoted(fmt::format("{}:{}", command.name, command.words)));
+      commands += fmt::format(
+          "    {}\n", study::shell_quoted(fmt::format("{}:{}", command.name, command.words)));
     }
-    cases += fmt::format("    {})\n      _arguments", shell_quoted(command.name));
+    cases += fmt::format("    {})\n      _arguments", study::shell_quoted(command.name));
     for (const CompletedOption& option : command.options) {
       for (const std::string& name : option.names) {
         std::string spec = fmt::format("*{}[{}]", name, zsh_words(option.words));
@@ -189,13 +189,13 @@ std::string zsh_completion(const CLI::App& app) {
         } else if (option.takes_value) {
           spec += ":value:_files";
         }
-        cases += " \\\n        " + shell_quoted(spec);
+        cases += " \\\n        " + study::shell_quoted(spec);
       }
     }
     const auto& words = command.actions.empty() ? command.choices : command.actions;
     const std::string argument =
         words.empty() ? "*:file:_files" : fmt::format("*:value:({})", join(words, " "));
-    cases += " \\\n        " + shell_quoted(argument) + " ;;\n";
+    cases += " \\\n        " + study::shell_quoted(argument) + " ;;\n";
   }
   return fmt::format(R"script(#compdef vinerow
 # Completion of vinerow for zsh, made by 'vinerow completion zsh'.
@@ -220,7 +220,7 @@ _vinerow() {{
 }}
 compdef _vinerow vinerow
 )script",
-                     commands, shell_quoted(" " + with_actions), cases);
+                     commands, study::shell_quoted(" " + with_actions), cases);
 }
 
 std::string fish_completion(const CLI::App& app) {

@@ -26,17 +26,17 @@ Polygon polygon_of(const std::vector<double>& numbers) {
   return polygon;
 }
 
-void write(const SurveyCoverage& coverage, const std::filesystem::path& picture) {
+void write(const playback::SurveyCoverage& coverage, const std::filesystem::path& picture) {
   io::make_folder_of(picture);
   render::write_png(picture.string(), draw_coverage(coverage));
   std::filesystem::path numbers = picture;
   numbers.replace_extension(".json");
-  write_whole_file(numbers, coverage_json(coverage));
+  write_whole_file(numbers, playback::coverage_json(coverage));
 }
 
 /// Of several cameras each has its name in its file's.
-std::filesystem::path file_of(const SurveyCoverage& coverage, const std::filesystem::path& out,
-                              std::size_t cameras) {
+std::filesystem::path file_of(const playback::SurveyCoverage& coverage,
+                              const std::filesystem::path& out, std::size_t cameras) {
   if (cameras == 1) return out;
   std::filesystem::path file = out;
   return file.replace_filename(fmt::format("{}_{}_{}{}", out.stem().string(), coverage.vehicle,
@@ -47,11 +47,11 @@ std::filesystem::path file_of(const SurveyCoverage& coverage, const std::filesys
 
 std::vector<std::filesystem::path> write_coverage(const std::filesystem::path& log,
                                                   const Registry& registry,
-                                                  const CoverageChoice& choice,
+                                                  const playback::CoverageChoice& choice,
                                                   const std::filesystem::path& out) {
   std::vector<std::filesystem::path> files;
-  const std::vector<SurveyCoverage> all = read_coverage(log, registry, choice);
-  for (const SurveyCoverage& coverage : all) {
+  const std::vector<playback::SurveyCoverage> all = playback::read_coverage(log, registry, choice);
+  for (const playback::SurveyCoverage& coverage : all) {
     files.push_back(file_of(coverage, out, all.size()));
     write(coverage, files.back());
   }
@@ -81,7 +81,7 @@ void add_coverage_command(CLI::App& app, int& exit_status) {
       ->allow_extra_args(false);
   command->callback([arguments, &exit_status] {
     const std::filesystem::path log = log_of(arguments->run);
-    CoverageChoice choice;
+    playback::CoverageChoice choice;
     choice.parcel_W = polygon_of(arguments->polygon);
     if (arguments->cell_m > 0.0) choice.cell_m = arguments->cell_m;
     const std::filesystem::path out =

@@ -16,13 +16,13 @@
 namespace vinerow::tools {
 namespace {
 
-void print_grid(const WorldModel& world, const worlds::OccupancyReport& report) {
+void print_grid(const WorldModel& world, const mapping::OccupancyReport& report) {
   const OccupancyGrid& grid = world.rows->occupancy;
   fmt::print("rows           {}\n", world.rows->rows.size());
   fmt::print("alleys         {}\n", world.rows->alleys.size());
   fmt::print("cells          {} x {} of {:g} m, {:.2f} million, {:.1f} % free\n", grid.columns,
              grid.rows, grid.cell_m, 1e-6 * static_cast<double>(grid.cells.size()),
-             100.0 * worlds::free_share(grid));
+             100.0 * mapping::free_share(grid));
   fmt::print("virtual walls  {}\n", report.walls.size());
   if (report.turning_areas.empty()) {
     fmt::print("turning areas  0\n");
@@ -50,7 +50,7 @@ void add_grid_command(CLI::App& app, int& exit_status) {
                       "folder for map.yaml, map.pgm and grid.png (default: maps/<scenario name>)");
   command->callback([arguments, &exit_status] {
     Registry registry;
-    const io::Scenario scenario = load(arguments->scenario, registry);
+    const scenario::Scenario scenario = load(arguments->scenario, registry);
     const auto world = build_world(scenario, registry);
     for (const std::string& note : world->notes) fmt::print("note: {}\n", note);
     if (world->rows->occupancy.empty()) {
@@ -58,11 +58,11 @@ void add_grid_command(CLI::App& app, int& exit_status) {
           fmt::format("{}: world '{}' has no occupancy grid (no rows, or occupancy_cell_m = 0)",
                       arguments->scenario.file.string(), scenario.world.type));
     }
-    worlds::OccupancyReport report;
+    mapping::OccupancyReport report;
     const ParameterSet& parameters = scenario.world.parameters;
     // A map from a file has the walls that it has.
-    if (worlds::has_map_parameters(parameters) && !parameters.find("occupancy_file")) {
-      report = worlds::plan_occupancy(world->rows, worlds::read_map_options(parameters));
+    if (mapping::has_map_parameters(parameters) && !parameters.find("occupancy_file")) {
+      report = mapping::plan_occupancy(world->rows, mapping::read_map_options(parameters));
     }
     const std::filesystem::path out =
         arguments->out.empty() ? std::filesystem::path("maps") / scenario.name : arguments->out;

@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
   // Beyond a limit on the size of files a write shall fail and be told, not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app{"Vinerow: simulation of robots that work in vineyards and orchards"};
-  app.set_version_flag("--version", "vinerow " + vinerow::program_version());
+  app.set_version_flag("--version", "vinerow " + vinerow::run::program_version());
   app.require_subcommand(1);
   int exit_status = 0;
   // The help lists groups and commands in this order.

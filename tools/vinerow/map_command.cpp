@@ -56,11 +56,11 @@ class Stopwatch {
                        static_cast<double>(usage.ru_maxrss) * 1024.0 * 1e-6});
     last_ = now;
   }
-  const std::vector<worlds::MapPhase>& phases() const { return phases_; }
+  const std::vector<mapping::MapPhase>& phases() const { return phases_; }
 
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  std::vector<worlds::MapPhase> phases_;
+  std::vector<mapping::MapPhase> phases_;
 };
 
 std::optional<GeoOrigin> find_map_origin(const MapArguments& arguments) {
@@ -100,11 +100,12 @@ std::vector<Eigen::Vector2d> read_boundary(const fs::path& file, const GeoOrigin
         "without --origin, or the boundary as CSV in metres",
         file.string()));
   }
-  Polygon2 polygon = clean_polygon(read_survey_area(file.string(), origin));
-  if (const auto fault = find_polygon_fault(polygon)) {
+  controllers::Polygon2 polygon =
+      controllers::clean_polygon(controllers::read_survey_area(file.string(), origin));
+  if (const auto fault = controllers::find_polygon_fault(polygon)) {
     throw ConfigError(fmt::format("--boundary: '{}': {}", file.string(), *fault));
   }
-  if (polygon_area_m2(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
+  if (controllers::polygon_area_m2(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
   return polygon;
 }
 
@@ -129,9 +130,9 @@ void export_meshes(const std::vector<RowMesh>& meshes, const std::vector<std::st
   }
 }
 
-std::vector<ReportPicture> write_pictures(const worlds::CloudMap& map,
-                                          const worlds::ParcelCloud& cloud,
-                                          const worlds::OccupancyOptions& occupancy,
+std::vector<ReportPicture> write_pictures(const mapping::CloudMap& map,
+                                          const mapping::ParcelCloud& cloud,
+                                          const mapping::OccupancyOptions& occupancy,
                                           const fs::path& folder, const std::string& title) {
   std::vector<ReportPicture> pictures;
   for (const fs::path& file :
@@ -142,10 +143,10 @@ std::vector<ReportPicture> write_pictures(const worlds::CloudMap& map,
   return pictures;
 }
 
-std::string timing_json(const std::vector<worlds::MapPhase>& phases) {
+std::string timing_json(const std::vector<mapping::MapPhase>& phases) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   double total_s = 0.0, peak_MB = 0.0;
-  for (const worlds::MapPhase& phase : phases) {
+  for (const mapping::MapPhase& phase : phases) {
     list.push_back(
         {{"name", phase.name}, {"wall_s", phase.wall_s}, {"peak_memory_MB", phase.peak_memory_MB}});
     total_s += phase.wall_s;
@@ -158,10 +159,10 @@ std::string timing_json(const std::vector<worlds::MapPhase>& phases) {
   return json.dump(2) + "\n";
 }
 
-void print_phases(const std::vector<worlds::MapPhase>& phases) {
+void print_phases(const std::vector<mapping::MapPhase>& phases) {
   double total_s = 0.0;
   std::string line;
-  for (const worlds::MapPhase& phase : phases) {
+  for (const mapping::MapPhase& phase : phases) {
     total_s += phase.wall_s;
     line += fmt::format("{}{} {:.2f}", line.empty() ? "" : ", ", phase.name, phase.wall_s);
   }
@@ -173,29 +174,29 @@ void print_phases(const std::vector<worlds::MapPhase>& phases) {
 void make_map(const MapArguments& arguments) {
   Stopwatch watch;
   // Faults that can be seen before the long work are told before it.
-  const worlds::CloudMapJobParams params =
-      worlds::cloud_map_job_table().read(*arguments.method, "map");
-  worlds::CloudMapOptions options = params.options;
-  worlds::check_options(options);
-  std::optional<worlds::CloudTruth> truth;
-  if (!arguments.truth.empty()) truth = worlds::read_cloud_truth(arguments.truth);
-  worlds::CloudReadOptions read_options = params.reading;
+  const mapping::CloudMapJobParams params =
+      mapping::cloud_map_job_table().read(*arguments.method, "map");
+  mapping::CloudMapOptions options = params.options;
+  mapping::check_options(options);
+  std::optional<mapping::CloudTruth> truth;
+  if (!arguments.truth.empty()) truth = mapping::read_cloud_truth(arguments.truth);
+  mapping::CloudReadOptions read_options = params.reading;
   read_options.origin = find_map_origin(arguments);
   io::make_folder(arguments.out);
   if (!arguments.scenario.empty()) watch.end_phase("scenario");
 
-  worlds::CloudReadReport read;
-  worlds::ParcelCloud cloud = worlds::read_parcel_cloud(arguments.cloud, read_options, read);
+  mapping::CloudReadReport read;
+  mapping::ParcelCloud cloud = mapping::read_parcel_cloud(arguments.cloud, read_options, read);
   if (!read.crs_warning.empty()) fmt::print(stderr, "vinerow: warning: {}\n", read.crs_warning);
   watch.end_phase("read");
   if (!arguments.boundary.empty()) {
     options.boundary_W = read_boundary(arguments.boundary, read.origin, read.has_origin);
   }
-  worlds::CloudMap map = worlds::make_cloud_map(
+  mapping::CloudMap map = mapping::make_cloud_map(
       cloud, options, [&](const std::string& phase) { watch.end_phase(phase); });
-  worlds::add_source(read, map);
-  worlds::save_map(map, arguments.out);
-  worlds::save_gis(map, cloud, arguments.out);
+  mapping::add_source(read, map);
+  mapping::save_map(map, arguments.out);
+  mapping::save_gis(map, cloud, arguments.out);
   export_meshes(map.map.meshes, arguments.exports, arguments.out);
   watch.end_phase("files");
 
@@ -210,7 +211,7 @@ void make_map(const MapArguments& arguments) {
   write_whole_file(arguments.out / "timing.json", timing_json(watch.phases()));
   fmt::print("{}", map_report_text(map));
   if (truth)
-    fmt::print("{}", comparison_text(worlds::compare_with_truth(map, *truth), map, *truth));
+    fmt::print("{}", comparison_text(mapping::compare_with_truth(map, *truth), map, *truth));
   print_phases(watch.phases());
   fmt::print("map            {}\nreport         {}\n", (arguments.out / "map.json").string(),
              (arguments.out / "report.html").string());
@@ -244,7 +245,7 @@ void add_map_command(CLI::App& app, int& exit_status) {
       ->delimiter(',')
       ->check(CLI::IsMember({"obj", "glb", "ply"}));
   // A boundary comes from a file here, and there is no world that rows could be counted as.
-  a.method = add_table_flags(*command, worlds::cloud_map_job_table().specs(),
+  a.method = add_table_flags(*command, mapping::cloud_map_job_table().specs(),
                              {.without = {"boundary", "numbering"},
                               .names = {{"row_spacing_m", "--spacing"},
                                         {"least_row_length_m", "--row-length"},

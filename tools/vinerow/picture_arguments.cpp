@@ -67,8 +67,8 @@ void add_picture_arguments(CLI::App& command, PictureArguments& arguments) {
       ->allow_extra_args(false);
 }
 
-PictureOptions picture_options(const PictureArguments& arguments) {
-  PictureOptions options;
+playback::PictureOptions picture_options(const PictureArguments& arguments) {
+  playback::PictureOptions options;
   int own = 0;
   for (const std::string& camera : arguments.cameras) {
     if (camera.find('=') == std::string::npos) {
@@ -85,10 +85,11 @@ PictureOptions picture_options(const PictureArguments& arguments) {
   return options;
 }
 
-PictureReport render_pictures(const std::filesystem::path& log, const std::filesystem::path& out,
-                              const Registry& registry, const PictureOptions& options) {
+playback::PictureReport render_pictures(const std::filesystem::path& log,
+                                        const std::filesystem::path& out, const Registry& registry,
+                                        const playback::PictureOptions& options) {
   try {
-    return render_log(log, out, registry, options);
+    return playback::render_log(log, out, registry, options);
   } catch (const ConfigError& error) {
     // Nobody typed the override that stands for the camera.
     const std::string words = error.what();

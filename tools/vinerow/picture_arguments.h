@@ -23,10 +23,11 @@ void add_picture_arguments(CLI::App& command, PictureArguments& arguments);
 /// become cameras `view`, `view2`, ... of the log's scenario, or are called by their key `name`,
 /// and are checked as a scenario's.
 /// @throws ConfigError "--camera kind: must be key=value, ..."
-PictureOptions picture_options(const PictureArguments& arguments);
+playback::PictureOptions picture_options(const PictureArguments& arguments);
 
 /// render_log(); where a camera of one's own is at fault, the sentence names --camera.
-PictureReport render_pictures(const std::filesystem::path& log, const std::filesystem::path& out,
-                              const Registry& registry, const PictureOptions& options);
+playback::PictureReport render_pictures(const std::filesystem::path& log,
+                                        const std::filesystem::path& out, const Registry& registry,
+                                        const playback::PictureOptions& options);
 
 }  // namespace vinerow::tools

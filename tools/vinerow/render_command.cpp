@@ -32,13 +32,13 @@ void add_render_command(CLI::App& app, int& exit_status) {
                     "print the MD5 of each frame's pixels before its name");
   command->callback([arguments, &exit_status] {
     const Registry registry = make_registry(arguments->pictures.plugins);
-    PictureOptions options = picture_options(arguments->pictures);
+    playback::PictureOptions options = picture_options(arguments->pictures);
     if (!arguments->times_s.empty()) options.times_s = arguments->times_s;
     if (arguments->every_s > 0.0) options.every_s = arguments->every_s;
     const std::filesystem::path log = log_of(arguments->pictures.log);
     const std::filesystem::path out =
         arguments->out.empty() ? log.parent_path() / "frames" : arguments->out;
-    const PictureReport report = render_pictures(log, out, registry, options);
+    const playback::PictureReport report = render_pictures(log, out, registry, options);
     if (!report.write_failure.empty()) throw WriteError(report.write_failure);
     if (!report.note.empty()) throw ConfigError("no pictures: " + report.note);
     if (report.files.empty()) {

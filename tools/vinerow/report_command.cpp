@@ -44,7 +44,7 @@ void add_report_command(CLI::App& app, int& exit_status) {
     Registry registry = make_registry(arguments->plugins);
     const std::filesystem::path scenario = arguments->run / "scenario.resolved.yaml";
     if (std::filesystem::is_regular_file(scenario)) {
-      for (const auto& plugin : io::load_plugin_list(scenario)) load_plugin(plugin, registry);
+      for (const auto& plugin : scenario::load_plugin_list(scenario)) load_plugin(plugin, registry);
     }
     const std::filesystem::path out =
         arguments->out.empty() ? arguments->run / "report.html" : arguments->out;

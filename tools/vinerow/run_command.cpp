@@ -20,7 +20,7 @@ namespace {
 /// Thrown out of work that Ctrl-C ends.
 struct Interrupted {};
 
-void show_simulation(ProgressLine& line, const Progress& progress) {
+void show_simulation(ProgressLine& line, const run::Progress& progress) {
   const double share = progress.duration_s > 0.0 ? progress.simulated_s / progress.duration_s : 1.0;
   const double factor = progress.wall_s > 0.0 ? progress.simulated_s / progress.wall_s : 0.0;
   const double left_s = factor > 0.0 ? (progress.duration_s - progress.simulated_s) / factor : 0.0;
@@ -51,7 +51,7 @@ void print_phase(const PhaseReport& phase) {
   }
 }
 
-void print_verdict(const RunResult& result, const std::filesystem::path& out, bool with_log) {
+void print_verdict(const run::RunResult& result, const std::filesystem::path& out, bool with_log) {
   for (const PhaseReport& phase : result.phases) print_phase(phase);
   for (const CriterionResult& c : result.criteria) {
     fmt::print("{}  {}\n",
@@ -65,14 +65,14 @@ void print_verdict(const RunResult& result, const std::filesystem::path& out, bo
   fmt::print("summary  {}\n", (out / "summary.json").string());
   if (with_log) fmt::print("log      {}\n", (out / "log.mcap").string());
   if (!result.error.empty()) {
-    const bool broke_off = result.status == RunStatus::kBrokenOff;
+    const bool broke_off = result.status == run::RunStatus::kBrokenOff;
     fmt::print(stderr, "vinerow: {}{}\n", broke_off ? "the run broke off: " : "", result.error);
   }
   // Whoever reads this through a pipe wants it now, not behind the pictures.
   std::fflush(stdout);
 }
 
-void print_pictures(const RunResult& result, const std::filesystem::path& out) {
+void print_pictures(const run::RunResult& result, const std::filesystem::path& out) {
   if (!result.pictures.empty()) {
     fmt::print("pictures {} in {}, the last is {}\n", result.pictures.size(),
                (out / "frames").string(), result.pictures.back().string());
@@ -114,30 +114,30 @@ void print_files(const char* what, const std::vector<std::filesystem::path>& fil
 
 }  // namespace
 
-RunStatus run_and_tell(const io::Scenario& scenario, const Registry& registry,
-                       const RunChoice& choice) {
-  RunOptions options;
+run::RunStatus run_and_tell(const scenario::Scenario& scenario, const Registry& registry,
+                            const RunChoice& choice) {
+  run::RunOptions options;
   options.out = choice.out.empty() ? std::filesystem::path("runs") / scenario.name : choice.out;
   options.log = !choice.no_log;
   options.pictures = !choice.no_pictures;
   ProgressLine line(choice.quiet);
   watch_for_interrupt();
   const bool with_log = options.log && scenario.record.enabled;
-  options.progress = [&line](const Progress& progress) { show_simulation(line, progress); };
+  options.progress = [&line](const run::Progress& progress) { show_simulation(line, progress); };
   options.picture_progress = [&line](int done, int total) {
     line.count("drawing pictures", done, total);
   };
   options.interrupted = is_interrupted;
-  options.judged = [&](const RunResult& result) {
+  options.judged = [&](const run::RunResult& result) {
     line.end();
     print_verdict(result, options.out, with_log);
   };
-  const RunResult result = run_scenario(scenario, registry, options);
+  const run::RunResult result = run::run_scenario(scenario, registry, options);
   line.end();
   print_pictures(result, options.out);
   Unwritten unwritten;
   unwritten.tell(result.write_failure);
-  const bool broke_off = result.status == RunStatus::kBrokenOff;
+  const bool broke_off = result.status == run::RunStatus::kBrokenOff;
   const bool drawing_interrupted = is_interrupted() && !broke_off;
   try {
     if (drawing_interrupted) throw Interrupted();
@@ -170,7 +170,7 @@ RunStatus run_and_tell(const io::Scenario& scenario, const Registry& registry,
                "render {}/log.mcap' draws the pictures, 'vinerow report {}' writes the report\n",
                out, out);
   }
-  return unwritten.any() ? RunStatus::kBrokenOff : result.status;
+  return unwritten.any() ? run::RunStatus::kBrokenOff : result.status;
 }
 
 void add_run_command(CLI::App& app, int& exit_status) {
@@ -190,7 +190,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_flag("--quiet", arguments->choice.quiet, "no progress");
   command->callback([arguments, &exit_status] {
     Registry registry;
-    const io::Scenario scenario = load(arguments->scenario, registry);
+    const scenario::Scenario scenario = load(arguments->scenario, registry);
     exit_status = static_cast<int>(run_and_tell(scenario, registry, arguments->choice));
   });
 }

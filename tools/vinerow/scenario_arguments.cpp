@@ -50,11 +50,11 @@ Registry make_registry(const std::vector<std::filesystem::path>& plugins) {
   return registry;
 }
 
-io::Scenario load(const ScenarioArguments& arguments, Registry& registry) {
+scenario::Scenario load(const ScenarioArguments& arguments, Registry& registry) {
   registry = make_registry(arguments.plugins);
-  for (const auto& plugin : io::load_plugin_list(arguments.file, arguments.overrides))
+  for (const auto& plugin : scenario::load_plugin_list(arguments.file, arguments.overrides))
     load_plugin(plugin, registry);
-  return io::load_scenario(arguments.file, registry, arguments.overrides);
+  return scenario::load_scenario(arguments.file, registry, arguments.overrides);
 }
 
 }  // namespace vinerow::tools

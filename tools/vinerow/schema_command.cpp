@@ -18,10 +18,10 @@ void add_schema_command(CLI::App& app, int& exit_status) {
   command->add_option("--plugin", *plugins, "include the parts of a plug-in")
       ->allow_extra_args(false);
   command->callback([plugins, of, &exit_status] {
-    fmt::print("{}\n", *of == "map.json"      ? worlds::map_json_schema()
-                       : *of == "report.json" ? worlds::report_json_schema()
-                       : *of == "study"       ? io::study_json_schema()
-                                              : io::scenario_json_schema(make_registry(*plugins)));
+    fmt::print("{}\n", *of == "map.json"      ? mapping::map_json_schema()
+                       : *of == "report.json" ? mapping::report_json_schema()
+                       : *of == "study"       ? scenario::study_json_schema()
+                                        : scenario::scenario_json_schema(make_registry(*plugins)));
     exit_status = 0;
   });
 }

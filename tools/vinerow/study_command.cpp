@@ -58,7 +58,7 @@ CLI::App* add_action(CLI::App& study, const char* name, const char* words,
 }
 
 /// Exit status of a study by its cells: the worst of them.
-RunStatus status_of(const Results& results) {
+run::RunStatus status_of(const Results& results) {
   const auto counts = results.counts();
   const auto count = [&](CellState state) {
     const auto found = counts.find(state);
@@ -67,9 +67,9 @@ RunStatus status_of(const Results& results) {
   if (count(CellState::kBrokenOff) + count(CellState::kCrashed) + count(CellState::kOutOfTime) +
           count(CellState::kOutOfMemory) + count(CellState::kInvalid) + count(CellState::kWaiting) >
       0) {
-    return RunStatus::kBrokenOff;
+    return run::RunStatus::kBrokenOff;
   }
-  return count(CellState::kNotMet) > 0 ? RunStatus::kCriterionFailed : RunStatus::kAllMet;
+  return count(CellState::kNotMet) > 0 ? run::RunStatus::kCriterionFailed : run::RunStatus::kAllMet;
 }
 
 Colour state_colour(CellState state) {
@@ -350,7 +350,8 @@ void add_study_command(CLI::App& app, int& exit_status) {
     RunChoice choice;
     choice.out = arguments->folder(open).out / "repeat" / std::to_string(number);
     choice.quiet = arguments->quiet;
-    const io::Scenario scenario = open.source.load(open.registry, open.design.overrides(number));
+    const scenario::Scenario scenario =
+        open.source.load(open.registry, open.design.overrides(number));
     exit_status = static_cast<int>(run_and_tell(scenario, open.registry, choice));
   });
 }

@@ -39,7 +39,7 @@ void add_completion_command(CLI::App& app, int& exit_status);
 /// Options that every command which reads a scenario has.
 struct ScenarioArguments {
   std::filesystem::path file;
-  io::Overrides overrides;
+  scenario::Overrides overrides;
   std::vector<std::filesystem::path> plugins;
 };
 /// @param set_example  what the help of --set shows: a value that means something to this command
@@ -53,8 +53,8 @@ struct RunChoice {
 };
 /// Runs a scenario as `vinerow run` does: progress, verdict, pictures, report. @returns the exit
 /// status
-RunStatus run_and_tell(const io::Scenario& scenario, const Registry& registry,
-                       const RunChoice& choice);
+run::RunStatus run_and_tell(const scenario::Scenario& scenario, const Registry& registry,
+                            const RunChoice& choice);
 
 /// RUN/log.mcap of a folder, else the file itself.
 std::filesystem::path log_of(const std::filesystem::path& run_or_log);
@@ -64,12 +64,12 @@ std::filesystem::path log_of(const std::filesystem::path& run_or_log);
 /// @returns the pictures; none where the log holds no shots
 std::vector<std::filesystem::path> write_coverage(const std::filesystem::path& log,
                                                   const Registry& registry,
-                                                  const CoverageChoice& choice,
+                                                  const playback::CoverageChoice& choice,
                                                   const std::filesystem::path& out);
 
 /// Built-in parts plus those of the scenario's and the command line's plug-ins.
 Registry make_registry(const std::vector<std::filesystem::path>& plugins);
 /// Loads plug-ins, then the scenario against them. @throws ConfigError
-io::Scenario load(const ScenarioArguments& arguments, Registry& registry);
+scenario::Scenario load(const ScenarioArguments& arguments, Registry& registry);
 
 }  // namespace vinerow::tools

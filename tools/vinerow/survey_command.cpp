@@ -20,16 +20,16 @@
 namespace vinerow::tools {
 namespace {
 
-void write_waypoints(const SurveyPlan& plan, const SurveyTask& task,
+void write_waypoints(const controllers::SurveyPlan& plan, const SurveyTask& task,
                      const std::filesystem::path& file) {
   const char* const kKinds[] = {"lane", "turn", "transit", "vertical", "return"};
-  const io::LocalFrame frame(task.origin);
+  const LocalFrame frame(task.origin);
   std::string out;
   out += "waypoint,kind,lane,x_m,y_m,z_m,above_ground_m,latitude_deg,longitude_deg\n";
   int number = 0;
   for (const PathPoint& point : plan.path.points) {
     const Eigen::Vector3d& p = point.p_W;
-    const io::Geodetic place = frame.to_geodetic(p);
+    const Geodetic place = frame.to_geodetic(p);
     const auto ground_m = task.ground(p.head<2>());
     out += fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{:.9f},{:.9f}\n", number++,
                        kKinds[static_cast<int>(point.kind)],
@@ -40,7 +40,7 @@ void write_waypoints(const SurveyPlan& plan, const SurveyTask& task,
   write_whole_file(file, out);
 }
 
-void print_survey(const SurveyTask& task, const SurveyPlan& plan) {
+void print_survey(const SurveyTask& task, const controllers::SurveyPlan& plan) {
   const auto n = [&](const char* name) { return plan.numbers.at(name); };
   const SurveyCamera& camera = task.request.camera;
   fmt::print(
@@ -103,12 +103,12 @@ void print_survey(const SurveyTask& task, const SurveyPlan& plan) {
 }
 
 void plan_and_write(const SurveyTask& task, const std::filesystem::path& out) {
-  const auto plan = plan_survey(task.request, task.start_W, task.ground);
+  const auto plan = controllers::plan_survey(task.request, task.start_W, task.ground);
   if (!plan) throw ConfigError("survey: " + plan.reason());
   io::make_folder(out);
   const double home_m = task.ground(task.start_W.p.head<2>()).value_or(task.start_W.p.z());
   const io::MissionFile mission =
-      make_survey_mission(*plan, task.origin, home_m, task.request.returns);
+      controllers::make_survey_mission(*plan, task.origin, home_m, task.request.returns);
   io::write_qgc_plan(mission, out / "survey.plan");
   io::write_qgc_wpl(mission, out / "survey.waypoints");
   write_waypoints(*plan, task, out / "waypoints.csv");
@@ -155,7 +155,7 @@ void add_survey_command(CLI::App& app, int& exit_status) {
   command->add_option("--out", arguments->out,
                       "folder for survey.plan, survey.waypoints, waypoints.csv and survey.png "
                       "(default: surveys/<name>)");
-  for (const ParameterSpec& spec : survey_spec().parameters) {
+  for (const ParameterSpec& spec : controllers::survey_spec().parameters) {
     if (spec.kind == ParameterKind::kNumberList || spec.kind == ParameterKind::kPath) continue;
     if (spec.name == "rotorcraft") {
       command->add_flag("--rotorcraft{true}", arguments->values[spec.name], spec.description)
@@ -172,7 +172,7 @@ void add_survey_command(CLI::App& app, int& exit_status) {
     }
     if (has_scenario) {
       Registry registry;
-      const io::Scenario scenario = load(arguments->scenario, registry);
+      const scenario::Scenario scenario = load(arguments->scenario, registry);
       Simulation simulation(scenario, registry);
       const SurveyTask task = task_of_scenario(*arguments, scenario, simulation);
       plan_and_write(task, out_of(*arguments, task));

@@ -29,7 +29,7 @@ double read_number(const std::string& name, const std::string& text) {
 
 /// Puts values of the command line into the planner's parameters, checked as a file's are.
 void set_values(const std::map<std::string, std::string>& values, ParameterSet& parameters) {
-  for (const ParameterSpec& spec : survey_spec().parameters) {
+  for (const ParameterSpec& spec : controllers::survey_spec().parameters) {
     const auto found = values.find(spec.name);
     if (found == values.end() || found->second.empty()) continue;
     const std::string& text = found->second;
@@ -102,17 +102,17 @@ void refuse_swapped_corner(const SurveyArguments& arguments, const io::Elevation
 }
 
 /// Flat ground, or that of an elevation model.
-GroundHeight find_ground(const SurveyArguments& arguments, GeoOrigin& origin) {
-  if (arguments.dem.empty()) return make_ground(nullptr, 0.0);
+controllers::GroundHeight find_ground(const SurveyArguments& arguments, GeoOrigin& origin) {
+  if (arguments.dem.empty()) return controllers::make_ground(nullptr, 0.0);
   const auto lookup =
       std::make_shared<io::ElevationLookup>(io::read_elevation(arguments.dem, arguments.crs));
   refuse_swapped_corner(arguments, *lookup);
   if (arguments.origin.size() < 3) {  // W's zero is the ground at the origin
     origin.altitude_m = lookup->height_m(origin.latitude_rad, origin.longitude_rad).value_or(0.0);
   }
-  const auto frame = std::make_shared<io::LocalFrame>(origin);
+  const auto frame = std::make_shared<LocalFrame>(origin);
   return [lookup, frame](const Eigen::Vector2d& p) -> std::optional<double> {
-    const io::Geodetic place = frame->to_geodetic({p.x(), p.y(), 0.0});
+    const Geodetic place = frame->to_geodetic({p.x(), p.y(), 0.0});
     const auto height_m = lookup->height_m(place.latitude_rad, place.longitude_rad);
     if (!height_m) return std::nullopt;
     return *height_m - place.altitude_m;
@@ -129,12 +129,12 @@ SurveyTask task_of_polygon(const SurveyArguments& arguments) {
   task.title = arguments.polygon.stem().string();
   task.origin = find_survey_origin(arguments);
   task.ground = find_ground(arguments, task.origin);
-  ParameterSet parameters(survey_spec().parameters, "survey");
+  ParameterSet parameters(controllers::survey_spec().parameters, "survey");
   parameters.set("polygon_file", arguments.polygon.string());
   set_values(arguments.values, parameters);
   PlannerContext context;
   context.origin = task.origin;
-  task.request = read_survey_request(parameters, context, "survey");
+  task.request = controllers::read_survey_request(parameters, context, "survey");
   // Without a start: the first corner, heading away from the area.
   Eigen::Vector2d start = task.request.polygon_W.front(), middle = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& p : task.request.polygon_W) {
@@ -161,11 +161,11 @@ SurveyTask task_of_polygon(const SurveyArguments& arguments) {
 
 namespace {
 
-const io::VehicleConfig& find_vehicle(const io::Scenario& scenario,
-                                      const SurveyArguments& arguments) {
+const scenario::VehicleConfig& find_vehicle(const scenario::Scenario& scenario,
+                                            const SurveyArguments& arguments) {
   const std::string file = arguments.scenario.file.string();
-  const io::VehicleConfig* found = nullptr;
-  for (const io::VehicleConfig& vehicle : scenario.vehicles) {
+  const scenario::VehicleConfig* found = nullptr;
+  for (const scenario::VehicleConfig& vehicle : scenario.vehicles) {
     const bool surveys = vehicle.planner && vehicle.planner->type == "survey";
     if (!arguments.vehicle.empty() && vehicle.name == arguments.vehicle) {
       if (surveys) return vehicle;
@@ -185,9 +185,9 @@ const io::VehicleConfig& find_vehicle(const io::Scenario& scenario,
 /// The simulation must outlive the task, whose ground it is.
 }  // namespace
 
-SurveyTask task_of_scenario(const SurveyArguments& arguments, const io::Scenario& scenario,
+SurveyTask task_of_scenario(const SurveyArguments& arguments, const scenario::Scenario& scenario,
                             Simulation& simulation) {
-  const io::VehicleConfig& config = find_vehicle(scenario, arguments);
+  const scenario::VehicleConfig& config = find_vehicle(scenario, arguments);
   SurveyTask task;
   task.title = scenario.name;
   task.origin = simulation.world().origin;
@@ -204,8 +204,9 @@ SurveyTask task_of_scenario(const SurveyArguments& arguments, const io::Scenario
     context.scene = &simulation.physics().scene();
     context.origin = task.origin;
     context.gravity_mps2 = scenario.gravity_mps2;
-    task.request = read_survey_request(parameters, context, config.name + ".planner (survey)");
-    task.ground = make_ground(context.scene, 0.0);
+    task.request =
+        controllers::read_survey_request(parameters, context, config.name + ".planner (survey)");
+    task.ground = controllers::make_ground(context.scene, 0.0);
   }
   return task;
 }

@@ -27,8 +27,8 @@ struct SurveyArguments {
 /// All that a survey needs, wherever it comes from.
 struct SurveyTask {
   std::string title;
-  SurveyRequest request;
-  GroundHeight ground;
+  controllers::SurveyRequest request;
+  controllers::GroundHeight ground;
   GeoOrigin origin;
   Pose start_W;
 };
@@ -38,7 +38,7 @@ SurveyTask task_of_polygon(const SurveyArguments& arguments);
 
 /// Of a vehicle whose planner is `survey`. @param simulation  must outlive the task, whose ground
 /// it is @throws ConfigError
-SurveyTask task_of_scenario(const SurveyArguments& arguments, const io::Scenario& scenario,
+SurveyTask task_of_scenario(const SurveyArguments& arguments, const scenario::Scenario& scenario,
                             Simulation& simulation);
 
 }  // namespace vinerow::tools

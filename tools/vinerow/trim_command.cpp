@@ -38,7 +38,7 @@ void refuse_scenario(const std::filesystem::path& file) {
 }
 
 /// The vehicle of a file as a scenario's `include` reads it.
-io::VehicleConfig load_vehicle(const TrimArguments& arguments, const Registry& registry) {
+scenario::VehicleConfig load_vehicle(const TrimArguments& arguments, const Registry& registry) {
   refuse_scenario(arguments.file);
   std::string quoted;
   for (const char c : std::filesystem::absolute(arguments.file).string()) {
@@ -49,11 +49,11 @@ io::VehicleConfig load_vehicle(const TrimArguments& arguments, const Registry& r
       "vinerow: 1\nname: trim\nworld: {{type: vineyard}}\nvehicles:\n  {}:\n"
       "    include: '{}'\n    spawn: {{x_m: 0, y_m: 0}}\n",
       kName, quoted);
-  io::Overrides overrides;
+  scenario::Overrides overrides;
   for (const std::string& set : arguments.sets) {
     overrides.sets.push_back(fmt::format("{}.{}", kName, set));
   }
-  return io::parse_scenario(scenario, std::filesystem::current_path(), registry, overrides)
+  return scenario::parse_scenario(scenario, std::filesystem::current_path(), registry, overrides)
       .vehicles.front();
 }
 
@@ -75,7 +75,7 @@ int trim(const TrimArguments& arguments) {
   check_option(arguments.air_density_kgm3 >= 0.0, "air-density", arguments.air_density_kgm3,
                "> 0 kg/m3 (0: the vehicle's own)");
   const Registry registry = make_registry(arguments.plugins);
-  const io::VehicleConfig config = load_vehicle(arguments, registry);
+  const scenario::VehicleConfig config = load_vehicle(arguments, registry);
   VehicleContext context;
   context.vehicle = kName;
   context.part = kName;
@@ -83,9 +83,10 @@ int trim(const TrimArguments& arguments) {
   const std::unique_ptr<Vehicle> vehicle =
       registry.make_vehicle(config.vehicle.type, config.vehicle.parameters, context);
   const std::string who = arguments.file.filename().string();
-  Aircraft aircraft = read_aircraft(vehicle->description(), context.gravity_mps2, who);
+  controllers::Aircraft aircraft =
+      controllers::read_aircraft(vehicle->description(), context.gravity_mps2, who);
   if (arguments.air_density_kgm3 > 0.0) aircraft.air_density_kgm3 = arguments.air_density_kgm3;
-  const TrimRequest request{
+  const controllers::TrimRequest request{
       arguments.speed_mps > 0.0 ? arguments.speed_mps : aircraft.cruise_speed_mps,
       rad_from_deg(arguments.climb_deg), rad_from_deg(arguments.bank_deg)};
   const TrimReport report = make_trim_report(aircraft, request, arguments.period_s, who);

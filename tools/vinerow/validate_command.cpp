@@ -19,9 +19,9 @@ void add_validate_command(CLI::App& app, int& exit_status) {
                     "do not build the world and the vehicles, and so make no plans");
   command->callback([arguments, &exit_status] {
     Registry registry;
-    const io::Scenario scenario = load(arguments->scenario, registry);
+    const scenario::Scenario scenario = load(arguments->scenario, registry);
     if (!arguments->files_only) {
-      for (const std::string& note : rehearse_run(scenario, registry)) {
+      for (const std::string& note : run::rehearse_run(scenario, registry)) {
         fmt::print("note: {}\n", note);
       }
     }

@@ -31,12 +31,12 @@ struct VideoArguments {
 int make_video(const VideoArguments& arguments) {
   const Registry registry = make_registry(arguments.pictures.plugins);
   const std::filesystem::path log = log_of(arguments.pictures.log);
-  PictureOptions options = picture_options(arguments.pictures);
+  playback::PictureOptions options = picture_options(arguments.pictures);
   if (options.cameras.size() > 1) {
     throw ConfigError("video: --camera is given several times, must be one camera");
   }
   if (options.cameras.empty()) {
-    const io::Scenario scenario = scenario_of_log(log, registry);
+    const scenario::Scenario scenario = playback::scenario_of_log(log, registry);
     const auto& cameras = scenario.pictures.cameras;
     options.cameras = {cameras.empty() ? "chase" : cameras.front().name};
   }
@@ -56,7 +56,7 @@ int make_video(const VideoArguments& arguments) {
   options.progress = [&line](int done, int total) { line.count("drawing frames", done, total); };
   options.interrupted = [] { return video_interrupted != 0; };
   std::signal(SIGINT, note_video_interrupt);
-  const PictureReport report = render_pictures(log, {}, registry, options);
+  const playback::PictureReport report = render_pictures(log, {}, registry, options);
   line.end();
   if (!report.write_failure.empty()) throw WriteError(report.write_failure);
   if (video_interrupted != 0) throw WriteError("interrupted: there is no video");

@@ -3,11 +3,11 @@
 #include "vehicles/payloads/canopy_camera.h"
 #include "vehicles/payloads/sprayer.h"
 
-namespace vinerow {
+namespace vinerow::vehicles {
 
 void register_payloads(Registry& registry) {
-  registry.add_payload(vehicles::canopy_camera_spec(), vehicles::make_canopy_camera);
-  registry.add_payload(vehicles::sprayer_spec(), vehicles::make_sprayer);
+  registry.add_payload(canopy_camera_spec(), make_canopy_camera);
+  registry.add_payload(sprayer_spec(), make_sprayer);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::vehicles

@@ -3,8 +3,8 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::vehicles {
 
 void register_payloads(Registry& registry);
 
-}  // namespace vinerow
+}  // namespace vinerow::vehicles

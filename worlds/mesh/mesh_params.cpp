@@ -77,7 +77,7 @@ const ParameterTable<MeshWorldParams>& mesh_world_table() {
                   "WGS84 latitude of the world's origin; latitude and longitude 0: what sdf_file "
                   "says in <spherical_coordinates>")
           .include(&P::surroundings, surroundings_table())
-          .include(&P::map, map_table());
+          .include(&P::map, mapping::map_table());
   return table;
 }
 

@@ -52,7 +52,7 @@ struct MeshWorldParams {
   VinePlanting planting;
   GeoOrigin origin;  ///< latitude and longitude 0: the SDF world's, if it has one
   Surroundings surroundings;
-  MapParams map;
+  mapping::MapParams map;
 };
 
 const ParameterTable<MeshWorldParams>& mesh_world_table();

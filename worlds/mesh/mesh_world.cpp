@@ -215,26 +215,26 @@ bool mark_ground(const std::vector<MeshObject>& objects, WorldModel& world) {
 }
 
 /// The box around every placed mesh and row, in the plane.
-Eigen::AlignedBox2d extent_of(const WorldModel& world, const std::vector<RowCurve>& rows) {
+Eigen::AlignedBox2d extent_of(const WorldModel& world, const std::vector<mapping::RowCurve>& rows) {
   Eigen::AlignedBox2d box;
   for (const MeshInstance& instance : world.meshes) {
     for (const Eigen::Vector3f& v : instance.mesh->vertices) {
       box.extend(Eigen::Vector2d((instance.X_WM * v.cast<double>()).head<2>()));
     }
   }
-  for (const RowCurve& row : rows) {
+  for (const mapping::RowCurve& row : rows) {
     for (const Eigen::Vector2d& p : row.points_W()) box.extend(p);
   }
   if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
   return box;
 }
 
-void plant_stand_ins(WorldModel& world, const std::vector<RowCurve>& rows,
-                     const GroundHeight& ground, const MeshWorldParams& params) {
+void plant_stand_ins(WorldModel& world, const std::vector<mapping::RowCurve>& rows,
+                     const mapping::GroundHeight& ground, const MeshWorldParams& params) {
   const VinePlanting& planting = params.planting;
   const double spacing_m = params.vine_spacing_m;
   std::vector<VineRow> vine_rows;
-  for (const RowCurve& row : rows) {
+  for (const mapping::RowCurve& row : rows) {
     const double length_m = row.length_m();
     VineRow vines{
         row, regular_vines(length_m, spacing_m, 0.0, RandomStream(0, "", "")), spacing_m, {}};
@@ -248,7 +248,7 @@ void plant_stand_ins(WorldModel& world, const std::vector<RowCurve>& rows,
 }
 
 /// Plants the rows, unless their pieces have meshes, and tells where they are.
-void add_rows(WorldModel& world, const std::vector<RowCurve>& rows, bool have_meshes,
+void add_rows(WorldModel& world, const std::vector<mapping::RowCurve>& rows, bool have_meshes,
               const MeshWorldParams& params) {
   // The ground as it is before plants stand on it; their meshes move the list.
   const WorldModel bare = world;
@@ -258,12 +258,12 @@ void add_rows(WorldModel& world, const std::vector<RowCurve>& rows, bool have_me
     scene.emplace(bare);
   }
   constexpr double kFromAbove_m = 1e4;
-  const GroundHeight ground = [&](double x, double y) {
+  const mapping::GroundHeight ground = [&](double x, double y) {
     if (!scene) return bare.terrain->height_m(x, y);
     return scene->ground_height_m(x, y, kFromAbove_m).value_or(0.0);
   };
-  RowMap map = make_row_map(rows, ground, canopy_size(params.planting.canopy),
-                            parcel_boundary(rows, 8.0, 3.0));
+  RowMap map = mapping::make_row_map(rows, ground, canopy_size(params.planting.canopy),
+                                     mapping::parcel_boundary(rows, 8.0, 3.0));
   if (!have_meshes) plant_stand_ins(world, rows, ground, params);
   world.rows = std::move(map);
   add_alley_spawn_points(world);
@@ -289,7 +289,7 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
     has_ground = has_ground || item.surface == SurfaceClass::kTerrain;
     if (!item.surface && item.collides) unnamed.push_back(object);
   }
-  std::vector<RowCurve> rows;
+  std::vector<mapping::RowCurve> rows;
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
   SdfModels models(params, library, *world);
   if (!params.sdf_file.empty()) {
@@ -328,7 +328,7 @@ std::unique_ptr<WorldModel> make_mesh_world(const ParameterSet& parameters,
         build_terrain(params.terrain, params.planting.seed, world->origin, shape, ground_box);
   }
   if (!rows.empty()) add_rows(*world, rows, models.has_vine_meshes(), params);
-  fill_occupancy(params.map, *world, {}, row_end_margin_m(params.planting));
+  mapping::fill_occupancy(params.map, *world, {}, row_end_margin_m(params.planting));
   world->spawn_points.push_back({"centre", box.center(), 0.0});
   return world;
 }

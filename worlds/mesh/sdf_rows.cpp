@@ -23,9 +23,9 @@ struct Line {
 
 }  // namespace
 
-std::vector<RowCurve> find_sdf_rows(const std::vector<io::SdfInclude>& includes,
-                                    const std::string& prefix, double piece_length_m,
-                                    double apart_m) {
+std::vector<mapping::RowCurve> find_sdf_rows(const std::vector<io::SdfInclude>& includes,
+                                             const std::string& prefix, double piece_length_m,
+                                             double apart_m) {
   std::vector<Line> lines;
   for (const io::SdfInclude& include : includes) {
     if (!has_prefix(include, prefix)) continue;
@@ -46,12 +46,12 @@ std::vector<RowCurve> find_sdf_rows(const std::vector<io::SdfInclude>& includes,
       found->end_m = std::max(found->end_m, s_m + half_m);
     }
   }
-  std::vector<RowCurve> rows;
+  std::vector<mapping::RowCurve> rows;
   for (const Line& line : lines) {
     rows.emplace_back(std::vector<Eigen::Vector2d>{line.origin + line.start_m * line.direction,
                                                    line.origin + line.end_m * line.direction});
   }
-  return rows.empty() ? rows : order_rows(std::move(rows));
+  return rows.empty() ? rows : mapping::order_rows(std::move(rows));
 }
 
 Eigen::Vector3d fit_ground_plane(const std::vector<io::SdfInclude>& includes,

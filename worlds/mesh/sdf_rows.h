@@ -14,9 +14,9 @@ namespace vinerow::worlds {
 /// `apart_m`).
 /// @param piece_length_m  of one model, along x
 /// @returns rows in the order of order_rows(); empty where no model has the prefix
-std::vector<RowCurve> find_sdf_rows(const std::vector<io::SdfInclude>& includes,
-                                    const std::string& prefix, double piece_length_m,
-                                    double apart_m = 0.5);
+std::vector<mapping::RowCurve> find_sdf_rows(const std::vector<io::SdfInclude>& includes,
+                                             const std::string& prefix, double piece_length_m,
+                                             double apart_m = 0.5);
 
 /// Plane z = a + b x + c y through the pieces' feet, by least squares.
 /// @returns (a, b, c); (0, 0, 0) without pieces; slopes that the pieces do not determine are 0

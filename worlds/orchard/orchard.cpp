@@ -31,7 +31,7 @@ struct OrchardParams {
   TerrainParams terrain;
   GeoOrigin origin{rad_from_deg(45.0626), rad_from_deg(7.6624), 240.0};
   Surroundings surroundings;
-  MapParams map;
+  mapping::MapParams map;
   ObstaclesParams obstacles;
 };
 
@@ -72,7 +72,7 @@ const ParameterTable<OrchardParams>& orchard_table() {
           .include(&P::terrain, terrain_table())
           .include(&P::origin, origin_table())
           .include(&P::surroundings, surroundings_table())
-          .include(&P::map, map_table())
+          .include(&P::map, mapping::map_table())
           .include(&P::obstacles, obstacles_table())
           .rule([](const P& p) -> std::string {
             if (p.trees.crown_base_m < p.trees.height_m) return "";
@@ -145,10 +145,10 @@ std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
   world->rows = make_map(layout, trees, *world->terrain);
 
   MemoryMeshStore store;
-  const GroundHeight ground = ground_of(*world->terrain);
+  const mapping::GroundHeight ground = ground_of(*world->terrain);
   for (int k = 0; k < layout.plant_rows; ++k) {
     const auto& line = world->rows->rows[static_cast<std::size_t>(k)].line_W;
-    const RowCurve row({line.front().head<2>(), line.back().head<2>()});
+    const mapping::RowCurve row({line.front().head<2>(), line.back().head<2>()});
     const int count = std::max(1, static_cast<int>(row.length_m() / params.tree_spacing_m + 1e-9));
     std::vector<double> stations;
     for (int i = 0; i < count; ++i) stations.push_back(row.length_m() * (i + 0.5) / count);
@@ -159,7 +159,7 @@ std::unique_ptr<WorldModel> make_orchard(const ParameterSet& parameters,
   if (params.refinement_per_m2 && params.map.occupancy_file.empty()) {
     world->rows->occupancy = make_occupancy(layout);
   } else {
-    fill_occupancy(params.map, *world, on_map, 0.0);
+    mapping::fill_occupancy(params.map, *world, on_map, 0.0);
   }
   return world;
 }

@@ -51,7 +51,7 @@ const ParameterTable<CanopyParams>& canopy_table() {
   return table;
 }
 
-CanopySize canopy_size(const CanopyParams& params) {
+mapping::CanopySize canopy_size(const CanopyParams& params) {
   return {params.width_m, params.base_m, params.top_m};
 }
 
@@ -109,7 +109,7 @@ Eigen::Vector2d CanopyShape::surface_normal(double u_m, double angle_rad) const 
       .normalized();
 }
 
-TriangleMesh make_canopy_hull(const RowCurve& row, const GroundHeight& ground,
+TriangleMesh make_canopy_hull(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                               const std::vector<CanopyStretch>& stretches,
                               const CanopyParams& params) {
   VINEROW_DEMAND(!stretches.empty());
@@ -134,7 +134,7 @@ TriangleMesh make_canopy_hull(const RowCurve& row, const GroundHeight& ground,
     const double shrink = 0.35 + 0.65 * std::sqrt(t * (2.0 - t));
     const CanopySection section = stretch.shape->section(u_m);
     const Eigen::Vector2d middle(section.shift_m, 0.5 * (section.base_m + section.top_m));
-    const Pose X_WR = row_frame(row, ground, s_m);
+    const Pose X_WR = mapping::row_frame(row, ground, s_m);
     for (int k = 0; k < n; ++k) {
       // Half a step of turn puts no vertex at the very bottom, which keeps the underside flat.
       const double angle = 2.0 * kPi * (k + 0.5) / n;

@@ -33,7 +33,7 @@ struct CanopyParams {
 const ParameterTable<CanopyParams>& canopy_table();
 
 /// What the row map says of it.
-CanopySize canopy_size(const CanopyParams& params);
+mapping::CanopySize canopy_size(const CanopyParams& params);
 
 /// One cross-section: a super-ellipse, |2y/w|^3 + |2(z-m)/h|^3 = 1.
 struct CanopySection {
@@ -73,7 +73,7 @@ struct CanopyStretch {
 
 /// Closed hull of neighbouring stretches (end of one = start of the next), rounded off at both
 /// ends. In W.
-TriangleMesh make_canopy_hull(const RowCurve& row, const GroundHeight& ground,
+TriangleMesh make_canopy_hull(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                               const std::vector<CanopyStretch>& stretches,
                               const CanopyParams& params);
 

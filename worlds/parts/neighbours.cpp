@@ -227,7 +227,7 @@ Scenery make_neighbours(const NeighboursParams& params,
   if (!params.meadow_m.empty()) {
     options.meadow_W.emplace_back(params.meadow_m[0], params.meadow_m[1]);
   }
-  const Eigen::AlignedBox2d box = box_around(parcel_W);
+  const Eigen::AlignedBox2d box = mapping::box_around(parcel_W);
   const Eigen::Vector2d low = box.min().array() - surroundings_m,
                         high = box.max().array() + surroundings_m;
   return lay_neighbours(parcel_W, {low, {high.x(), low.y()}, high, {low.x(), high.y()}}, options,

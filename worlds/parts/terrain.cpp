@@ -150,7 +150,7 @@ HeightField build_terrain(const TerrainParams& params, std::uint64_t seed, const
                            params.clods_m, terrain_random(seed, "clods"));
 }
 
-GroundHeight ground_of(const HeightField& field) {
+mapping::GroundHeight ground_of(const HeightField& field) {
   return [&field](double x, double y) { return field.height_m(x, y); };
 }
 

@@ -91,6 +91,6 @@ HeightField build_terrain(const TerrainParams& params, std::uint64_t seed, const
                           const TerrainShape& shape, const Eigen::AlignedBox2d& box_W);
 
 /// Height function of a height field, which must outlive it.
-GroundHeight ground_of(const HeightField& field);
+mapping::GroundHeight ground_of(const HeightField& field);
 
 }  // namespace vinerow::worlds

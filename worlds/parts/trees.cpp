@@ -99,8 +99,8 @@ TriangleMesh make_tree_trunk(const TreeParams& params, const Crown& crown, Rando
 
 }  // namespace
 
-void plant_tree_row(WorldModel& world, int row_number, const RowCurve& row,
-                    const std::vector<double>& tree_s_m, const GroundHeight& ground,
+void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& row,
+                    const std::vector<double>& tree_s_m, const mapping::GroundHeight& ground,
                     const TreeParams& params, MeshStore& store) {
   const auto random = [&](const std::string& name) {
     return RandomStream(params.seed, "", "world.plants." + name);

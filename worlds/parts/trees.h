@@ -24,8 +24,8 @@ struct TreeParams {
 
 /// Appends trees at the stations of a row: "crown_hull/row_03/tree_07" (collides, not drawn),
 /// "crown/row_03/tree_07#lod0" to "#lod2" (drawn), "tree_trunk/row_03/tree_07" (collides).
-void plant_tree_row(WorldModel& world, int row_number, const RowCurve& row,
-                    const std::vector<double>& tree_s_m, const GroundHeight& ground,
+void plant_tree_row(WorldModel& world, int row_number, const mapping::RowCurve& row,
+                    const std::vector<double>& tree_s_m, const mapping::GroundHeight& ground,
                     const TreeParams& params, MeshStore& store);
 
 }  // namespace vinerow::worlds

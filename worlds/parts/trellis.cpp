@@ -34,13 +34,13 @@ const ParameterTable<TrellisParams>& trellis_table() {
   return table;
 }
 
-TriangleMesh make_trunks(const RowCurve& row, const GroundHeight& ground,
+TriangleMesh make_trunks(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                          const std::vector<double>& vine_s_m, double vine_spacing_m,
                          const TrellisParams& params, int level, RandomStream random) {
   TriangleMesh mesh;
   const int sides = level == 0 ? 5 : 3;
   for (const double s_m : vine_s_m) {
-    const Pose X_WR = row_frame(row, ground, s_m);
+    const Pose X_WR = mapping::row_frame(row, ground, s_m);
     // The same numbers are drawn at every level, so that levels show the same stems.
     const double girth = random.uniform(0.8, 1.25);
     double bend_m[3][2];
@@ -78,11 +78,11 @@ TriangleMesh make_trunks(const RowCurve& row, const GroundHeight& ground,
   return mesh;
 }
 
-TriangleMesh make_line_posts(const RowCurve& row, const GroundHeight& ground,
+TriangleMesh make_line_posts(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                              const std::vector<double>& post_s_m, const TrellisParams& params) {
   TriangleMesh mesh;
   for (const double s_m : post_s_m) {
-    const Pose X_WR = row_frame(row, ground, s_m);
+    const Pose X_WR = mapping::row_frame(row, ground, s_m);
     const std::array<TubePoint, 2> post = {
         TubePoint{X_WR * Eigen::Vector3d(0, 0, -kFeetBuried_m), params.post_radius_m},
         TubePoint{X_WR * Eigen::Vector3d(0, 0, params.post_height_m), params.post_radius_m}};
@@ -91,11 +91,11 @@ TriangleMesh make_line_posts(const RowCurve& row, const GroundHeight& ground,
   return mesh;
 }
 
-TriangleMesh make_end_posts(const RowCurve& row, const GroundHeight& ground, double start_m,
-                            double end_m, const TrellisParams& params) {
+TriangleMesh make_end_posts(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
+                            double start_m, double end_m, const TrellisParams& params) {
   TriangleMesh mesh;
   for (const bool at_start : {true, false}) {
-    const Pose X_WR = row_frame(row, ground, at_start ? start_m : end_m);
+    const Pose X_WR = mapping::row_frame(row, ground, at_start ? start_m : end_m);
     const double way = at_start ? -1.0 : 1.0;
     const double lean = params.end_post_lean_rad, height = params.post_height_m;
     const Eigen::Vector3d up(way * std::sin(lean), 0.0, std::cos(lean));
@@ -107,8 +107,8 @@ TriangleMesh make_end_posts(const RowCurve& row, const GroundHeight& ground, dou
   return mesh;
 }
 
-TriangleMesh make_wires(const RowCurve& row, const GroundHeight& ground, double start_m,
-                        double end_m, const TrellisParams& params) {
+TriangleMesh make_wires(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
+                        double start_m, double end_m, const TrellisParams& params) {
   TriangleMesh mesh;
   const std::vector<double> stations = spread_posts(start_m, end_m, params.post_spacing_m);
   const double first = params.arm_height_m, last = params.post_height_m - 0.05;
@@ -120,7 +120,7 @@ TriangleMesh make_wires(const RowCurve& row, const GroundHeight& ground, double 
       // At the ends the wire meets the leaning post.
       const double way = i == 0 ? -1.0 : (i + 1 == stations.size() ? 1.0 : 0.0);
       const Eigen::Vector3d p(way * height_m * std::tan(params.end_post_lean_rad), 0.0, height_m);
-      points.push_back({row_frame(row, ground, stations[i]) * p, 0.0025});
+      points.push_back({mapping::row_frame(row, ground, stations[i]) * p, 0.0025});
     }
     append_tube(mesh, points, 3, kSteel);
   }

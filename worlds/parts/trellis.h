@@ -30,22 +30,22 @@ const ParameterTable<TrellisParams>& trellis_table();
 /// Trunks of neighbouring vines in W: a crooked tapering stem to the arm height, and at level 0 two
 /// arms along the row.
 /// @param level  0 near (5 sides), 1 far (3 sides, no arms)
-TriangleMesh make_trunks(const RowCurve& row, const GroundHeight& ground,
+TriangleMesh make_trunks(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                          const std::vector<double>& vine_s_m, double vine_spacing_m,
                          const TrellisParams& params, int level, RandomStream random);
 
 /// Posts between the ends, in W.
-TriangleMesh make_line_posts(const RowCurve& row, const GroundHeight& ground,
+TriangleMesh make_line_posts(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
                              const std::vector<double>& post_s_m, const TrellisParams& params);
 
 /// The two leaning end posts, each with an anchor wire's stub, in W.
 /// @param start_m,end_m  arc length of their feet; they lean outward
-TriangleMesh make_end_posts(const RowCurve& row, const GroundHeight& ground, double start_m,
-                            double end_m, const TrellisParams& params);
+TriangleMesh make_end_posts(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
+                            double start_m, double end_m, const TrellisParams& params);
 
 /// Four wires from end to end, in W.
-TriangleMesh make_wires(const RowCurve& row, const GroundHeight& ground, double start_m,
-                        double end_m, const TrellisParams& params);
+TriangleMesh make_wires(const mapping::RowCurve& row, const mapping::GroundHeight& ground,
+                        double start_m, double end_m, const TrellisParams& params);
 
 /// Arc lengths of posts: ends and evenly between, at most the spacing apart.
 std::vector<double> spread_posts(double start_m, double end_m, double spacing_m);

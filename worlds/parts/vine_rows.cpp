@@ -66,7 +66,7 @@ MeshInstance make_instance(std::string name, std::shared_ptr<const TriangleMesh>
 
 class Planter {
  public:
-  Planter(WorldModel& world, const GroundHeight& ground, const VinePlanting& planting,
+  Planter(WorldModel& world, const mapping::GroundHeight& ground, const VinePlanting& planting,
           MeshStore& store)
       : world_(world), ground_(ground), planting_(planting), store_(store) {}
 
@@ -116,7 +116,7 @@ class Planter {
 
   void add_leaves(const VineRow& row, const Chunk& chunk, const std::string& chunk_name,
                   const std::string& shape_key) {
-    const Pose X_WM = stretch_frame(row.curve, ground_, chunk.start_m, chunk.end_m);
+    const Pose X_WM = mapping::stretch_frame(row.curve, ground_, chunk.start_m, chunk.end_m);
     for (int level = 0; level < 3; ++level) {
       const std::string mesh_name = fmt::format("leaves/{}#lod{}", shape_key, level);
       const auto mesh = store_.get(mesh_name, [&] {
@@ -169,7 +169,7 @@ class Planter {
   }
 
   WorldModel& world_;
-  const GroundHeight& ground_;
+  const mapping::GroundHeight& ground_;
   const VinePlanting& planting_;
   MeshStore& store_;
   std::map<std::string, CanopyShape> shapes_;
@@ -212,7 +212,8 @@ std::vector<double> regular_vines(double length_m, double spacing_m, double miss
 }
 
 void plant_vine_rows(WorldModel& world, const std::vector<VineRow>& rows,
-                     const GroundHeight& ground, const VinePlanting& planting, MeshStore& store) {
+                     const mapping::GroundHeight& ground, const VinePlanting& planting,
+                     MeshStore& store) {
   Planter planter(world, ground, planting, store);
   for (std::size_t i = 0; i < rows.size(); ++i) planter.plant(i, rows[i]);
 }

@@ -19,7 +19,7 @@ namespace vinerow::worlds {
 
 /// One row to plant.
 struct VineRow {
-  RowCurve curve;
+  mapping::RowCurve curve;
   std::vector<double> vine_s_m;  ///< ascending arc lengths of the stems; gaps are vines left out
   double vine_spacing_m;  ///< regular distance; neighbours farther apart than 1.6 times are a gap
   std::vector<double>
@@ -49,6 +49,7 @@ std::vector<double> regular_vines(double length_m, double spacing_m, double miss
 
 /// Appends the rows' meshes to the world.
 void plant_vine_rows(WorldModel& world, const std::vector<VineRow>& rows,
-                     const GroundHeight& ground, const VinePlanting& planting, MeshStore& store);
+                     const mapping::GroundHeight& ground, const VinePlanting& planting,
+                     MeshStore& store);
 
 }  // namespace vinerow::worlds

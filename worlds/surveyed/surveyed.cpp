@@ -37,7 +37,7 @@ struct SurveyedParams {
   TerrainParams terrain{.waves_m = 0.12};
   VinePlanting planting;
   Surroundings surroundings;
-  MapParams map;
+  mapping::MapParams map;
   ObstaclesParams obstacles;
 };
 
@@ -69,7 +69,7 @@ const ParameterTable<SurveyedParams>& surveyed_table() {
           .include(&P::terrain, terrain_table())
           .include(&P::planting, planting_table())
           .include(&P::surroundings, surroundings_table())
-          .include(&P::map, map_table())
+          .include(&P::map, mapping::map_table())
           .include(&P::obstacles, obstacles_table());
   return table;
 }
@@ -87,7 +87,7 @@ GeoOrigin mean_of_rows(const std::vector<io::GeoFeature>& rows) {
   GeoOrigin mean;
   std::size_t count = 0;
   for (const io::GeoFeature& row : rows) {
-    for (const io::Geodetic& point : row.points) {
+    for (const Geodetic& point : row.points) {
       mean.latitude_rad += point.latitude_rad;
       mean.longitude_rad += point.longitude_rad;
       ++count;
@@ -98,21 +98,21 @@ GeoOrigin mean_of_rows(const std::vector<io::GeoFeature>& rows) {
   return mean;
 }
 
-Eigen::Vector2d to_plane(const io::LocalFrame& frame, const io::Geodetic& point) {
+Eigen::Vector2d to_plane(const LocalFrame& frame, const Geodetic& point) {
   // At the origin's altitude: heights of a survey, if any, are not the simulated ground's.
   return frame.to_local({point.latitude_rad, point.longitude_rad, frame.origin().altitude_m})
       .head<2>();
 }
 
-std::vector<RowCurve> read_rows(const std::vector<io::GeoFeature>& features,
-                                const io::LocalFrame& frame, const std::string& file) {
+std::vector<mapping::RowCurve> read_rows(const std::vector<io::GeoFeature>& features,
+                                         const LocalFrame& frame, const std::string& file) {
   constexpr double kSamePoint_m = 1e-3;
   constexpr double kFarAway_m = 20000.0;
   constexpr double kLongest_m = 5000.0;  // planted ones seldom have one kilometre
-  std::vector<RowCurve> rows;
+  std::vector<mapping::RowCurve> rows;
   for (const io::GeoFeature& feature : features) {
     std::vector<Eigen::Vector2d> points;
-    for (const io::Geodetic& geodetic : feature.points) {
+    for (const Geodetic& geodetic : feature.points) {
       const Eigen::Vector2d p = to_plane(frame, geodetic);
       if (p.norm() > kFarAway_m) {
         throw ConfigError(fmt::format(
@@ -133,7 +133,7 @@ std::vector<RowCurve> read_rows(const std::vector<io::GeoFeature>& features,
                       feature.index, rows.back().length_m() / 1000.0, kLongest_m / 1000.0));
     }
   }
-  return order_rows(std::move(rows));
+  return mapping::order_rows(std::move(rows));
 }
 
 /// Points sorted to the rows they stand in, as arc lengths.
@@ -142,8 +142,8 @@ struct Assigned {
   int far_off = 0;
 };
 
-Assigned assign_points(const std::vector<io::GeoFeature>& points, const io::LocalFrame& frame,
-                       const std::vector<RowCurve>& rows, double reach_m) {
+Assigned assign_points(const std::vector<io::GeoFeature>& points, const LocalFrame& frame,
+                       const std::vector<mapping::RowCurve>& rows, double reach_m) {
   Assigned assigned;
   assigned.s_m.resize(rows.size());
   for (const io::GeoFeature& feature : points) {
@@ -214,11 +214,12 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
                    params.longitude_rad.value_or(mean.longitude_rad), params.altitude_m};
   set_surroundings(params.surroundings, context.seed, *world);
   world->depends_on_seed = false;  // plants and terrain have a seed of their own
-  const io::LocalFrame frame(world->origin);
-  const std::vector<RowCurve> rows = read_rows(survey.rows, frame, file);
+  const LocalFrame frame(world->origin);
+  const std::vector<mapping::RowCurve> rows = read_rows(survey.rows, frame, file);
 
-  const std::vector<Eigen::Vector2d> boundary = parcel_boundary(rows, params.headland_m, 4.0);
-  Eigen::AlignedBox2d box = box_around(boundary);
+  const std::vector<Eigen::Vector2d> boundary =
+      mapping::parcel_boundary(rows, params.headland_m, 4.0);
+  Eigen::AlignedBox2d box = mapping::box_around(boundary);
   const Eigen::Vector2d margin(params.surroundings_m, params.surroundings_m);
   box =
       Eigen::AlignedBox2d(Eigen::Vector2d(box.min() - margin), Eigen::Vector2d(box.max() + margin));
@@ -226,8 +227,8 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   shape.centre_W = box.center();
   shape.gradient = params.slope.gradient();
   world->terrain = build_terrain(params.terrain, planting.seed, world->origin, shape, box);
-  const GroundHeight ground = ground_of(*world->terrain);
-  world->rows = make_row_map(rows, ground, canopy_size(planting.canopy), boundary);
+  const mapping::GroundHeight ground = ground_of(*world->terrain);
+  world->rows = mapping::make_row_map(rows, ground, canopy_size(planting.canopy), boundary);
   add_alley_spawn_points(*world);
 
   // A point belongs to the nearest row if it is nearer than a third of the way to the next.
@@ -260,8 +261,8 @@ std::unique_ptr<WorldModel> make_surveyed(const ParameterSet& parameters,
   }
   MemoryMeshStore store;
   plant_vine_rows(*world, vine_rows, ground, planting, store);
-  fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
-                 row_end_margin_m(planting));
+  mapping::fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
+                          row_end_margin_m(planting));
   return world;
 }
 

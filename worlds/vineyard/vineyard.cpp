@@ -36,8 +36,8 @@ PartSpec vineyard_spec() {
 /// Arcs about one centre that turn by `bend_rad` to the left; their middles stand across `along`
 /// through `centre`, those to the left of it (offset > 0) on smaller radii where they turn left.
 /// @throws ConfigError where the centre lies within the block
-RowCurve lay_arc(const Eigen::Vector2d& centre, const Eigen::Vector2d& along, double offset_m,
-                 double length_m, double bend_rad) {
+mapping::RowCurve lay_arc(const Eigen::Vector2d& centre, const Eigen::Vector2d& along,
+                          double offset_m, double length_m, double bend_rad) {
   constexpr double kStep_m = 1.0;
   const Eigen::Vector2d left(-along.y(), along.x());
   const double radius_m = length_m / bend_rad;  // signed: the arcs' centre lies to the left
@@ -55,10 +55,10 @@ RowCurve lay_arc(const Eigen::Vector2d& centre, const Eigen::Vector2d& along, do
     points.push_back(centre + radius_m * left +
                      own_m * (std::sin(turn_rad) * along - std::cos(turn_rad) * left));
   }
-  return RowCurve(std::move(points));
+  return mapping::RowCurve(std::move(points));
 }
 
-std::vector<RowCurve> lay_rows(const VineyardParams& params) {
+std::vector<mapping::RowCurve> lay_rows(const VineyardParams& params) {
   // An arc whose middle lies no farther from its chord (length * bend / 8) is straight. The centre
   // of a flatter one is so far off that its points lose their digits.
   constexpr double kStraight_m = 1e-6;
@@ -66,7 +66,7 @@ std::vector<RowCurve> lay_rows(const VineyardParams& params) {
   const Eigen::Vector2d across(-along.y(), along.x());
   const Eigen::Vector2d& centre = params.centre_W;
   const double length_m = params.row_length_m, half_m = 0.5 * length_m;
-  std::vector<RowCurve> rows;
+  std::vector<mapping::RowCurve> rows;
   for (int i = 0; i < params.row_count; ++i) {
     const double offset_m =
         (static_cast<double>(i) - 0.5 * static_cast<double>(params.row_count - 1)) * params.pitch_m;
@@ -81,9 +81,9 @@ std::vector<RowCurve> lay_rows(const VineyardParams& params) {
   return rows;
 }
 
-double calc_relief_m(const TerrainSurface& surface, const std::vector<RowCurve>& rows) {
+double calc_relief_m(const TerrainSurface& surface, const std::vector<mapping::RowCurve>& rows) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const RowCurve& row : rows) {
+  for (const mapping::RowCurve& row : rows) {
     const int steps = std::max(1, static_cast<int>(row.length_m() / 2.0));
     for (int i = 0; i <= steps; ++i) {
       const double height = surface.height_m(row.point_W(row.length_m() * i / steps));
@@ -96,7 +96,7 @@ double calc_relief_m(const TerrainSurface& surface, const std::vector<RowCurve>&
 
 /// Finds the slope that gives the wanted relief under the rows. Waves alone may make up half of it
 /// at most. @pre params.relief_m
-TerrainShape fit_relief(const VineyardParams& params, const std::vector<RowCurve>& rows,
+TerrainShape fit_relief(const VineyardParams& params, const std::vector<mapping::RowCurve>& rows,
                         double* wave_height_m) {
   const double relief_m = *params.relief_m;
   const Eigen::Vector2d uphill = bearing_direction(params.uphill_bearing_rad);
@@ -145,9 +145,9 @@ void limit_hillside(const Eigen::AlignedBox2d& box_W, double fade_m, TerrainShap
   shape.fade_m = fade_m;
 }
 
-HeightField make_ground(const VineyardParams& params, const std::vector<RowCurve>& rows,
+HeightField make_ground(const VineyardParams& params, const std::vector<mapping::RowCurve>& rows,
                         const std::vector<Eigen::Vector2d>& boundary_W) {
-  const Eigen::AlignedBox2d parcel = box_around(boundary_W);
+  const Eigen::AlignedBox2d parcel = mapping::box_around(boundary_W);
   const Eigen::AlignedBox2d box = widened(parcel, params.surroundings_m);
   check_terrain_size(params.terrain, box);  // finding the slope takes its time, too
   TerrainShape shape;
@@ -183,7 +183,7 @@ std::string mesh_key(const ParameterSet& parameters, double relief_m, const Heig
   shaping.set("soil", std::string("dry_grass"));
   shaping.set("mesh_folder", std::string());
   std::vector<std::string> without{"wind", "surroundings_m", "slope_fade_m", "neighbours"};
-  for (const auto& specs : {map_table().specs(), obstacles_table().specs()}) {
+  for (const auto& specs : {mapping::map_table().specs(), obstacles_table().specs()}) {
     for (const ParameterSpec& spec : specs) without.push_back(spec.name);
   }
   add_parameters(hasher, shaping, without);
@@ -201,12 +201,12 @@ std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters,
   set_surroundings(params.surroundings, context.seed, *world);
   world->depends_on_seed = false;  // plants and terrain have a seed of their own
 
-  const std::vector<RowCurve> rows = lay_rows(params);
+  const std::vector<mapping::RowCurve> rows = lay_rows(params);
   const std::vector<Eigen::Vector2d> boundary =
-      parcel_boundary(rows, params.headland_m, params.pitch_m);
+      mapping::parcel_boundary(rows, params.headland_m, params.pitch_m);
   world->terrain = make_ground(params, rows, boundary);
-  const GroundHeight ground = ground_of(*world->terrain);
-  world->rows = make_row_map(rows, ground, canopy_size(planting.canopy), boundary);
+  const mapping::GroundHeight ground = ground_of(*world->terrain);
+  world->rows = mapping::make_row_map(rows, ground, canopy_size(planting.canopy), boundary);
   add_alley_spawn_points(*world);
   if (params.neighbours) {
     world->scenery =
@@ -231,8 +231,8 @@ std::unique_ptr<WorldModel> make_vineyard(const ParameterSet& parameters,
   const std::string key = mesh_key(parameters, *params.relief_m, *world->terrain);
   FileMeshStore store(folder / ("vineyard-" + key));
   plant_vine_rows(*world, vine_rows, ground, planting, store);
-  fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
-                 row_end_margin_m(planting));
+  mapping::fill_occupancy(params.map, *world, place_obstacles(params.obstacles, *world),
+                          row_end_margin_m(planting));
   return world;
 }
 

@@ -47,7 +47,7 @@ const ParameterTable<VineyardParams>& vineyard_table() {
           .group("neighbours", &P::neighbours, neighbours_table(),
                  "neighbouring vineyards, meadows, tracks and trees in pictures; nothing collides "
                  "with them and nothing else sees them; absent: none")
-          .include(&P::map, map_table())
+          .include(&P::map, mapping::map_table())
           .include(&P::obstacles, obstacles_table());
   return table;
 }

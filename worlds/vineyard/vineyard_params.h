@@ -40,7 +40,7 @@ struct VineyardParams {
   GeoOrigin origin{rad_from_deg(44.6150), rad_from_deg(7.9244), 300.0};
   Surroundings surroundings;
   std::optional<NeighboursParams> neighbours;
-  MapParams map;
+  mapping::MapParams map;
   ObstaclesParams obstacles;
 };
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 bool NavState::is_finite() const {
   return p_WI.allFinite() && v_WI.allFinite() && q_WB.coeffs().allFinite() &&
@@ -75,4 +75,4 @@ ErrorCovariance ErrorTransition::matrix() const {
   return F;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

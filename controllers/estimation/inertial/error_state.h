@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Where each block of three begins: position, velocity, attitude, gyro bias, accelerometer bias.
 struct ErrorIndex {
@@ -75,4 +75,4 @@ class ErrorTransition {
   Eigen::Matrix3d pos_att_, pos_gyro_, pos_accel_, vel_att_, vel_gyro_, vel_accel_, att_gyro_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

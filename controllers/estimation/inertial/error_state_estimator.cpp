@@ -8,7 +8,7 @@
 #include "controllers/estimation/inertial/navigation_start.h"
 #include "controllers/estimation/parts/estimator_news.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 class ErrorStateEstimator final : public Estimator {
@@ -191,4 +191,4 @@ std::unique_ptr<Estimator> make_error_state_kalman(const ParameterSet& parameter
   return std::make_unique<ErrorStateEstimator>(parameters, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

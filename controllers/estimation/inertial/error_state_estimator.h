@@ -17,7 +17,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec error_state_kalman_spec();
 
@@ -26,4 +26,4 @@ PartSpec error_state_kalman_spec();
 std::unique_ptr<Estimator> make_error_state_kalman(const ParameterSet& parameters,
                                                    const EstimatorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

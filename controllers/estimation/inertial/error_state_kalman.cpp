@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Beyond what any unit on a vehicle reads: a broken message.
@@ -15,7 +15,7 @@ constexpr double kMaxVariance = 1e15;
 
 }  // namespace
 
-PastState between(const PastState& older, const PastState& newer, double share) {
+PastState interpolate(const PastState& older, const PastState& newer, double share) {
   const auto mix = [share](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return Eigen::Vector3d(a + share * (b - a));
   };
@@ -260,4 +260,4 @@ PastState ErrorStateKalman::past(Time time) const {
   return past;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -16,7 +16,7 @@
 #include "engine/core/time.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// What white noise and wandering biases an inertial unit has. Those of the VectorNav VN-100/VN-200
 /// data sheet: gyro 0.0035 deg/s/rtHz and 10 deg/h in-run, accelerometer 0.14 mg/rtHz and 0.04 mg
@@ -60,7 +60,7 @@ struct PastState {
   Eigen::Vector3d drift_v = Eigen::Vector3d::Zero();
   Eigen::Vector3d drift_att = Eigen::Vector3d::Zero();
 };
-PastState between(const PastState& older, const PastState& newer, double share);
+PastState interpolate(const PastState& older, const PastState& newer, double share);
 
 class ErrorStateKalman {
  public:
@@ -151,4 +151,4 @@ class ErrorStateKalman {
   std::int64_t refused_readings_ = 0, gaps_ = 0, repairs_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

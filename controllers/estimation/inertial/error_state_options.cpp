@@ -4,7 +4,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 const ParameterTable<ErrorStateOptions>& error_state_table() {
@@ -126,4 +126,4 @@ ErrorStateOptions ErrorStateOptions::read(const ParameterSet& parameters, const 
   return o;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

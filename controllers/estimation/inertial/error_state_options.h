@@ -8,7 +8,7 @@
 #include "engine/api/part.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct ErrorStateOptions {
   ErrorStateKalmanParams filter;
@@ -55,4 +55,4 @@ struct ErrorStateOptions {
   static std::vector<ParameterSpec> parameters();
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/estimation/inertial/navigation_start.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kLeastStd_m = 1e-3;       // an ideal receiver states zero
@@ -261,4 +261,4 @@ std::size_t ErrorStateSources::fill_report(std::vector<double>& values) const {
   return i;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

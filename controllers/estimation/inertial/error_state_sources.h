@@ -17,7 +17,7 @@
 #include "engine/api/messages/sensors.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class ErrorStateSources {
  public:
@@ -103,4 +103,4 @@ class ErrorStateSources {
 /// Where a sensor sits; identity where none of that name has a mounting.
 Pose mounting_of(const EstimatorContext& context, const std::string& sensor);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 
 #include "controllers/estimation/inertial/error_state_kalman.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class MeasurementSource {
  public:
@@ -61,4 +61,4 @@ class MeasurementSource {
   Time last_, last_used_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -4,7 +4,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// How the direction of a horizontal vector changes with a small turn dtheta of it in W.
@@ -96,4 +96,4 @@ ErrorRow heading_row(const Eigen::Quaterniond& q_WB) {
   return row;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 
 #include "controllers/estimation/inertial/error_state_kalman.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Innovation and gradient of three numbers.
 struct VectorMeasurement {
@@ -50,4 +50,4 @@ ErrorRow pose_row(const Eigen::Quaterniond& q_WB, const Eigen::Vector3d& p_I_B,
 /// Gradient of the heading of the body's x axis.
 ErrorRow heading_row(const Eigen::Quaterniond& q_WB);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/math/angles.h"
 #include "engine/math/pose.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 ErrorCovariance start_covariance(const ErrorStateOptions& options) {
   ErrorVector std;
@@ -51,4 +51,4 @@ double standard_height_m(double pressure_Pa) {
   return 288.15 / 0.0065 * (1.0 - std::pow(pressure_Pa / 101'325.0, kExponent));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

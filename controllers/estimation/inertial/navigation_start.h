@@ -5,7 +5,7 @@
 #include "controllers/estimation/inertial/error_state_options.h"
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Diagonal, of the stated 1 sigmas.
 ErrorCovariance start_covariance(const ErrorStateOptions& options);
@@ -27,4 +27,4 @@ double heading_from_field(const Eigen::Vector3d& f_B, const Eigen::Vector3d& fie
 /// atmosphere below 11 km: T0 = 288.15 K, 6.5 K/km.
 double standard_height_m(double pressure_Pa);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include "controllers/estimation/parts/heading_source.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 struct GpsPoseParams {
@@ -94,4 +94,4 @@ std::unique_ptr<Estimator> make_gps_pose(const ParameterSet& parameters,
                                    context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

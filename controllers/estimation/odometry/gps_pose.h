@@ -7,10 +7,10 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec gps_pose_spec();
 std::unique_ptr<Estimator> make_gps_pose(const ParameterSet& parameters,
                                          const EstimatorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

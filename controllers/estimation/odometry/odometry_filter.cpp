@@ -13,7 +13,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 struct OdometryFilterParams {
@@ -239,4 +239,4 @@ std::unique_ptr<Estimator> make_odometry_filter(const ParameterSet& parameters,
       odometry_filter_table().read(parameters, context.part + " (odometry_filter)"), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec odometry_filter_spec();
 
@@ -14,4 +14,4 @@ PartSpec odometry_filter_spec();
 std::unique_ptr<Estimator> make_odometry_filter(const ParameterSet& parameters,
                                                 const EstimatorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

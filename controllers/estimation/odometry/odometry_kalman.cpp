@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void OdometryKalman::start(const Eigen::Vector2d& p, const Eigen::Vector2d& std_m) {
   x_ << p, 0.0;
@@ -40,4 +40,4 @@ void OdometryKalman::correct(const Eigen::Vector2d& innovation, const Eigen::Vec
   covariance_ = kept + gained;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

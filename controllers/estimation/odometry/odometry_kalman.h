@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct OdometryKalmanParams {
   double drift_m_per_sqrt_m = 0.002;  ///< q
@@ -43,4 +43,4 @@ class OdometryKalman {
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void EstimatorNews::tell(Event::Level level, std::string text) {
   Event event;  // of whoever writes the signal
@@ -17,4 +17,4 @@ void EstimatorNews::write(Time now) {
   waiting_.erase(waiting_.begin());
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/api/messages/event.h"
 #include "engine/api/signal.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Something that is counted and may happen often: told the first time and then, if it went on, at
 /// most every 10 s.
@@ -42,4 +42,4 @@ class EstimatorNews {
   SignalWriter<Event> out_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 const ParameterTable<HeadingParams>& heading_table() {
   using P = HeadingParams;
@@ -69,4 +69,4 @@ void HeadingSource::step(const GnssFix* fix) {
   q_WB_ = quaternion_from_rpy({0.0, 0.0, yaw_rad_});
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// `heading` of the estimators:
 ///   gyro_course  yaw rate of the IMU summed up from the heading at which the vehicle was set down,
@@ -58,4 +58,4 @@ class HeadingSource {
   SignalReader<ImuSample> imu_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

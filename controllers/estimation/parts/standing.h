@@ -6,7 +6,7 @@
 
 #include "engine/core/time.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Quiet for a while: every sign of motion sets the clock back.
 class StandDetector {
@@ -40,4 +40,4 @@ class StandDetector {
   Time since_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,10 +6,11 @@
 
 #include "engine/core/time.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// The last `Capacity` entries, oldest overwritten. No heap.
-/// @tparam Value  with between(older, newer, share), found by its namespace, or + - and scalar *
+/// @tparam Value  with interpolate(older, newer, share), found by its namespace, or + - and scalar
+/// *
 template <class Value, std::size_t Capacity = 256>
 class RecentTrace {
  public:
@@ -44,8 +45,8 @@ class RecentTrace {
     Value value;
   };
   static Value mix(const Value& older, const Value& newer, double share) {
-    if constexpr (requires { between(older, newer, share); }) {
-      return between(older, newer, share);
+    if constexpr (requires { interpolate(older, newer, share); }) {
+      return interpolate(older, newer, share);
     } else {
       return older + share * (newer - older);
     }
@@ -59,4 +60,4 @@ class RecentTrace {
   std::size_t count_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "controllers/parts/ground_drive/differential_drive.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 WheelSpeed::WheelSpeed(const VehicleDescription& description, const std::string& who)
     : radius_m_(description.need_positive(description.need_wheeled(who).wheel_radius_m,
@@ -43,4 +43,4 @@ double WheelSpeed::read_mps(const NamedValues& speeds) {
   return 0.5 * radius_m_ * (left / lefts + right / rights);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

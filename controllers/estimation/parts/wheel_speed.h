@@ -7,7 +7,7 @@
 #include "engine/api/messages/commands.h"
 #include "engine/api/vehicle.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class WheelSpeed {
  public:
@@ -29,4 +29,4 @@ class WheelSpeed {
   std::vector<Wheel> wheels_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -17,7 +17,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector3d;
@@ -298,4 +298,4 @@ std::unique_ptr<Estimator> make_distance_filter(const ParameterSet& parameters,
       distance_filter_table().read(parameters, distance_filter_name(context)), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec distance_filter_spec();
 
@@ -16,4 +16,4 @@ PartSpec distance_filter_spec();
 std::unique_ptr<Estimator> make_distance_filter(const ParameterSet& parameters,
                                                 const EstimatorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector3d;
@@ -247,4 +247,4 @@ void DistanceFilterLaw::cut_set_by_fix(const Vector3d& p, const Vector3d& std_m)
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

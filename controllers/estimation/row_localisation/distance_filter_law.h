@@ -22,7 +22,7 @@
 #include "controllers/estimation/row_localisation/range_prediction.h"
 #include "engine/api/map.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// How an echo gets into the filter.
 enum class DistanceFusion {
@@ -137,7 +137,7 @@ class DistanceFilterLaw {
   struct Past {
     Eigen::Vector3d way_W = Eigen::Vector3d::Zero();  ///< dead reckoned since the start
     Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
-    friend Past between(const Past& older, const Past& newer, double share) {
+    friend Past interpolate(const Past& older, const Past& newer, double share) {
       return {older.way_W + share * (newer.way_W - older.way_W),
               older.q_WB.slerp(share, newer.q_WB)};
     }
@@ -216,4 +216,4 @@ class DistanceFilterLaw {
   Counters counters_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

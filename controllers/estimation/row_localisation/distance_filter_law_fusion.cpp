@@ -7,7 +7,7 @@
 #include "controllers/estimation/row_localisation/ellipsoid.h"
 #include "engine/math/decomposition.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 using Eigen::Matrix2d, Eigen::Vector2d, Eigen::Vector3d;
 
@@ -202,4 +202,4 @@ DatumStatus DistanceFilterLaw::finish_joint() {
   return kalman_.correct_horizontal(joint_centre_, joint_shape_ / k2);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

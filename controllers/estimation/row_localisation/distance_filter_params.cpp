@@ -2,7 +2,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 const ParameterTable<DistanceFilterOptions>& distance_filter_law_table() {
   using P = DistanceFilterOptions;
@@ -86,4 +86,4 @@ DistanceFilterParams make_distance_filter_params(const DistanceFilterOptions& op
   return params;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/estimation/row_localisation/distance_filter_law.h"
 #include "engine/api/parameter_table_fwd.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// What the file says of the law and of what goes into it.
 struct DistanceFilterOptions {
@@ -20,4 +20,4 @@ const ParameterTable<DistanceFilterOptions>& distance_filter_law_table();
 /// The law's parameters with the process noise of the reading (kalman_params_of).
 DistanceFilterParams make_distance_filter_params(const DistanceFilterOptions& options);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

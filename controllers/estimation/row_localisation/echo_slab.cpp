@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 EchoSlab echo_slab(const RangePrediction& facet, const Eigen::Vector3d& p_WB, double range_m,
                    const EchoBounds& bounds) {
@@ -24,4 +24,4 @@ EchoSlab2 horizontal_slab(const EchoSlab& slab, double height_m, double height_b
           slab.upper_m - rise_m + bound_m};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -13,7 +13,7 @@
 
 #include "controllers/estimation/row_localisation/range_prediction.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Largest errors, each >= 0.
 struct EchoBounds {
@@ -44,4 +44,4 @@ struct EchoSlab2 {
 /// @param height_m  of the origin of B in W  @param height_bound_m  its largest error, >= 0
 EchoSlab2 horizontal_slab(const EchoSlab& slab, double height_m, double height_bound_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kLeastGain = 1e-9;    // of a pseudo-measurement
@@ -122,4 +122,4 @@ PseudoMeasurement pseudo_measurement(const ParallelCut& cut, double centre_along
   return measurement;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

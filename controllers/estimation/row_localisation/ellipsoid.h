@@ -23,7 +23,7 @@
 
 #include <Eigen/Core>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class CutStatus {
   kCut,         ///< both planes count
@@ -84,4 +84,4 @@ struct PseudoMeasurement {
 PseudoMeasurement pseudo_measurement(const ParallelCut& cut, double centre_along_a, double spread_m,
                                      double set_scale);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "engine/api/vehicle.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr Duration kPeriod{200'000'000};  // of the ground under wheels: as a slow sensor's
@@ -115,4 +115,4 @@ std::optional<PlaneReading> GroundReference::read_down(const Eigen::Quaterniond&
   return PlaneReading{reader_.stamp(), ground->normal_W, offset_m, std_m(*ground)};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

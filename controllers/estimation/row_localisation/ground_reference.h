@@ -13,7 +13,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// n.p of the body's origin p in W, n unit.
 struct PlaneReading {
@@ -69,4 +69,4 @@ class GroundReference {
   std::uint64_t seen_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

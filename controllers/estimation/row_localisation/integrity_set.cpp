@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void IntegritySet::start(const Eigen::Vector3d& centre_W, const Eigen::Matrix3d& shape_m2) {
   centre_W_ = centre_W;
@@ -29,4 +29,4 @@ bool IntegritySet::contains(const Eigen::Vector3d& p_W) const {
   return off_W.dot(shape_m2_.llt().solve(off_W)) <= 1.0;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/estimation/row_localisation/echo_slab.h"
 #include "controllers/estimation/row_localisation/ellipsoid.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class IntegritySet {
  public:
@@ -28,4 +28,4 @@ class IntegritySet {
   Eigen::Matrix3d shape_m2_ = Eigen::Matrix3d::Identity();
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

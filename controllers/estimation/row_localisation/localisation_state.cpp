@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Of a slow error over dt: what is kept of it.
@@ -94,4 +94,4 @@ bool LocalisationState::is_sound() const {
          P_.topLeftCorner<3, 3>().diagonal().minCoeff() > 0.0;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

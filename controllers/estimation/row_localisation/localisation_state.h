@@ -11,7 +11,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Slow errors: standard deviation and correlation time. A standard deviation of zero leaves the
 /// error out.
@@ -70,4 +70,4 @@ class LocalisationState {
   Matrix P_ = Matrix::Identity();
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -16,7 +16,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// All parameters of the estimator.
@@ -318,4 +318,4 @@ std::unique_ptr<Estimator> make_map_localisation(const ParameterSet& parameters,
   return std::make_unique<MapLocalisation>(read_map_estimator_params(parameters, context), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,11 +10,11 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec map_localisation_spec();
 /// @throws ConfigError where the map has no row meshes, or a range sensor is not the vehicle's
 std::unique_ptr<Estimator> make_map_localisation(const ParameterSet& parameters,
                                                  const EstimatorContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

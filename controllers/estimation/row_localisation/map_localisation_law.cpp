@@ -9,7 +9,7 @@
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 MapLocalisationLaw::MapLocalisationLaw(const MapLocalisationParams& params, const RowMap& map,
                                        const RowMeshIndex& index,
@@ -268,4 +268,4 @@ void MapLocalisationLaw::correct_range(Time measured, int sensor, double range_m
   watch_gates(!taken, period_s);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

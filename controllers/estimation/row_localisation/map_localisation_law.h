@@ -23,7 +23,7 @@
 #include "engine/core/time.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct MapLocalisationParams {
   LocalisationNoise noise;
@@ -166,4 +166,4 @@ class MapLocalisationLaw {
   double range_nis_ = 0.0, fix_nis_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "controllers/estimation/row_localisation/row_line.h"
 #include "engine/api/map.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kLeastWeight = 1e-6;  // a filter that is less likely is dropped
@@ -202,4 +202,4 @@ Eigen::Matrix3d MapLocalisationLaw::position_on_map_covariance() const {
   return covariance;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

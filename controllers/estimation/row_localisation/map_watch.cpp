@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void MapWatch::look(Time now, const RowMeshIndex& map, const std::vector<RangeSensorModel>& sensors,
                     const Pose& X_MB, double reach_m, EstimatorNews& news) {
@@ -34,4 +34,4 @@ void MapWatch::look(Time now, const RowMeshIndex& map, const std::vector<RangeSe
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

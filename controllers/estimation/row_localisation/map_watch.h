@@ -8,7 +8,7 @@
 #include "controllers/estimation/parts/estimator_news.h"
 #include "controllers/estimation/row_localisation/range_prediction.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class MapWatch {
  public:
@@ -31,4 +31,4 @@ class MapWatch {
   int times_without_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
@@ -155,4 +155,4 @@ void PositionKalman::widen(const Vector3d& variance_m2) {
   P_.topLeftCorner<3, 3>().diagonal() += variance_m2;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

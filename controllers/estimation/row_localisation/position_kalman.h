@@ -17,7 +17,7 @@
 
 #include "engine/core/time.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct PositionKalmanParams {
   double velocity_std_mps = 0.05;  ///< sigma_v, each axis; 0: the input has no slow error
@@ -98,4 +98,4 @@ class PositionKalman {
   double last_nis_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

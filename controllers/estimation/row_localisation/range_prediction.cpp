@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 double RangePrediction::gradient_yaw(const Eigen::Vector3d& p_WB) const {
   // The turn carries the point of the echo about the body; the facet stays.
@@ -114,4 +114,4 @@ double range_variance(const RangePrediction& prediction, const Eigen::Vector3d& 
   return inflation * along_ray_m * along_ray_m + bound_m * bound_m / 3.0 + turn_m * turn_m;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "controllers/estimation/row_localisation/row_mesh_index.h"
 #include "engine/math/pose.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A range sensor as an estimator knows it.
 struct RangeSensorModel {
@@ -75,4 +75,4 @@ double correlation_inflation(double correlation_length_m, double speed_mps, doub
 double range_variance(const RangePrediction& prediction, const Eigen::Vector3d& p_WB,
                       double surface_std_m, double inflation, double bound_m, double yaw_std_rad);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 std::vector<RangeSensorModel> find_range_sensors(const std::vector<std::string>& names,
                                                  const EstimatorContext& context,
@@ -50,4 +50,4 @@ void demand_row_meshes(const EstimatorContext& context, const std::string& who,
                   who, advice.empty() ? "" : ", or " + advice));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "controllers/estimation/row_localisation/range_prediction.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Those named, or all ultrasounds where no name is given: name and mounting.
 /// @param who  for errors: "rover.estimator (distance_filter)"  @param key  the parameter that
@@ -23,4 +23,4 @@ std::vector<RangeSensorModel> find_range_sensors(const std::vector<std::string>&
 void demand_row_meshes(const EstimatorContext& context, const std::string& who,
                        const std::string& advice);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <utility>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Looks along a ray. Source: Woop, Benthin, Wald, "Watertight ray/triangle intersection", Journal
 /// of Computer Graphics Techniques 2 (2013). Corners are sheared so that the ray becomes an axis;
@@ -41,4 +41,4 @@ class RayShear {
   double shear_x_, shear_y_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

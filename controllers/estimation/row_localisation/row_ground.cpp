@@ -8,7 +8,7 @@
 #include "controllers/estimation/row_localisation/row_line.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kReach_m = 1.0;  // to each side of where the terrain's slope is wanted
@@ -70,4 +70,4 @@ std::optional<double> nearest_in_cone_m(const GroundPlane& ground, const Eigen::
   return std::max(0.0, ground.normal_W.dot(sensor_W) - ground.offset_m) / std::cos(ray_rad);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "controllers/estimation/row_localisation/row_line_index.h"
 #include "engine/api/map.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// n.x = offset_m, n unit and upwards.
 struct GroundPlane {
@@ -49,4 +49,4 @@ std::optional<double> plane_distance_m(const GroundPlane& ground, const Eigen::V
 std::optional<double> nearest_in_cone_m(const GroundPlane& ground, const Eigen::Vector3d& sensor_W,
                                         const Eigen::Vector3d& dir_W, double half_angle_rad);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

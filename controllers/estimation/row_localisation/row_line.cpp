@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 LinePoint nearest_on_piece(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W,
                            const Eigen::Vector3d& p_W) {
@@ -23,4 +23,4 @@ LinePoint nearest_on(std::span<const Eigen::Vector3d> line_W, const Eigen::Vecto
   return nearest;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

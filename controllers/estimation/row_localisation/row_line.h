@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A point on such a line.
 struct LinePoint {
@@ -23,4 +23,4 @@ LinePoint nearest_on_piece(const Eigen::Vector3d& from_W, const Eigen::Vector3d&
 /// @returns a distance of +infinity where the line has no piece of any length
 LinePoint nearest_on(std::span<const Eigen::Vector3d> line_W, const Eigen::Vector3d& p_W);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

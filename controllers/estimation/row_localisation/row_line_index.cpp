@@ -7,7 +7,7 @@
 
 #include "engine/api/map.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
@@ -120,4 +120,4 @@ RowLineIndex::NearestRows RowLineIndex::nearest_rows(const Vector3d& p_W) const 
   return {search.first.point, search.second.point};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

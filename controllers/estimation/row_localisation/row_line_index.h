@@ -10,7 +10,7 @@
 #include "controllers/estimation/row_localisation/row_line.h"
 #include "engine/api/forward.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class RowLineIndex {
  public:
@@ -44,4 +44,4 @@ class RowLineIndex {
   double largest_m_ = 0.0;  // coordinate
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kMaxSquares = 4e6;
@@ -262,4 +262,4 @@ void RowMeshIndex::cut(const Eigen::Vector3d& p, const Eigen::Vector3d& n, doubl
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -16,7 +16,7 @@
 
 #include "engine/api/forward.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class RowMeshIndex {
  public:
@@ -87,4 +87,4 @@ class RowMeshIndex {
   std::vector<std::uint32_t> listed_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void Aircraft::mix(const AircraftControls& controls, std::vector<double>& actuator_values) const {
   actuator_values[static_cast<std::size_t>(throttle)] = controls.throttle;
@@ -48,4 +48,4 @@ Aircraft read_aircraft(const VehicleDescription& description, double gravity_mps
   return aircraft;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 
 #include "engine/api/vehicle.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct AircraftControls {
   double throttle = 0.0;
@@ -46,4 +46,4 @@ struct Aircraft : FixedWingAircraft {
 Aircraft read_aircraft(const VehicleDescription& description, double gravity_mps2,
                        const std::string& who);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -2,7 +2,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr AircraftRangesInDeg kRelaxed = {2.4, 3.0,   150.0, 20.0, 15.0, 0.25, 10.0,
@@ -21,4 +21,4 @@ const ParameterTable<AircraftLimits>& aircraft_limit_table() {
   return table;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

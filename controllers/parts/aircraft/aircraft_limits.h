@@ -5,7 +5,7 @@
 
 #include "controllers/parts/aircraft/aircraft_ranges.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Largest size of each, to either side.
 struct AircraftLimits : AircraftRanges {
@@ -16,4 +16,4 @@ struct AircraftLimits : AircraftRanges {
 /// elevator_deg 10, v_mps 5, p_degps 250, r_degps 120, phi_deg 45, psi_deg 30, aileron_deg 12.
 const ParameterTable<AircraftLimits>& aircraft_limit_table();
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

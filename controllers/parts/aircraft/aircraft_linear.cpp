@@ -9,7 +9,7 @@
 #include "controllers/parts/solvers/discretise.h"
 #include "engine/math/decomposition.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Steps of the central differences: third-order errors and rounding are both below 1e-9 of the
@@ -87,4 +87,4 @@ std::vector<FlightMode> calc_modes(const LinearAxis& axis) {
   return modes;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -11,7 +11,7 @@
 
 #include "controllers/parts/aircraft/flight_trim.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct LinearAxis {
   Eigen::MatrixXd A;  ///< continuous, n x n
@@ -42,4 +42,4 @@ struct FlightMode {
 /// Sorted by magnitude, pairs once; integrators (h, psi) included.
 std::vector<FlightMode> calc_modes(const LinearAxis& axis);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "controllers/parts/solvers/tube_watch.h"
 #include "engine/api/messages/event.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Of each axis, "lon" first: `gust`: the strongest feasible one, 0 without a tube; `iterations`
@@ -158,4 +158,4 @@ void describe_aircraft_mpc_signals(PartSpec& spec) {
   spec.writes = {"actuators", "deviation", "follower", "tube", "controller_event"};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

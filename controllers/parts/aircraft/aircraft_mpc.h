@@ -11,7 +11,7 @@
 #include "controllers/parts/aircraft/aircraft_tube.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// @throws ConfigError as AircraftPorts and AircraftTube
 std::unique_ptr<Controller> make_aircraft_mpc(const ControllerContext& context,
@@ -21,4 +21,4 @@ std::unique_ptr<Controller> make_aircraft_mpc(const ControllerContext& context,
 /// "tube" in scenario files' order of reading and writing.
 void describe_aircraft_mpc_signals(PartSpec& spec);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

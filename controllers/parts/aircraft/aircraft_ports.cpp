@@ -9,7 +9,7 @@
 #include "engine/math/angles.h"
 #include "engine/math/pose.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Share of the wanted airspeed from which a launched aircraft is flown.
@@ -192,4 +192,4 @@ void AircraftPorts::write_follower(Time now) {
   follower_.write(now, follower);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -19,7 +19,7 @@
 #include "engine/api/messages/flight.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct AircraftDeviation {
   Eigen::Matrix<double, 5, 1> lon = Eigen::Matrix<double, 5, 1>::Zero();
@@ -95,4 +95,4 @@ class AircraftPorts {
   SignalWriter<FollowerState> follower_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 AircraftRanges AircraftRangesInDeg::to_si() const {
   AircraftRanges ranges;
@@ -38,4 +38,4 @@ const ParameterTable<AircraftRanges>& aircraft_range_table() {
   return table;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "engine/api/parameter_table_fwd.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct AircraftRanges {
   /// u m/s, w m/s, q rad/s, theta rad, h m
@@ -30,4 +30,4 @@ struct AircraftRangesInDeg {
 /// The names of AircraftRangesInDeg, each > 0: fields of a group.
 const ParameterTable<AircraftRanges>& aircraft_range_table();
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

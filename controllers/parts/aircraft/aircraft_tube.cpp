@@ -4,7 +4,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using GainByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -109,4 +109,4 @@ void AircraftTube::reset() {
   lat_.mpc.cold_start();
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "controllers/parts/aircraft/aircraft_weights.h"
 #include "controllers/parts/solvers/tube_mpc.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct AircraftTubeParams {
   int horizon = 20;
@@ -62,4 +62,4 @@ class AircraftTube {
   QpStatus lon_status_ = QpStatus::kSolved, lat_status_ = QpStatus::kSolved;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

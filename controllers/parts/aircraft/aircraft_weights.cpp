@@ -6,7 +6,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr AircraftRangesInDeg kDefault = {0.6, 1.0,  60.0, 6.0,  2.0, 0.1, 4.0,
@@ -48,4 +48,4 @@ AircraftLaws make_aircraft_laws(const Aircraft& aircraft, const Trim& trim, doub
           make_law(linear.lateral, period_s, weights.lat, lat_inputs, who, "lateral")};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

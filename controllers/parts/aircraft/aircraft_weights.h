@@ -9,7 +9,7 @@
 #include "controllers/parts/aircraft/aircraft_linear.h"
 #include "controllers/parts/aircraft/aircraft_ranges.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// The deviations that cost 1 each.
 struct AircraftWeights : AircraftRanges {
@@ -37,4 +37,4 @@ struct AircraftLaws {
 AircraftLaws make_aircraft_laws(const Aircraft& aircraft, const Trim& trim, double period_s,
                                 const AircraftWeights& weights, const std::string& who);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

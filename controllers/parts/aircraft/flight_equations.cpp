@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// From body axes x forward, y left, z up to x forward, y right, z down, and back.
@@ -52,4 +52,4 @@ AirState FlightEquations::derivative(const AirState& x, const AircraftControls& 
   return rate;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

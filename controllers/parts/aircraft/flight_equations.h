@@ -11,7 +11,7 @@
 
 #include "controllers/parts/aircraft/aircraft.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Velocity over ground in body axes m/s, rates rad/s, angles rad, height m (up).
 using AirState = Eigen::Matrix<double, 10, 1>;
@@ -45,4 +45,4 @@ class FlightEquations {
   std::vector<double> actuators_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "controllers/parts/aircraft/trim_solver.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kSpeedAccuracy_mps = 1e-3;
@@ -173,4 +173,4 @@ Result<SpeedRange> find_speed_range(const Aircraft& aircraft, double climb_angle
   return SpeedRange{edge(1.0 / kSearchRatio), edge(kSearchRatio)};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/parts/aircraft/aircraft.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct TrimRequest {
   double airspeed_mps = 12.0;
@@ -53,4 +53,4 @@ struct SpeedRange {
 Result<SpeedRange> find_speed_range(const Aircraft& aircraft, double climb_angle_rad,
                                     double bank_rad);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 enum Unknown { kAlpha = 0, kBeta, kRoll, kPitch, kElevator, kAileron, kFree };
@@ -212,4 +212,4 @@ TrimSolver::Lift TrimSolver::largest_lift(double airspeed_mps, double climb_angl
   return largest;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -11,7 +11,7 @@
 #include "controllers/parts/aircraft/flight_equations.h"
 #include "controllers/parts/aircraft/flight_trim.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// What the equations of flight begin with at a trim.
 AirState air_state_of(const Trim& trim);
@@ -54,4 +54,4 @@ class TrimSolver {
   FlightEquations equations_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

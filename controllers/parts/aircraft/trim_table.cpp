@@ -10,7 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Spacing of the table, at most. Between its points the interpolated trim leaves less than
@@ -192,4 +192,4 @@ TrimPoint TrimTables::at(double airspeed_mps, double climb_angle_rad, double ban
                       share);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

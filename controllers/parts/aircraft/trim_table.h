@@ -6,7 +6,7 @@
 
 #include "controllers/parts/aircraft/flight_trim.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A trim between the table's points.
 struct TrimPoint {
@@ -69,4 +69,4 @@ class TrimTables {
   std::size_t cruise_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "engine/api/messages/motion.h"
 #include "engine/api/messages/sensors.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class WindEstimate {
  public:
@@ -35,4 +35,4 @@ class WindEstimate {
   Eigen::Vector2d wind_W_ = Eigen::Vector2d::Zero();
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

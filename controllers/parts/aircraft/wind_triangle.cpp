@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 Crab calc_crab(double course_rad, const Eigen::Vector2d& wind, double airspeed_mps) {
   const Eigen::Vector2d along(std::cos(course_rad), std::sin(course_rad));
@@ -21,4 +21,4 @@ Eigen::Vector2d calc_ground_velocity(double heading_rad, const Eigen::Vector2d& 
   return airspeed_mps * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad)) + wind;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// What flying along a course takes.
 struct Crab {
@@ -20,4 +20,4 @@ Crab calc_crab(double course_rad, const Eigen::Vector2d& wind, double airspeed_m
 Eigen::Vector2d calc_ground_velocity(double heading_rad, const Eigen::Vector2d& wind,
                                      double airspeed_mps);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

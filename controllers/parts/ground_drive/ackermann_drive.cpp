@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 AckermannDrive::AckermannDrive(const VehicleDescription& description, const std::string& who) {
   const WheeledVehicle& wheeled = description.need_wheeled(who);
@@ -95,4 +95,4 @@ VelocityCommand AckermannDrive::limit(const VelocityCommand& command) const {
   return {v_mps, v_mps * curvature_per_m};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

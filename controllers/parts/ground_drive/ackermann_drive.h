@@ -13,7 +13,7 @@
 
 #include "controllers/parts/ground_drive/twist_drive.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class AckermannDrive final : public TwistDrive {
  public:
@@ -45,4 +45,4 @@ class AckermannDrive final : public TwistDrive {
   double most_curvature_per_m_ = 1.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

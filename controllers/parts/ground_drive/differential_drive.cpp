@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/suggest.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 double side_of_wheel(const std::string& actuator) {
   constexpr std::string_view kPrefix = "wheel_", kSuffix = "_speed_radps";
@@ -74,4 +74,4 @@ VelocityCommand DifferentialDrive::limit(const VelocityCommand& command) const {
   return {command.v_mps * scale, command.yaw_rate_radps * scale};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

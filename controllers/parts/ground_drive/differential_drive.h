@@ -9,7 +9,7 @@
 
 #include "controllers/parts/ground_drive/twist_drive.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class DifferentialDrive final : public TwistDrive {
  public:
@@ -43,4 +43,4 @@ class DifferentialDrive final : public TwistDrive {
 /// +1 for a right wheel's actuator name, -1 for a left one, 0 if the name is neither.
 double side_of_wheel(const std::string& actuator);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 DrivePorts::DrivePorts(const ControllerContext& context, const std::string& type) {
   const std::string who = fmt::format("{} ({})", context.part, type);
@@ -53,4 +53,4 @@ void DrivePorts::write(Time now, const VelocityCommand& command, const VelocityC
   follower_.write(now, state);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "engine/api/messages/event.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// The followers' common ports: reads "estimate", "plan" and, where somebody writes it,
 /// "authority"; writes "actuators", "command", "follower".
@@ -61,4 +61,4 @@ class DrivePorts {
   SignalWriter<Event> event_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 
 #include "engine/api/messages/path.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// "the plan wants up to 5 m/s, goes 1.94 m/s at most (speed_mps)"; empty where it wants no more.
 /// @param key  of the follower's own limit
@@ -21,4 +21,4 @@ inline std::string tell_plan_too_fast(const PlannedPath& plan, double own_mps, c
                      own_mps, key);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -15,7 +15,7 @@
 #include "engine/api/messages/path.h"
 #include "engine/api/signal.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class StopProfile {
  public:
@@ -59,4 +59,4 @@ inline double read_stop_at_m(const SignalReader<MovementAuthority>& authority) {
                                : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

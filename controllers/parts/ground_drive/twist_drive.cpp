@@ -3,7 +3,7 @@
 #include "controllers/parts/ground_drive/ackermann_drive.h"
 #include "controllers/parts/ground_drive/differential_drive.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 std::unique_ptr<TwistDrive> make_twist_drive(const VehicleDescription& description,
                                              const std::string& who) {
@@ -11,4 +11,4 @@ std::unique_ptr<TwistDrive> make_twist_drive(const VehicleDescription& descripti
   return std::make_unique<DifferentialDrive>(description, who);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

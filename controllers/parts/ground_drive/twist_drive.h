@@ -7,7 +7,7 @@
 #include "engine/api/messages/commands.h"
 #include "engine/api/vehicle.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class TwistDrive {
  public:
@@ -28,4 +28,4 @@ class TwistDrive {
 std::unique_ptr<TwistDrive> make_twist_drive(const VehicleDescription& description,
                                              const std::string& who);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -4,7 +4,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 Result<Arc3> make_arc3(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                        const Eigen::Vector2d& c) {
@@ -33,4 +33,4 @@ Result<Arc3> make_arc3(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   return arc;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

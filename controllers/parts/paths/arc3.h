@@ -4,7 +4,7 @@
 #include "controllers/parts/paths/pose2.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct Arc3 {
   Pose2 start;                   ///< first point and the direction of travel there
@@ -19,4 +19,4 @@ struct Arc3 {
 Result<Arc3> make_arc3(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                        const Eigen::Vector2d& c);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

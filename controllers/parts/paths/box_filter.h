@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// What lies before the first and after the last sample.
 enum class Beyond {
@@ -55,4 +55,4 @@ inline std::vector<double> dilate(const std::vector<double>& samples, int half) 
   return largest;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

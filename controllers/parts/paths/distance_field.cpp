@@ -6,7 +6,7 @@
 
 #include "engine/api/messages/grid.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr float kFar = 1e20f;
@@ -98,4 +98,4 @@ double DistanceField::at(const Eigen::Vector2d& p_W) const {
   return (1 - v) * ((1 - u) * d[0] + u * d[right]) + v * ((1 - u) * d[up] + u * d[up + right]);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

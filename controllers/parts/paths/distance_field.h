@@ -11,7 +11,7 @@
 
 #include "engine/api/forward.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class DistanceField {
  public:
@@ -40,4 +40,4 @@ class DistanceField {
   std::vector<float> distance_m_;  // of cell centres, x fastest
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

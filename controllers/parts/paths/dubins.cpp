@@ -14,7 +14,7 @@
 //   RSL: D = S u(phi) + 2R n(phi), so phi = angle(D) - atan2(2R, S).
 //   LRL, RLR: the middle circle touches both, its centre is 2R from either: two mirror images.
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // Turned angles this close to a full turn are rounding of "no turn".
@@ -154,4 +154,4 @@ Pose2 pose_on_dubins(const Pose2& start, const DubinsPath& path, double length_m
   return pose;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

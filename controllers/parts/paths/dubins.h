@@ -11,7 +11,7 @@
 
 #include "controllers/parts/paths/pose2.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class DubinsWord { kLSL, kRSR, kLSR, kRSL, kRLR, kLRL };
 constexpr std::array<DubinsWord, 6> kDubinsWords = {DubinsWord::kLSL, DubinsWord::kRSR,
@@ -45,4 +45,4 @@ DubinsPath calc_dubins(const Pose2& start, const Pose2& goal, double radius_m);
 /// Pose after `length_m` of the path, from its start.
 Pose2 pose_on_dubins(const Pose2& start, const DubinsPath& path, double length_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

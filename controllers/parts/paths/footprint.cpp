@@ -10,7 +10,7 @@
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr int kCoverCircles = 3;
@@ -171,4 +171,4 @@ std::string describe_room(const Pose2& pose, const Footprint& footprint) {
                      to_string(pose), footprint.clearance_m(pose), footprint.margin_m());
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

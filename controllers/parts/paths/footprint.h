@@ -11,7 +11,7 @@
 #include "controllers/parts/paths/distance_field.h"
 #include "controllers/parts/paths/pose2.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Polygon with every edge moved inwards. @param outline  convex, counter-clockwise
 /// @returns empty if nothing is left
@@ -70,4 +70,4 @@ std::string to_string(const Pose2& pose);
 /// 0.010 m of room, the margin is 0.050 m", or that it lies outside the map.
 std::string describe_room(const Pose2& pose, const Footprint& footprint);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 LegFrame::LegFrame(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W)
     : from_W_(from_W), to_W_(to_W) {
@@ -41,4 +41,4 @@ double calc_cross_track_tolerance_m(double share_of_leg, double most_m, double l
   return std::max(least_m, most_m * (1.0 - share_of_leg));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

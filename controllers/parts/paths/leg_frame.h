@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// No heap. Points in W, m.
 class LegFrame {
@@ -49,4 +49,4 @@ class LegFrame {
 /// Cross-track tolerance of eq. 3 in metres: max(least, most (1 - s/L)).
 double calc_cross_track_tolerance_m(double share_of_leg, double most_m, double least_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

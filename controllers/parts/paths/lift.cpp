@@ -4,7 +4,7 @@
 
 #include "engine/api/messages/path.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 std::optional<std::string> lift_to_ground(const SceneQuery* scene, double height_m,
                                           PlannedPath& path) {
@@ -26,4 +26,4 @@ std::optional<std::string> lift_to_ground(const SceneQuery* scene, double height
                      bare->p_W.y());
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Higher than any ground within a scenario.
 inline constexpr double kAboveEverything_m = 1e4;
@@ -18,4 +18,4 @@ inline constexpr double kAboveEverything_m = 1e4;
 std::optional<std::string> lift_to_ground(const SceneQuery* scene, double height_m,
                                           PlannedPath& path);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,11 +5,11 @@
 
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// "drone.controller (quadrotor_mpc)"
 inline std::string part_name(const ControllerContext& context, const std::string& type) {
   return context.part + " (" + type + ")";
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

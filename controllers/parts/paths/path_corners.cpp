@@ -5,7 +5,7 @@
 #include "engine/api/messages/path.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 std::vector<PathCorner> find_corners(const PlannedPath& plan, double least_rad) {
   constexpr double kSamePlace_m = 1e-6;
@@ -27,4 +27,4 @@ std::vector<PathCorner> find_corners(const PlannedPath& plan, double least_rad) 
   return corners;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

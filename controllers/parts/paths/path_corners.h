@@ -5,7 +5,7 @@
 
 #include "engine/api/forward.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Jumps by more than that are turned on the spot by vehicles that can: 35 deg. What is less a
 /// follower drives round by itself, within its lookahead distance.
@@ -21,4 +21,4 @@ struct PathCorner {
 /// 2 * (direction of the chord) - (direction at its start).
 std::vector<PathCorner> find_corners(const PlannedPath& plan, double least_rad);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 constexpr double kShortestChord_m = 1e-6;
 // A chord of more than this share of the diameter does not fit the arc its point claims.
@@ -106,4 +106,4 @@ Path::Nearest Path::nearest(const Eigen::Vector2d& p, double from_m, double to_m
   return best;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "controllers/parts/paths/pose2.h"
 #include "engine/api/forward.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class Path {
  public:
@@ -66,4 +66,4 @@ class Path {
   double length_m_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

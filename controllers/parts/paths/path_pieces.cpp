@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 constexpr double kShortestPiece_m = 1e-6;
 constexpr double kMostPoints = 2e6;  // 100 bytes each
@@ -64,4 +64,4 @@ PlannedPath make_planned_path(const std::vector<PathPiece>& pieces, double pitch
   return path;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/parts/paths/dubins.h"
 #include "engine/api/messages/path.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A straight or an arc.
 struct PathPiece {
@@ -39,4 +39,4 @@ void append_dubins(const Pose2& start, const DubinsPath& dubins, PathKind kind, 
 /// @throws ConfigError where they are more than 2 million
 PlannedPath make_planned_path(const std::vector<PathPiece>& pieces, double pitch_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// A vehicle that begins beside its path drives there first, in a bow.
@@ -45,4 +45,4 @@ void PathWatch::update(const Cycle& cycle) {
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

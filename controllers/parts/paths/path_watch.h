@@ -12,7 +12,7 @@
 
 #include "engine/api/parameter_table_fwd.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct PathWatchParams {
   double lost_m = 5.0;  ///< farther from the path than that is lost
@@ -53,4 +53,4 @@ class PathWatch {
   std::string failure_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

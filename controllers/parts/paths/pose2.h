@@ -6,7 +6,7 @@
 
 #include "engine/math/planar.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Position in W and heading, rad, counter-clockwise from x.
 struct Pose2 {
@@ -28,4 +28,4 @@ inline Pose2 advance(const Pose2& pose, double length_m, double turn_rad) {
   return {pose.p + length_m * shrink * direction(pose.yaw_rad + half), pose.yaw_rad + turn_rad};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

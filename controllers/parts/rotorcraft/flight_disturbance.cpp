@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // Half of gravity: far above any wind, far below what would turn the vehicle over. The same for
@@ -55,4 +55,4 @@ void FlightDisturbance::update(const Odometry& odometry, const Wrench& mean, boo
   has_last_ = true;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

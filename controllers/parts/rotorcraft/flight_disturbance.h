@@ -12,7 +12,7 @@
 
 #include "controllers/parts/rotorcraft/rotor_mixer.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class FlightDisturbance {
  public:
@@ -42,4 +42,4 @@ class FlightDisturbance {
   Eigen::Vector3d angular_B_ = Eigen::Vector3d::Zero();
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -4,7 +4,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 const ParameterTable<FlightLimitParams>& flight_limit_table() {
   using P = FlightLimitParams;
@@ -42,4 +42,4 @@ FlightLimits make_flight_limits(const FlightLimitParams& params, const Rotorcraf
   return limits;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct FlightLimits {
   double tilt_rad = 0.0;
@@ -37,4 +37,4 @@ const ParameterTable<FlightLimitParams>& flight_limit_table();
 FlightLimits make_flight_limits(const FlightLimitParams& params, const RotorcraftModel& craft,
                                 const RotorMixer& mixer);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 RotorcraftModel read_craft(const ControllerContext& context, const std::string& who) {
@@ -172,4 +172,4 @@ void FlightPorts::write_follower(Time now) {
   follower_.write(now, state);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 #include "engine/api/messages/flight.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class FlightPorts {
  public:
@@ -78,4 +78,4 @@ class FlightPorts {
   SignalWriter<FollowerState> follower_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 HoverFrame::HoverFrame(const Eigen::Vector3d& p_WH, double yaw_rad)
     : p_WH_(p_WH), yaw_rad_(yaw_rad), cos_(std::cos(yaw_rad)), sin_(std::sin(yaw_rad)) {}
@@ -58,4 +58,4 @@ Eigen::Vector4d calc_hover_wrench(const Wrench& wrench, const HoverState& state,
           t.z()};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -14,7 +14,7 @@
 #include "controllers/parts/rotorcraft/rotor_mixer.h"
 #include "engine/api/messages/flight.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Index of a group of three in the states of HoverModel; wrench: four.
 enum HoverIndex {
@@ -58,4 +58,4 @@ HoverState calc_hover_state(const Odometry& odometry, const HoverFrame& frame);
 Wrench calc_body_wrench(const Eigen::Vector4d& u, const HoverState& state, double weight_N);
 Eigen::Vector4d calc_hover_wrench(const Wrench& wrench, const HoverState& state, double weight_N);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

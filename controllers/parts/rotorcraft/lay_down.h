@@ -15,7 +15,7 @@
 
 #include "controllers/parts/rotorcraft/rotor_mixer.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class LayDown {
  public:
@@ -62,4 +62,4 @@ class LayDown {
   Wrench held_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -11,7 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/math/decomposition.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 RotorMixer::RotorMixer(const RotorcraftModel& craft, const std::string& who) : craft_(craft) {
   const int rotors = static_cast<int>(craft.rotors.size());
@@ -125,4 +125,4 @@ Eigen::Vector3d RotorMixer::torque_limits_at_hover() const {
   return limits;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

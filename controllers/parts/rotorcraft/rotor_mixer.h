@@ -17,7 +17,7 @@
 
 #include "controllers/parts/rotorcraft/rotorcraft.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct Wrench {
   double thrust_N = 0.0;                               ///< along +z of B
@@ -50,4 +50,4 @@ class RotorMixer {
   Eigen::VectorXd thrusts_N_, roll_pitch_N_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 RotorPrediction::RotorPrediction(const RotorcraftModel& craft, const RotorMixer& mixer)
     : mixer_(mixer),
@@ -36,4 +36,4 @@ void RotorPrediction::command(const std::vector<double>& wanted_radps, double pe
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "controllers/parts/rotorcraft/rotor_mixer.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class RotorPrediction {
  public:
@@ -37,4 +37,4 @@ class RotorPrediction {
   std::vector<double> mean_radps_;  ///< root mean square
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 double RotorcraftModel::hover_rotor_radps() const {
   return std::sqrt(mass_kg * gravity_mps2 /
@@ -84,4 +84,4 @@ HoverModel make_hover_model(const RotorcraftModel& craft, bool with_lag) {
   return model;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

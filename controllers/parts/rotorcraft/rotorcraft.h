@@ -7,7 +7,7 @@
 
 #include "engine/api/vehicle.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// The vehicle's record with what hovering takes besides.
 struct RotorcraftModel : Rotorcraft {
@@ -46,4 +46,4 @@ struct HoverModel {
 /// @throws ConfigError if with_lag and the craft's rotors have none
 HoverModel make_hover_model(const RotorcraftModel& craft, bool with_lag);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

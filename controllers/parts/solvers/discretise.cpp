@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 SampledModel discretise(const Eigen::MatrixXd& A_c, const Eigen::MatrixXd& B_c, double period_s) {
   const Eigen::Index n = A_c.rows(), m = B_c.cols();
@@ -25,4 +25,4 @@ SampledModel discretise(const Eigen::MatrixXd& A_c, const Eigen::MatrixXd& B_c, 
   return {held.topLeftCorner(n, n), std::ldexp(1.0, exponent) * held.topRightCorner(n, m)};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

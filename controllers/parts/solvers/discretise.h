@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct SampledModel {
   Eigen::MatrixXd A;
@@ -17,4 +17,4 @@ struct SampledModel {
 /// @pre the sizes fit and all numbers are finite
 SampledModel discretise(const Eigen::MatrixXd& A_c, const Eigen::MatrixXd& B_c, double period_s);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -13,7 +13,7 @@
 #include "controllers/parts/solvers/zonotope.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Rows gathered so far: those of step t tell which of step t + 1 still cut something off.
@@ -119,4 +119,4 @@ Result<InvariantSet> maximal_robust_invariant_set(const Eigen::MatrixXd& A, cons
   return gather(A, X, W, settings);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -11,7 +11,7 @@
 #include "controllers/parts/solvers/support.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct InvariantSettings {
   int max_steps = 500;
@@ -44,4 +44,4 @@ Result<InvariantSet> maximal_robust_invariant_set(const Eigen::MatrixXd& A, cons
                                                   const Support& W,
                                                   const InvariantSettings& settings = {});
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

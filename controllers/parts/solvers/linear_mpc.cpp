@@ -11,7 +11,7 @@
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Index;
@@ -293,4 +293,4 @@ double LinearMpc::cost() const {
   return impl_->qp.cost();
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

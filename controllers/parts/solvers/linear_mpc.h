@@ -23,7 +23,7 @@
 
 #include "controllers/parts/solvers/qp.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Rows lower <= F x <= upper on every predicted state, or on the last one.
 struct MpcStateRows {
@@ -94,4 +94,4 @@ class LinearMpc {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 // Cost vectors and rows have length one here, so these numbers are relative.
@@ -295,4 +295,4 @@ void LinearProgramme::replace(int place, int row) {
   factors_.column(place) = rows_.row(row);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

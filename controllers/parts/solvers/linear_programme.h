@@ -20,7 +20,7 @@
 #include "controllers/parts/solvers/lp_basis.h"
 #include "controllers/parts/solvers/lp_rows.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class LpStatus {
   kSolved,
@@ -101,4 +101,4 @@ class LinearProgramme {
   int iterations_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

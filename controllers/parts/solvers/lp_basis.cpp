@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace vinerow::lp {
+namespace vinerow::controllers::lp {
 
 Basis::Basis(int n)
     : n_(n),
@@ -77,4 +77,4 @@ void Basis::solve_transposed(const Eigen::VectorXd& g, Eigen::VectorXd& x) {
   x += residual_;
 }
 
-}  // namespace vinerow::lp
+}  // namespace vinerow::controllers::lp

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace vinerow::lp {
+namespace vinerow::controllers::lp {
 
 class Basis {
  public:
@@ -30,4 +30,4 @@ class Basis {
   Eigen::VectorXd residual_, moved_;
 };
 
-}  // namespace vinerow::lp
+}  // namespace vinerow::controllers::lp

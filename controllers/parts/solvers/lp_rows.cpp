@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow::lp {
+namespace vinerow::controllers::lp {
 
 Rows::Rows(int variables, int most_rows)
     : F_(Eigen::MatrixXd::Zero(most_rows, variables)),
@@ -85,4 +85,4 @@ int Rows::contradiction() const {
   return -1;
 }
 
-}  // namespace vinerow::lp
+}  // namespace vinerow::controllers::lp

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace vinerow::lp {
+namespace vinerow::controllers::lp {
 
 class Rows {
  public:
@@ -43,4 +43,4 @@ class Rows {
   Eigen::VectorXd largest_;  // most_rows, largest entry of a row while scaling
 };
 
-}  // namespace vinerow::lp
+}  // namespace vinerow::controllers::lp

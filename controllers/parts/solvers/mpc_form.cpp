@@ -7,7 +7,7 @@
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
 
-namespace vinerow::mpc {
+namespace vinerow::controllers::mpc {
 namespace {
 
 using Eigen::Index;
@@ -212,4 +212,4 @@ Condensed condense(const LinearMpcProblem& problem) {
   return result;
 }
 
-}  // namespace vinerow::mpc
+}  // namespace vinerow::controllers::mpc

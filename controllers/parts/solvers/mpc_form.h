@@ -9,7 +9,7 @@
 
 #include "controllers/parts/solvers/linear_mpc.h"
 
-namespace vinerow::mpc {
+namespace vinerow::controllers::mpc {
 
 /// A limit on a predicted state: lower <= F x_step (- F r_step) <= upper.
 struct StateLimit {
@@ -37,4 +37,4 @@ void check(const LinearMpcProblem& problem, const std::string& who);
 /// @pre checked
 Condensed condense(const LinearMpcProblem& problem);
 
-}  // namespace vinerow::mpc
+}  // namespace vinerow::controllers::mpc

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace vinerow::mpc {
+namespace vinerow::controllers::mpc {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -86,4 +86,4 @@ int Prediction::index_of(const StateLimit& limit) const {
   return 1 + (limit.step - 1) * (F_.rows() + F_relative_.rows()) + row;
 }
 
-}  // namespace vinerow::mpc
+}  // namespace vinerow::controllers::mpc

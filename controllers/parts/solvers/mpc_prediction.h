@@ -7,7 +7,7 @@
 #include "controllers/parts/solvers/mpc_form.h"
 #include "controllers/parts/solvers/sparse_rows.h"
 
-namespace vinerow::mpc {
+namespace vinerow::controllers::mpc {
 
 class Prediction {
  public:
@@ -43,4 +43,4 @@ class Prediction {
   Eigen::VectorXd values_;  // zero; then for each step those of F and of F_relative
 };
 
-}  // namespace vinerow::mpc
+}  // namespace vinerow::controllers::mpc

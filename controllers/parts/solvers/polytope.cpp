@@ -11,7 +11,7 @@
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kRedundant = 1e-9;  // of a row's size: a smaller cut is none
@@ -164,4 +164,4 @@ Polytope Polytope::without_redundant_rows() const {
   return {F_(kept, Eigen::all), g_(kept)};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class Polytope {
  public:
@@ -53,4 +53,4 @@ class Polytope {
   Eigen::VectorXd g_;  // m
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "controllers/parts/solvers/qp_limits.h"
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 const char* to_string(QpStatus status) {
   switch (status) {
@@ -170,4 +170,4 @@ const std::vector<int>& QpSolver::active_set() const {
   return impl_->active;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

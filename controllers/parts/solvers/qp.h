@@ -19,7 +19,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class QpStatus {
   kSolved,
@@ -85,4 +85,4 @@ class QpSolver {
   Impl* impl_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

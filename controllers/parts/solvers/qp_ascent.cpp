@@ -5,7 +5,7 @@
 
 #include "engine/core/constants.h"
 
-namespace vinerow::qp {
+namespace vinerow::controllers::qp {
 namespace {
 
 // Smallest share of a dependent row that a member must carry to be exchanged for it.
@@ -230,4 +230,4 @@ int Ascent::exchange(double direction, double row_length, double& step) const {
   return first;
 }
 
-}  // namespace vinerow::qp
+}  // namespace vinerow::controllers::qp

@@ -12,7 +12,7 @@
 #include "controllers/parts/solvers/qp_limits.h"
 #include "controllers/parts/solvers/qp_working_set.h"
 
-namespace vinerow::qp {
+namespace vinerow::controllers::qp {
 
 class Ascent {
  public:
@@ -60,4 +60,4 @@ class Ascent {
   bool ill_conditioned_ = false;  // this run has needed one
 };
 
-}  // namespace vinerow::qp
+}  // namespace vinerow::controllers::qp

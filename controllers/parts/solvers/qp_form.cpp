@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow::qp {
+namespace vinerow::controllers::qp {
 namespace {
 
 using Eigen::Index;
@@ -161,4 +161,4 @@ void Form::values_at(const Eigen::VectorXd& y, Eigen::VectorXd& values) const {
   }
 }
 
-}  // namespace vinerow::qp
+}  // namespace vinerow::controllers::qp

@@ -14,7 +14,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace vinerow::qp {
+namespace vinerow::controllers::qp {
 
 using Vector = Eigen::Map<Eigen::VectorXd>;
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
@@ -70,4 +70,4 @@ class Form {
   Eigen::ArrayXd squared_, inverse_length_, scaled_tolerance_;
 };
 
-}  // namespace vinerow::qp
+}  // namespace vinerow::controllers::qp

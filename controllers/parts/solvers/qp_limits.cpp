@@ -4,7 +4,7 @@
 
 #include "engine/core/constants.h"
 
-namespace vinerow::qp {
+namespace vinerow::controllers::qp {
 namespace {
 
 // Share of the worst violation with which a constraint enters the shortlist, and its length.
@@ -82,4 +82,4 @@ int Limits::most_violated_of_shortlist(double y_length, const WorkingSet& set) c
   return found;
 }
 
-}  // namespace vinerow::qp
+}  // namespace vinerow::controllers::qp

@@ -7,7 +7,7 @@
 #include "controllers/parts/solvers/qp_form.h"
 #include "controllers/parts/solvers/qp_working_set.h"
 
-namespace vinerow::qp {
+namespace vinerow::controllers::qp {
 
 /// A value g y is known to so many times |g| |y|.
 inline constexpr double kRounding = 64.0 * 2.220446049250313e-16;
@@ -55,4 +55,4 @@ class Limits {
   int equalities_ = 0;
 };
 
-}  // namespace vinerow::qp
+}  // namespace vinerow::controllers::qp

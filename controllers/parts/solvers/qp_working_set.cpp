@@ -4,7 +4,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow::qp {
+namespace vinerow::controllers::qp {
 namespace {
 
 // A pivot above this share of its row's square lost no more than four digits to cancellation.
@@ -142,4 +142,4 @@ void WorkingSet::rebuild() {
   for (const Member& member : kept_) append(member);
 }
 
-}  // namespace vinerow::qp
+}  // namespace vinerow::controllers::qp

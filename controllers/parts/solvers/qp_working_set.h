@@ -15,7 +15,7 @@
 
 #include "controllers/parts/solvers/qp_form.h"
 
-namespace vinerow::qp {
+namespace vinerow::controllers::qp {
 
 struct Member {
   int constraint = 0;
@@ -75,4 +75,4 @@ class WorkingSet {
   int removals_ = 0;
 };
 
-}  // namespace vinerow::qp
+}  // namespace vinerow::controllers::qp

@@ -13,7 +13,7 @@
 #include "engine/core/check.h"
 #include "engine/math/decomposition.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Index;
@@ -152,4 +152,4 @@ double spectral_radius(const MatrixXd& A) {
   return calc_eigenvalues(A).cwiseAbs().maxCoeff();
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

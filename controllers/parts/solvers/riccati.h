@@ -6,7 +6,7 @@
 
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// The stabilising P of P = A'PA - A'PB (R + B'PB)^-1 B'PA + Q, by the structured doubling
 /// algorithm, and one step of Newton's method for the last digits.
@@ -32,4 +32,4 @@ Result<Eigen::MatrixXd> solve_discrete_lyapunov(const Eigen::MatrixXd& A, const 
 /// Largest magnitude of an eigenvalue; infinite where a number of A is not finite.
 double spectral_radius(const Eigen::MatrixXd& A);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "controllers/parts/solvers/riccati.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kContraction = 0.5;
@@ -90,4 +90,4 @@ SeriesSupport::Bound SeriesSupport::bound(const Eigen::VectorXd& c) const {
   return bound;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -14,7 +14,7 @@
 #include "controllers/parts/solvers/support.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class SeriesSupport {
  public:
@@ -44,4 +44,4 @@ class SeriesSupport {
   double contraction_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace vinerow::mpc {
+namespace vinerow::controllers::mpc {
 
 class SparseRows {
  public:
@@ -57,4 +57,4 @@ class SparseRows {
   std::vector<Entry> entries_;
 };
 
-}  // namespace vinerow::mpc
+}  // namespace vinerow::controllers::mpc

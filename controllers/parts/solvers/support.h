@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <functional>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 using Support = std::function<double(const Eigen::VectorXd& direction)>;
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -2,7 +2,7 @@
 
 #include "controllers/parts/solvers/riccati.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Index;
@@ -75,4 +75,4 @@ TubeForm make_tube_form(const TubeModel& model, const TubeSets& sets, const Tube
   return form;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -14,7 +14,7 @@
 #include "controllers/parts/solvers/tube_sets.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct TubeCost {
   Eigen::MatrixXd Q;  ///< n x n, >= 0
@@ -54,4 +54,4 @@ struct TubeForm {
 TubeForm make_tube_form(const TubeModel& model, const TubeSets& sets, const TubeCost& cost,
                         const Eigen::MatrixXd& P, bool with_tube);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "engine/core/constants.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Index;
@@ -193,4 +193,4 @@ void TubeMpc::cold_start() {
   has_next_ = false;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -18,7 +18,7 @@
 #include "controllers/parts/solvers/tube_form.h"
 #include "controllers/parts/solvers/tube_sets.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Where the nominal state starts, and the law that follows.
 enum class TubeLaw {
@@ -95,4 +95,4 @@ class TubeMpc {
   TubeRow worst_row_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "controllers/parts/solvers/zonotope.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Index;
@@ -182,4 +182,4 @@ Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape) {
   return sets;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -23,7 +23,7 @@
 #include "controllers/parts/solvers/polytope.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct TubeModel {
   Eigen::MatrixXd A;                     ///< n x n
@@ -85,4 +85,4 @@ struct TubeSets {
 /// steps
 Result<TubeSets> make_tube_sets(const TubeModel& model, TubeShape shape = TubeShape::kInvariant);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -2,7 +2,7 @@
 /// Tells when the problem of an axis is not feasible without softness, and when it is again: once
 /// each.
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class TubeWatch {
  public:
@@ -34,4 +34,4 @@ class TubeWatch {
   double left_at_s_ = 0.0, outside_s_ = 0.0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 Zonotope::Zonotope(Eigen::VectorXd centre, Eigen::MatrixXd generators)
     : centre_(std::move(centre)), generators_(std::move(generators)) {
@@ -50,4 +50,4 @@ Zonotope Zonotope::linear_image(const Eigen::MatrixXd& M) const {
   return {M * centre_, M * generators_};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

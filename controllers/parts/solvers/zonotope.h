@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class Zonotope {
  public:
@@ -37,4 +37,4 @@ class Zonotope {
   Eigen::MatrixXd generators_;  // n x k
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "controllers/parts/paths/lift.h"
 #include "engine/api/map.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kFlightStep_m = 0.05;
@@ -135,4 +135,4 @@ HeightProfile make_return_profile(const Path& way, const HeightProfile& ground_m
   return HeightProfile(step_m, std::move(excess_m));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

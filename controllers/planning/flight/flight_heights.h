@@ -11,7 +11,7 @@
 #include "engine/api/scene_query.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Terrain and canopy of the map, as heights in W.
 class FlightGround {
@@ -69,4 +69,4 @@ HeightProfile make_return_profile(const Path& way, const HeightProfile& ground_m
                                   const FlightGround& ground, double above_m, double reach_m,
                                   double smooth_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

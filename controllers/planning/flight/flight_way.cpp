@@ -12,7 +12,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kBesideLeg_m = 0.05;
@@ -190,4 +190,4 @@ double choose_heading(const Eigen::Vector2d& start, const RouteLeg& first, doubl
   return candidates.front().second;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -11,7 +11,7 @@
 #include "controllers/planning/search/pose_search.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class FlightWay {
  public:
@@ -39,4 +39,4 @@ std::unique_ptr<FlightWay> make_closed_form_way(const RoutePlannerParams& params
 double choose_heading(const Eigen::Vector2d& start, const RouteLeg& first, double radius_m,
                       const std::function<bool(const std::vector<PathPiece>&)>& is_free);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

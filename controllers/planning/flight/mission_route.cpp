@@ -18,7 +18,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
@@ -352,4 +352,4 @@ std::unique_ptr<Planner> make_mission_route(const ParameterSet& parameters,
       *mission, {params.keeps_fences, params.pitch_m, params.turning_radius_m}, context, who);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

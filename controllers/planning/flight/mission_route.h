@@ -7,7 +7,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec mission_route_spec();
 
@@ -18,4 +18,4 @@ PartSpec mission_route_spec();
 std::unique_ptr<Planner> make_mission_route(const ParameterSet& parameters,
                                             const PlannerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 #include "engine/api/map.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kShortestFlight_m = 1e-6;
@@ -263,4 +263,4 @@ std::unique_ptr<Planner> make_row_flight(const ParameterSet& parameters,
   return std::make_unique<RowFlight>(params, std::move(way), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec row_flight_spec();
 
@@ -22,4 +22,4 @@ PartSpec row_flight_spec();
 std::unique_ptr<Planner> make_row_flight(const ParameterSet& parameters,
                                          const PlannerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kCoarsestPitch_m = 0.5;  // heights between waypoints are straight
@@ -83,4 +83,4 @@ RowFlightParams read_row_flight_params(const ParameterSet& parameters,
   return params;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "controllers/planning/routes/headland_turn.h"
 #include "controllers/planning/routes/route_planner.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct RowFlightParams {
   RoutePlannerParams route;
@@ -30,4 +30,4 @@ std::vector<ParameterSpec> row_flight_parameters();
 RowFlightParams read_row_flight_params(const ParameterSet& parameters,
                                        const PlannerContext& context, const std::string& who);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

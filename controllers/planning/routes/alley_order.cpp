@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 double distance_to_line(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
@@ -63,4 +63,4 @@ std::vector<Eigen::Vector2d> simplify_line(const std::vector<Eigen::Vector3d>& l
   return kept;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

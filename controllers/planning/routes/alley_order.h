@@ -5,7 +5,7 @@
 
 #include "controllers/parts/paths/pose2.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class AlleyOrder {
   kSerpentine,  ///< one after the other
@@ -22,4 +22,4 @@ std::vector<int> make_alley_order(int count, AlleyOrder order);
 std::vector<Eigen::Vector2d> simplify_line(const std::vector<Eigen::Vector3d>& line_W,
                                            double tolerance_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

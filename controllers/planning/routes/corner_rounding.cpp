@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kSmooth_rad = rad_from_deg(5.0);
@@ -115,4 +115,4 @@ double find_corner_radius_m(const std::optional<double>& wanted_m,
                   who, *wanted_m, least_m, vehicle.type));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

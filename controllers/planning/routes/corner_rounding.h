@@ -14,7 +14,7 @@
 #include "controllers/parts/paths/path_pieces.h"
 #include "engine/api/vehicle.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct RoundedWay {
   PathPieces pieces;
@@ -35,4 +35,4 @@ RoundedWay round_corners(const std::vector<Eigen::Vector2d>& points,
 double find_corner_radius_m(const std::optional<double>& wanted_m,
                             const VehicleDescription& vehicle, const std::string& who);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -16,7 +16,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 struct CoverageParams {
@@ -164,4 +164,4 @@ std::unique_ptr<Planner> make_coverage(const ParameterSet& parameters,
   return std::make_unique<Coverage>(params, context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec coverage_spec();
 
@@ -15,4 +15,4 @@ PartSpec coverage_spec();
 std::unique_ptr<Planner> make_coverage(const ParameterSet& parameters,
                                        const PlannerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

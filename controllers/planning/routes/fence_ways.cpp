@@ -7,7 +7,7 @@
 #include "engine/math/angles.h"
 #include "engine/math/planar.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Vec = Eigen::Vector2d;
@@ -35,14 +35,14 @@ Polygon2 make_circle(const Vec& centre, double radius_m) {
 }  // namespace
 
 FenceWays::FenceWays(const io::MissionFile& mission, const GeoOrigin& origin, double margin_m) {
-  const io::LocalFrame frame(origin);
-  const auto local = [&](io::Geodetic place) {
+  const LocalFrame frame(origin);
+  const auto local = [&](Geodetic place) {
     place.altitude_m = origin.altitude_m;
     return Vec(frame.to_local(place).head<2>());
   };
   for (const io::FencePolygon& fence : mission.fence_polygons) {
     Polygon2 polygon;
-    for (const io::Geodetic& point : fence.points) polygon.push_back(local(point));
+    for (const Geodetic& point : fence.points) polygon.push_back(local(point));
     add(fence.inclusion, clean_polygon(polygon));
   }
   for (const io::FenceCircle& fence : mission.fence_circles) {
@@ -125,4 +125,4 @@ std::optional<std::vector<Vec>> FenceWays::find_way(const Vec& from_W, const Vec
   return way;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

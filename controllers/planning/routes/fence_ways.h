@@ -12,7 +12,7 @@
 #include "controllers/planning/survey/survey_area.h"
 #include "engine/io/missions/mission_file.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class FenceWays {
  public:
@@ -41,4 +41,4 @@ class FenceWays {
   std::vector<Eigen::Vector2d> bends_W_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

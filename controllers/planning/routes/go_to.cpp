@@ -17,7 +17,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 struct GoToParams {
@@ -213,4 +213,4 @@ std::unique_ptr<Planner> make_go_to(const ParameterSet& parameters, const Planne
   return std::make_unique<GoTo>(params, context, who);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec go_to_spec();
 
@@ -17,4 +17,4 @@ PartSpec go_to_spec();
 /// @throws ConfigError if the map has no grid, or the vehicle no turning radius
 std::unique_ptr<Planner> make_go_to(const ParameterSet& parameters, const PlannerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 #include "controllers/planning/routes/row_check.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Vec = Eigen::Vector2d;
@@ -181,4 +181,4 @@ std::unique_ptr<Planner> make_ground_mission(const io::MissionFile& mission,
   return std::make_unique<GroundMission>(mission, params, context, who);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

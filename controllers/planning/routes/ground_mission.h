@@ -9,7 +9,7 @@
 #include "engine/api/stepped_parts.h"
 #include "engine/io/missions/mission_file.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct GroundMissionParams {
   bool keeps_fences = true;
@@ -25,4 +25,4 @@ std::unique_ptr<Planner> make_ground_mission(const io::MissionFile& mission,
                                              const GroundMissionParams& params,
                                              const PlannerContext& context, const std::string& who);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "controllers/parts/paths/arc3.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kShortestTurn_m = 1e-9;
@@ -73,4 +73,4 @@ Result<std::vector<PathPiece>> make_headland_turn(const Pose2& exit, const Pose2
   return make_three_point_arc(exit, entry, params);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "controllers/parts/paths/path_pieces.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class TurnKind {
   kThreePointArc,  ///< paper B, section 2.3: arc through alley end, apex, next alley's end
@@ -30,4 +30,4 @@ struct TurnParams {
 Result<std::vector<PathPiece>> make_headland_turn(const Pose2& exit, const Pose2& entry,
                                                   const TurnParams& params);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

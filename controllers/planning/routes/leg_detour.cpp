@@ -8,7 +8,7 @@
 
 #include "controllers/planning/search/analytic_turn.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Part of a line of straights.
@@ -117,4 +117,4 @@ Result<PathPieces> drive_around(const RouteLeg& leg, const Footprint& footprint,
   return way;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/planning/routes/route_room.h"
 #include "controllers/planning/search/pose_search.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct LegDetourParams {
   double radius_m = 1.0;  ///< least of the vehicle
@@ -23,4 +23,4 @@ Result<PathPieces> drive_around(const RouteLeg& leg, const Footprint& footprint,
                                 const RouteRoom& room, PoseSearch& search, int problem,
                                 const LegDetourParams& params, std::vector<SearchReport>& reports);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "engine/io/missions/mav_command.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 constexpr double kFarthest_m = 20e3;  // beyond it a plane world is no world
 
 /// What an item is measured from, and where it is.
-void set_place(const io::MissionItem& item, const io::LocalFrame& frame, MissionPlace& place) {
+void set_place(const io::MissionItem& item, const LocalFrame& frame, MissionPlace& place) {
   io::MavAltitude altitude = io::MavAltitude::kNone;
   io::find_mav_altitude(item.frame, altitude);
   place.item = item.number;
@@ -29,7 +29,7 @@ void set_place(const io::MissionItem& item, const io::LocalFrame& frame, Mission
                     : altitude == io::MavAltitude::kMeanSeaLevel ? Reference::kWorld
                                                                  : Reference::kKeep;
   if (!place.has_place) return;
-  io::Geodetic at = io::place_of(item);
+  Geodetic at = io::place_of(item);
   // Where it is seen from above depends on the height a little: 1 mm for 6 m, 1 km from the origin.
   if (place.reference != Reference::kWorld) at.altitude_m += frame.origin().altitude_m;
   const Eigen::Vector3d p_W = frame.to_local(at);
@@ -53,7 +53,7 @@ void require_near(const io::MissionFile& mission, const io::MissionItem& item,
 
 MissionPlaces place_mission(const io::MissionFile& mission, const GeoOrigin& origin, bool winged,
                             const std::string& who) {
-  const io::LocalFrame frame(origin);
+  const LocalFrame frame(origin);
   MissionPlaces result;
   const auto& told = winged ? mission.cruise_speed_mps : mission.hover_speed_mps;
   double speed_mps = told.value_or(0.0);
@@ -143,8 +143,8 @@ std::optional<std::string> find_broken_fence(const io::MissionFile& mission,
                                              const GeoOrigin& origin, const Vector2d& from_W,
                                              const Vector2d& to_W) {
   if (mission.fence_polygons.empty() && mission.fence_circles.empty()) return std::nullopt;
-  const io::LocalFrame frame(origin);
-  const auto local = [&](io::Geodetic place) {
+  const LocalFrame frame(origin);
+  const auto local = [&](Geodetic place) {
     place.altitude_m = origin.altitude_m;
     return Vector2d(frame.to_local(place).head<2>());
   };
@@ -163,7 +163,7 @@ std::optional<std::string> find_broken_fence(const io::MissionFile& mission,
   int number = 0;
   for (const io::FencePolygon& fence : mission.fence_polygons) {
     Polygon2 polygon;
-    for (const io::Geodetic& point : fence.points) polygon.push_back(local(point));
+    for (const Geodetic& point : fence.points) polygon.push_back(local(point));
     if (auto found = find(fence.inclusion, fmt::format("polygon {}", ++number),
                           [&](const Vector2d& p) { return is_inside_polygon(p, polygon); })) {
       return found;
@@ -181,4 +181,4 @@ std::optional<std::string> find_broken_fence(const io::MissionFile& mission,
   return std::nullopt;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

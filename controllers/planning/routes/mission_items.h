@@ -8,7 +8,7 @@
 #include "engine/io/missions/mission_file.h"
 #include "engine/math/geo_origin.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A place to fly to.
 struct MissionPlace {
@@ -47,4 +47,4 @@ std::optional<std::string> find_broken_fence(const io::MissionFile& mission,
                                              const GeoOrigin& origin, const Eigen::Vector2d& from_W,
                                              const Eigen::Vector2d& to_W);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

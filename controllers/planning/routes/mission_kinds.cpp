@@ -6,7 +6,7 @@
 #include "engine/api/messages/path.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void set_mission_kinds(const std::vector<bool>& camera, bool uses_camera, PlannedPath& path) {
   std::vector<PathPoint>& points = path.points;
@@ -43,4 +43,4 @@ void set_mission_kinds(const std::vector<bool>& camera, bool uses_camera, Planne
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "engine/api/forward.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Of points with kind kLeg: where the camera works it is a leg, between those a turn, before them
 /// transit, after them the return; without any camera every stretch is a leg. Legs are numbered:
@@ -14,4 +14,4 @@ namespace vinerow {
 /// @param camera  at each point: triggered from there on  @param path  >= 2 points
 void set_mission_kinds(const std::vector<bool>& camera, bool uses_camera, PlannedPath& path);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

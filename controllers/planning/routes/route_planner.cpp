@@ -15,7 +15,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kOnTheLine_m = 0.05;
@@ -312,4 +312,4 @@ std::unique_ptr<Planner> make_route_planner(const RoutePlannerParams& params,
   return std::make_unique<RoutePlanner>(params, std::move(search), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "controllers/planning/search/pose_search.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct RoutePlannerParams {
   RowRouteParams route;
@@ -56,4 +56,4 @@ std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& t
                                                const std::vector<Eigen::Vector2d>& outline_B,
                                                double margin_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 #include "controllers/planning/search/analytic_turn.h"
 #include "engine/api/messages/grid.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kReach_m = 10.0;  // around both ends: what is farther away joins nothing
@@ -99,4 +99,4 @@ std::optional<double> calc_missing_clearance_m(const Pose2& from, const Pose2& t
   return least_m;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 
 #include "engine/api/map.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// The row whose canopy covers a point, or nullptr.
@@ -69,4 +69,4 @@ std::optional<std::string> RouteRoom::find_blocked(const RouteLeg& leg) const {
   return std::nullopt;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

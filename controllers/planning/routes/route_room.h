@@ -9,7 +9,7 @@
 #include "controllers/parts/paths/footprint.h"
 #include "controllers/planning/routes/row_route.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class RouteRoom {
  public:
@@ -34,4 +34,4 @@ class RouteRoom {
   double step_m_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

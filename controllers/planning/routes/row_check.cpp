@@ -9,7 +9,7 @@
 #include "engine/api/map.h"
 #include "engine/api/messages/path.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Vec = Eigen::Vector2d;
@@ -65,4 +65,4 @@ std::optional<std::string> find_path_into_row(const PlannedPath& path, const Row
   return std::nullopt;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

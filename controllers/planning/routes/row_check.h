@@ -6,7 +6,7 @@
 
 #include "engine/api/forward.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Looks at every stretch between two points of a path, as driven straight.
 /// @param clearance_m  to keep from the canopy's footprint, >= 0
@@ -14,4 +14,4 @@ namespace vinerow {
 std::optional<std::string> find_path_into_row(const PlannedPath& path, const RowMap& map,
                                               double clearance_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 Pose2 heading_along(const Eigen::Vector2d& at, const Eigen::Vector2d& from,
@@ -101,4 +101,4 @@ void append_leg(const RouteLeg& leg, double speed_mps, std::vector<PathPiece>& p
   }
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -13,7 +13,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// An alley as it will be driven.
 struct RouteLeg {
@@ -47,4 +47,4 @@ Result<std::vector<RouteLeg>> make_row_route(const RowMap& map, const RowRoutePa
 /// The leg's straights, of kind kLeg.
 void append_leg(const RouteLeg& leg, double speed_mps, std::vector<PathPiece>& pieces);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Paper A, section 4.1: steering angles -pi/6, 0, pi/6.
@@ -136,4 +136,4 @@ std::unique_ptr<Planner> make_rrt_quartile(const ParameterSet& parameters,
                             context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec rrt_quartile_spec();
 /// @throws ConfigError for arcs tighter than the vehicle turns, steps that do not leave a cell, and
@@ -14,4 +14,4 @@ PartSpec rrt_quartile_spec();
 std::unique_ptr<Planner> make_rrt_quartile(const ParameterSet& parameters,
                                            const PlannerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/planning/search/rrt_star_search.h"
 #include "engine/api/parameter_table.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::unique_ptr<Planner> make_rrt_star(const ParameterSet& parameters,
   return make_route_planner(route, make_rrt_star_search(parameters, route, context), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

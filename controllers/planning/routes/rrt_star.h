@@ -8,7 +8,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec rrt_star_spec();
 
@@ -23,4 +23,4 @@ std::unique_ptr<PoseSearch> make_rrt_star_search(const ParameterSet& parameters,
 std::unique_ptr<Planner> make_rrt_star(const ParameterSet& parameters,
                                        const PlannerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -16,7 +16,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Lines "x,y" in metres; a first line of names, empty lines and lines that start with '#' are
@@ -200,4 +200,4 @@ std::unique_ptr<Planner> make_waypoints(const ParameterSet& parameters,
   return std::make_unique<Waypoints>(waypoints_table().read(parameters, who), context, who);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec waypoints_spec();
 
@@ -16,4 +16,4 @@ PartSpec waypoints_spec();
 std::unique_ptr<Planner> make_waypoints(const ParameterSet& parameters,
                                         const PlannerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 std::vector<AnalyticTurn> make_analytic_turns(const Pose2& from, const Pose2& to,
                                               const AnalyticTurnParams& params) {
@@ -48,4 +48,4 @@ double calc_length_m(const std::vector<PathPiece>& pieces) {
                          [](double sum, const PathPiece& piece) { return sum + piece.length_m; });
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "controllers/parts/paths/path_pieces.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// What is tried: every Dubins word between the poses moved on by one straight and back by another,
 /// for all pairs of straights 0, step, 2 step .. longest. Paper B calls the straights headland and
@@ -33,4 +33,4 @@ std::vector<PathPiece> make_pieces(const Pose2& from, const Pose2& to, const Ana
 
 double calc_length_m(const std::vector<PathPiece>& pieces);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A plain list. The distance from an element to the query is worked out only where the bound does
 /// not already exceed the worst that would be kept. Exact; of equals the one added first.
@@ -101,4 +101,4 @@ class BoundedNearest final : public ompl::NearestNeighbors<T> {
   mutable std::vector<Place> kept_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -14,7 +14,7 @@
 #include "controllers/planning/search/bounded_nearest.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 namespace ob = ompl::base;
@@ -134,4 +134,4 @@ CarTree run_rrt(const CarProblem& problem, CarSampling sampling, RandomStream ra
   return run(planner, setup, problem.iterations);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

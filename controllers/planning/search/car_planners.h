@@ -6,7 +6,7 @@
 
 #include "controllers/planning/search/car_sampler.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct CarProblem {
   double radius_m = 1.0;
@@ -38,4 +38,4 @@ CarTree run_rrt_star(const CarProblem& problem, CarSampling sampling, RandomStre
 /// @throws ompl::Exception
 CarTree run_rrt(const CarProblem& problem, CarSampling sampling, RandomStream random);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

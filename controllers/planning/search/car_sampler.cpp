@@ -2,7 +2,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 namespace ob = ompl::base;
 constexpr int kMostTries = 50;  // until a sample that cannot improve anything is let through
@@ -61,4 +61,4 @@ void CarSampler::sampleGaussian(ob::State* state, const ob::State* mean, double 
   car_.enforceBounds(state);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include "controllers/planning/search/car_space.h"
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct CarSampling {
   Pose2 from, to;
@@ -47,4 +47,4 @@ class CarSampler final : public ompl::base::StateSampler {
   std::size_t given_out_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 namespace ob = ompl::base;
 }
@@ -93,4 +93,4 @@ ob::Cost CarObjective::motionCost(const ob::State* from, const ob::State* to) co
   return ob::Cost(cost_.of(CarSpace::pose_of(from), path));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

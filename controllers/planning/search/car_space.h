@@ -10,7 +10,7 @@
 
 #include "controllers/planning/search/way_cost.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Poses; the distance from one to another is the length of the shortest Dubins path.
 class CarSpace final : public ompl::base::SE2StateSpace {
@@ -71,4 +71,4 @@ class CarObjective final : public ompl::base::OptimizationObjective {
   double longest_m_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

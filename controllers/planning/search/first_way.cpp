@@ -6,7 +6,7 @@
 
 #include "controllers/planning/search/analytic_turn.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 struct Found {
@@ -116,4 +116,4 @@ std::vector<PathPiece> shorten_by_cost(const std::vector<PathPiece>& pieces, dou
   return way;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 
 #include "controllers/planning/search/way_cost.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct FirstWay {
   std::vector<PathPiece> pieces;
@@ -33,4 +33,4 @@ std::vector<PathPiece> shorten_by_cost(const std::vector<PathPiece>& pieces, dou
                                        const Footprint& footprint, const WayCost& cost,
                                        double check_step_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kCell_m = 0.2;
@@ -94,4 +94,4 @@ double GoalDistance::at(const Eigen::Vector2d& p_W) const {
   return kCell_m * steps / kBeside;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 
 #include "controllers/parts/paths/footprint.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 enum class DistanceKind { kEuclid, kGeodesic };
 
@@ -35,4 +35,4 @@ class GoalDistance {
   std::vector<int> steps_;  // fifths of a cell from the goal's cell; x fastest
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -10,7 +10,7 @@
 #include "controllers/parts/paths/pose2.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class PoseCells {
  public:
@@ -72,4 +72,4 @@ class PoseCells {
   std::size_t count_ = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

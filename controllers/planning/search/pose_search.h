@@ -8,7 +8,7 @@
 #include "controllers/parts/paths/path_pieces.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// What one search did.
 struct SearchReport {
@@ -34,4 +34,4 @@ class PoseSearch {
                                               SearchReport& report) = 0;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -4,7 +4,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 void QuartileList::Counts::add(int bucket, int change) {
   total += change;
@@ -85,4 +85,4 @@ int QuartileList::draw(RandomStream& random) const {
   return members_[bucket][rank - before];
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -14,7 +14,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 class QuartileList {
  public:
@@ -55,4 +55,4 @@ class QuartileList {
   std::vector<std::vector<int>> members_;  // open nodes of each bucket
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

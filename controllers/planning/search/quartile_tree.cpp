@@ -4,7 +4,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 QuartileTree::QuartileTree(const QuartileTreeParams& params, const Footprint& footprint,
                            const GoalDistance& distance, const Pose2& from, const Pose2& to)
@@ -107,4 +107,4 @@ std::vector<Eigen::Vector2d> QuartileTree::edges_W() const {
   return points;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

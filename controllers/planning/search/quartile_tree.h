@@ -22,7 +22,7 @@
 #include "controllers/planning/search/quartile_list.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct QuartileTreeParams {
   double curvature_per_m = 0.566;  ///< of the arcs to the left and right, > 0
@@ -78,4 +78,4 @@ class QuartileTree {
   DubinsPath last_;  // the way from there
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

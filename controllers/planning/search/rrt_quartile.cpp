@@ -7,7 +7,7 @@
 #include "controllers/planning/search/analytic_turn.h"
 #include "controllers/planning/search/shortcut.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 QuartileTreeParams refine(QuartileTreeParams params) {
@@ -69,4 +69,4 @@ Result<std::vector<PathPiece>> RrtQuartile::find(const Pose2& from, const Pose2&
                   1.0 / tree_params.curvature_per_m, exhausted)};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

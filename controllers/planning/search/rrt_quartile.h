@@ -5,7 +5,7 @@
 #include "controllers/planning/search/quartile_tree.h"
 #include "engine/api/part.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Of one search: a node takes about 250 bytes, so all of them half a gigabyte.
 inline constexpr double kMostQuartileIterations = 2e6;
@@ -35,4 +35,4 @@ class RrtQuartile final : public PoseSearch {
   PartContext context_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -11,7 +11,7 @@
 #include "controllers/planning/search/car_planners.h"
 #include "controllers/planning/search/first_way.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 std::optional<std::string> find_taken(const Pose2& pose, const char* name,
@@ -113,4 +113,4 @@ Result<PathPieces> RrtStarSearch::find(const Pose2& from, const Pose2& to,
   return Failure{fmt::format("OMPL gave up: {}", fault.what())};
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

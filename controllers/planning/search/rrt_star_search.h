@@ -8,7 +8,7 @@
 #include "controllers/planning/search/way_cost.h"
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct RrtStarParams {
   double radius_m = 1.0;                   ///< least of the vehicle
@@ -35,4 +35,4 @@ class RrtStarSearch final : public PoseSearch {
   std::function<RandomStream(int)> random_of_;
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "controllers/planning/search/analytic_turn.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kSaving_m = 0.01;
@@ -95,4 +95,4 @@ std::vector<PathPiece> shorten_at_random(std::vector<PathPiece> pieces,
   return pieces;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "controllers/parts/paths/path_pieces.h"
 #include "engine/core/random.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct ShortcutParams {
   double radius_m = 1.0;      ///< of the Dubins paths
@@ -23,4 +23,4 @@ std::vector<PathPiece> shorten_at_random(std::vector<PathPiece> pieces,
                                          const ShortcutParams& params, const Footprint& footprint,
                                          RandomStream& random);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 WayCost::WayCost(const WayCostParams& params, const Footprint& footprint)
     : params_(params), field_(footprint.field()) {
@@ -61,4 +61,4 @@ double WayCost::of(const Pose2& start, const DubinsPath& path) const {
   return std::max(sum, 0.0);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

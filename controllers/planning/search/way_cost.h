@@ -7,7 +7,7 @@
 #include "controllers/parts/paths/footprint.h"
 #include "controllers/parts/paths/path_pieces.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct WayCostParams {
   double clearance_weight = 0.5;    ///< a metre driven at no clearance costs 1 + this
@@ -39,4 +39,4 @@ class WayCost {
   std::vector<Eigen::Vector2d> looked_at_B_;  // corners and edge middles of the outline
 };
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "controllers/planning/survey/survey_plan.h"
 #include "engine/core/error.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 class Survey final : public Planner {
@@ -59,4 +59,4 @@ std::unique_ptr<Planner> make_survey(const ParameterSet& parameters,
   return std::make_unique<Survey>(read_survey_request(parameters, context, who), context);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -6,7 +6,7 @@
 #include "engine/api/part.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 PartSpec survey_spec();
 
@@ -14,4 +14,4 @@ PartSpec survey_spec();
 /// for vehicles that do not fly
 std::unique_ptr<Planner> make_survey(const ParameterSet& parameters, const PlannerContext& context);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

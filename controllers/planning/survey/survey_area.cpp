@@ -13,7 +13,7 @@
 #include "engine/core/error.h"
 #include "engine/io/geo/geo_features.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
@@ -43,13 +43,13 @@ std::string describe_edge(const Polygon2& polygon, std::size_t i) {
 }
 
 Polygon2 read_geojson_area(const std::string& file, const GeoOrigin& origin) {
-  const io::LocalFrame frame(origin);
+  const LocalFrame frame(origin);
   Polygon2 polygon;
   int count = 0;
   for (const io::GeoFeature& feature : io::read_features(file)) {
     if (feature.kind != io::GeometryKind::kPolygon) continue;
     if (++count > 1) continue;
-    for (io::Geodetic point : feature.points) {
+    for (Geodetic point : feature.points) {
       point.altitude_m = origin.altitude_m;
       polygon.push_back(frame.to_local(point).head<2>());
     }
@@ -194,4 +194,4 @@ Polygon2 read_survey_area(const std::string& file, const GeoOrigin& origin) {
   return clean_polygon(ending == ".csv" ? read_csv_area(file) : read_geojson_area(file, origin));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 
 #include "engine/math/geo_origin.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 using Polygon2 = std::vector<Eigen::Vector2d>;
 
@@ -31,4 +31,4 @@ Polygon2 widen_polygon(const Polygon2& polygon, double margin_m);
 /// file. @throws ConfigError naming the file: none or several polygons, lines that are no numbers
 Polygon2 read_survey_area(const std::string& file, const GeoOrigin& origin);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

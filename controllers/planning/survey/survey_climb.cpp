@@ -9,7 +9,7 @@
 #include "controllers/parts/paths/pose2.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
@@ -142,4 +142,4 @@ std::optional<std::string> find_corner_outside(const Polygon2& polygon,
   return std::nullopt;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "controllers/planning/survey/survey_request.h"
 #include "controllers/planning/survey/survey_route.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct SurveyClimb {
   SurveyRoute route;  ///< with laps beside the start where the way to the first lane is too short
@@ -29,4 +29,4 @@ Result<SurveyClimb> climb_to_first_lane(const SurveyRequest& request, const Pose
 /// @returns "point 3 of the polygon at (x, y) lies outside the terrain, which begins 12.3 m ..."
 std::optional<std::string> find_corner_outside(const Polygon2& polygon, const GroundHeight& ground);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

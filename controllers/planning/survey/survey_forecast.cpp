@@ -5,7 +5,7 @@
 
 #include "controllers/parts/paths/pose2.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
@@ -86,4 +86,4 @@ SurveyForecast forecast_survey(const SurveyRequest& request, const std::vector<S
   return forecast;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

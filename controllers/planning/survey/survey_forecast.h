@@ -6,7 +6,7 @@
 
 #include "controllers/planning/survey/survey_plan.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 struct SurveyForecast {
   double covered_share = 0.0;  ///< of the polygon's area, seen on a picture at least
@@ -20,4 +20,4 @@ struct SurveyForecast {
 SurveyForecast forecast_survey(const SurveyRequest& request, const std::vector<SurveyShot>& shots,
                                const GroundHeight& ground, std::optional<Eigen::Vector2d>& bare_W);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kSurveyStep_m = 1.0;   // between samples
@@ -133,4 +133,4 @@ std::vector<int> split_ramps(const GroundProfile& profile, const std::vector<dou
   return points;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

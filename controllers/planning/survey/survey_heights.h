@@ -11,7 +11,7 @@
 
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Height of the ground in W at a place; nullopt where there is none.
 using GroundHeight = std::function<std::optional<double>(const Eigen::Vector2d&)>;
@@ -58,4 +58,4 @@ double begin_heights_at(const GroundProfile& profile, double start_m, double max
 std::vector<int> split_ramps(const GroundProfile& profile, const std::vector<double>& wanted_m,
                              std::size_t point_count, double error_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -7,7 +7,7 @@
 #include "engine/core/constants.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
@@ -158,4 +158,4 @@ std::vector<SurveyLane> cut_lanes(const Polygon2& polygon, const LaneFrame& fram
   return lanes;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 
 #include "controllers/planning/survey/survey_area.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Coordinates along (s) and across (t, to the left) the lanes.
 struct LaneFrame {
@@ -53,4 +53,4 @@ double choose_lane_yaw_rad(const Polygon2& polygon);
 std::vector<SurveyLane> cut_lanes(const Polygon2& polygon, const LaneFrame& frame,
                                   const LaneNeeds& needs);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -5,7 +5,7 @@
 #include "engine/math/angles.h"
 #include "engine/math/geo.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr int kRelativeAltitude = 3, kNoPlace = 2;  // MAV_FRAME
@@ -16,7 +16,7 @@ constexpr double kKeep = std::numeric_limits<double>::quiet_NaN();
 
 io::MissionFile make_survey_mission(const SurveyPlan& plan, const GeoOrigin& origin,
                                     double home_ground_m, bool returns) {
-  const io::LocalFrame frame(origin);
+  const LocalFrame frame(origin);
   const std::vector<PathPoint>& points = plan.path.points;
   io::MissionFile mission;
   mission.format = "QGroundControl plan";
@@ -25,7 +25,7 @@ io::MissionFile make_survey_mission(const SurveyPlan& plan, const GeoOrigin& ori
     mission.items.push_back({command, map_frame, params, true, number});
   };
   const auto add_place = [&](int command, double first, const Eigen::Vector3d& p_W) {
-    const io::Geodetic place = frame.to_geodetic(p_W);
+    const Geodetic place = frame.to_geodetic(p_W);
     add(command, kRelativeAltitude,
         {first, 0, 0, kKeep, deg_from_rad(place.latitude_rad), deg_from_rad(place.longitude_rad),
          p_W.z() - home_ground_m});
@@ -66,4 +66,4 @@ io::MissionFile make_survey_mission(const SurveyPlan& plan, const GeoOrigin& ori
   return mission;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

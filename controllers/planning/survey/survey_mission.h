@@ -4,7 +4,7 @@
 #include "controllers/planning/survey/survey_plan.h"
 #include "engine/io/missions/mission_file.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// Take-off (22) to the first waypoint, speed (178), waypoints (16), camera trigger by distance
 /// (206) on and off at the lanes' ends, then return (20) where the survey does. A rotorcraft takes
@@ -14,4 +14,4 @@ namespace vinerow {
 io::MissionFile make_survey_mission(const SurveyPlan& plan, const GeoOrigin& origin,
                                     double home_ground_m, bool returns);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -8,7 +8,7 @@
 #include "engine/core/check.h"
 #include "engine/core/constants.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
@@ -218,4 +218,4 @@ LaneOrder order_lanes(const OrderTask& task) {
   return n <= kMostExactLanes ? order_lanes_exactly(task) : order_lanes_by_improvement(task);
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A lane as the order sees it, in lane coordinates: its corners are where turns begin.
 struct LaneEnds {
@@ -48,4 +48,4 @@ LaneOrder order_lanes_by_improvement(const OrderTask& task);
 /// Neighbour after neighbour, beginning at the best of the four corners.
 LaneOrder order_lanes_as_snake(const OrderTask& task);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -15,7 +15,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 constexpr double kUsualBank_deg = 35.0;
@@ -247,4 +247,4 @@ GroundHeight make_ground(const SceneQuery* scene, double flat_m) {
   };
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

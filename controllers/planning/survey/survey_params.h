@@ -8,7 +8,7 @@
 #include "controllers/planning/survey/survey_request.h"
 #include "engine/api/stepped_parts.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 std::vector<ParameterSpec> survey_parameters();
 
@@ -23,4 +23,4 @@ SurveyRequest read_survey_request(const ParameterSet& parameters, const PlannerC
 /// The terrain of a scene; flat at `flat_m` where there is no scene.
 GroundHeight make_ground(const SceneQuery* scene, double flat_m);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 #include "controllers/planning/survey/survey_route.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
@@ -306,4 +306,4 @@ Result<SurveyPlan> plan_survey(const SurveyRequest& request, const Pose& start_W
   return SurveyPlanner(request, start_W, ground).plan();
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

@@ -12,7 +12,7 @@
 #include "engine/api/messages/path.h"
 #include "engine/core/result.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A picture as it is planned.
 struct SurveyShot {
@@ -49,4 +49,4 @@ struct SurveyPlan {
 Result<SurveyPlan> plan_survey(const SurveyRequest& request, const Pose& start_W,
                                const GroundHeight& ground);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

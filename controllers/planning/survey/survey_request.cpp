@@ -8,7 +8,7 @@
 #include "controllers/parts/paths/pose2.h"
 #include "engine/math/angles.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 /// Airspeed at which the speed over ground along a lane is just `ground_mps`, both ways.
@@ -95,4 +95,4 @@ std::optional<std::string> find_survey_fault(const SurveyRequest& request, doubl
       request.speed_mps, kMmPerM * camera.gsd_m(needed_height_m));
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

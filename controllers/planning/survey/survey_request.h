@@ -8,7 +8,7 @@
 #include "engine/api/survey_camera.h"
 #include "engine/math/pose.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 inline constexpr double kMmPerM = 1e3;
 
@@ -51,4 +51,4 @@ double calc_turn_radius_m(const SurveyRequest& request);
 /// (1 - q) h l / f times the rate). @returns one sentence with the numbers that would work
 std::optional<std::string> find_survey_fault(const SurveyRequest& request, double lane_yaw_rad);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

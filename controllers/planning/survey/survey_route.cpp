@@ -6,7 +6,7 @@
 
 #include "controllers/parts/paths/pose2.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 namespace {
 
 using Eigen::Vector2d;
@@ -205,4 +205,4 @@ std::vector<Vector2d> make_climb_laps(const Vector2d& start_W, double yaw_rad,
   return corners;
 }
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

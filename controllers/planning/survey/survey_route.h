@@ -8,7 +8,7 @@
 #include "controllers/planning/survey/survey_order.h"
 #include "engine/api/messages/path.h"
 
-namespace vinerow {
+namespace vinerow::controllers {
 
 /// A corner of the way; `kind` and `lane` are those of the straight that begins here.
 struct RoutePoint {
@@ -50,4 +50,4 @@ std::vector<Eigen::Vector2d> make_climb_laps(const Eigen::Vector2d& start_W, dou
                                              const Eigen::Vector2d& target_W, double way_m,
                                              double turn_radius_m, bool to_left);
 
-}  // namespace vinerow
+}  // namespace vinerow::controllers

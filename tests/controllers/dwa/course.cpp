@@ -69,7 +69,7 @@ RangeSample measure(const Pose& X_WS, const Course& course, bool with_unknown) {
   sample.X_WS.p = {1e3, 1e3, 0};
   const double yaw = yaw_from_quaternion(X_WS.q);
   for (int i = -20; i <= 20; ++i) {
-    const Eigen::Vector2d to = direction(yaw + kHalfAngle_rad * i / 20.0);
+    const Eigen::Vector2d to = controllers::direction(yaw + kHalfAngle_rad * i / 20.0);
     for (const Polygon& p : course.known) {
       sample.range_m = std::min(sample.range_m, cast(X_WS.p.head<2>(), to, p));
     }
@@ -85,12 +85,12 @@ RangeSample measure(const Pose& X_WS, const Course& course, bool with_unknown) {
 
 /// The vehicle: exact rolling while it drives itself, along the plan while it follows.
 struct Roller {
-  Pose2 pose;
+  controllers::Pose2 pose;
   double v_mps = 0.0, front_rad = 0.0, rear_rad = 0.0;
   double s_m = 0.0, lateral_m = 0.0, heading_rad = 0.0;  // while following
   bool is_following = false;
 
-  void step(const LocalCommand& command, const Path& path) {
+  void step(const LocalCommand& command, const controllers::Path& path) {
     const double wanted = command.mode == LocalCommand::Mode::kStop ? 0.0 : command.v_mps;
     v_mps +=
         std::clamp(wanted - v_mps, -kAcceleration_mps2 * kStep_s, kAcceleration_mps2 * kStep_s);
@@ -120,10 +120,10 @@ struct Roller {
   }
 
   /// A tracking controller: what error there is dies out over 1.5 m.
-  void follow(const Path& path) {
+  void follow(const controllers::Path& path) {
     if (!is_following) {
       const double from = std::max(s_m - 2.0, 0.0);
-      const Path::Nearest at = path.nearest(pose.p, from, s_m + 2.0);
+      const controllers::Path::Nearest at = path.nearest(pose.p, from, s_m + 2.0);
       s_m = at.distance_m;
       lateral_m = at.lateral_error_m;
       heading_rad = wrap_angle(pose.yaw_rad - at.yaw_rad);
@@ -133,8 +133,8 @@ struct Roller {
     s_m += ds;
     lateral_m *= std::exp(-ds / 1.5);
     heading_rad *= std::exp(-ds / 1.5);
-    const Pose2 on = path.pose_at(s_m);
-    pose = {on.p + lateral_m * left_of(direction(on.yaw_rad)), on.yaw_rad + heading_rad};
+    const controllers::Pose2 on = path.pose_at(s_m);
+    pose = {on.p + lateral_m * left_of(controllers::direction(on.yaw_rad)), on.yaw_rad + heading_rad};
     front_rad = std::atan(0.75 * path.curvature_at(s_m));
     rear_rad = -front_rad;
   }
@@ -146,7 +146,7 @@ Polygon make_box(double x_low, double x_high, double y_low, double y_high) {
   return {{x_low, y_low}, {x_high, y_low}, {x_high, y_high}, {x_low, y_high}};
 }
 
-Polygon place(const Polygon& polygon_B, const Pose2& pose) {
+Polygon place(const Polygon& polygon_B, const controllers::Pose2& pose) {
   Polygon placed;
   for (const Eigen::Vector2d& p : polygon_B) {
     placed.push_back(pose.p + Eigen::Rotation2Dd(pose.yaw_rad) * p);
@@ -202,17 +202,17 @@ std::vector<SensorMounting> make_rangers() {
 }
 
 ParameterSet make_dwa_parameters(const Values& values) {
-  const PartSpec spec = dwa_spec();
+  const PartSpec spec = controllers::dwa_spec();
   ParameterSet parameters(spec.parameters, spec.name);
   for (const auto& [name, value] : values) parameters.set(name, value);
   parameters.require_complete();
   return parameters;
 }
 
-PlannedPath make_plan(const Pose2& start, const std::vector<std::pair<double, double>>& pieces,
+PlannedPath make_plan(const controllers::Pose2& start, const std::vector<std::pair<double, double>>& pieces,
                       double pitch_m) {
   PlannedPath plan;
-  Pose2 pose = start;
+  controllers::Pose2 pose = start;
   const auto add = [&](double curvature) {
     PathPoint point;
     point.p_W = {pose.p.x(), pose.p.y(), 0.0};
@@ -224,7 +224,7 @@ PlannedPath make_plan(const Pose2& start, const std::vector<std::pair<double, do
     const int parts = std::max(1, static_cast<int>(std::ceil(length / pitch_m)));
     for (int i = 0; i < parts; ++i) {
       add(curvature);
-      pose = advance(pose, length / parts, length / parts * curvature);
+      pose = controllers::advance(pose, length / parts, length / parts * curvature);
     }
     plan.length_m += length;
   }
@@ -276,7 +276,7 @@ Drive drive(const Course& course) {
   context.vehicle_description = &vehicle;
   context.map = &map;
   context.sensors = course.sensors;
-  const auto guidance = make_dwa(make_dwa_parameters(course.values), context);
+  const auto guidance = controllers::make_dwa(make_dwa_parameters(course.values), context);
 
   SignalBus bus;
   Ports world(bus, "rover", "test");
@@ -294,7 +294,7 @@ Drive drive(const Course& course) {
   const auto news = world.read<Event>("guidance_event");
 
   Drive result;
-  const Path path(course.plan);
+  const controllers::Path path(course.plan);
   plan.write(Time{}, course.plan);
   Roller plant;
   plant.pose = course.start;
@@ -309,7 +309,7 @@ Drive drive(const Course& course) {
                      {plant.pose.p.x(), plant.pose.p.y(), 0.0}};
     const double course_rad =
         std::atan(0.5 * (std::tan(plant.front_rad) + std::tan(plant.rear_rad)));
-    odometry.v_WB_B.head<2>() = plant.v_mps * direction(course_rad);
+    odometry.v_WB_B.head<2>() = plant.v_mps * controllers::direction(course_rad);
     estimate.write(now, odometry);
     if (course.stop_at_m) authority.write(now, {course.stop_at_m(now.s()), -1, ""});
     encoders.write(
@@ -347,7 +347,7 @@ Drive drive(const Course& course) {
             std::min(result.least_unknown_m, least_distance(outline, course.unknown));
       }
     }
-    const Path::Nearest at = path.nearest(plant.pose.p, 0.0, path.length_m());
+    const controllers::Path::Nearest at = path.nearest(plant.pose.p, 0.0, path.length_m());
     result.farthest_off_plan_m = std::max(result.farthest_off_plan_m, std::abs(at.lateral_error_m));
     if (!plant.is_following)
       plant.s_m =

@@ -22,7 +22,7 @@ using Values = std::vector<std::pair<std::string, ParameterSet::Value>>;
 
 Polygon make_box(double x_low, double x_high, double y_low, double y_high);
 /// Corners of a polygon of B at a pose.
-Polygon place(const Polygon& polygon_B, const Pose2& pose);
+Polygon place(const Polygon& polygon_B, const controllers::Pose2& pose);
 /// Distance between convex polygons, 0 where they overlap: edges against corners, and separation by
 /// every edge's normal. Shares nothing with the code under test.
 double distance_between(const Polygon& a, const Polygon& b);
@@ -42,7 +42,7 @@ struct Course {
   Eigen::AlignedBox2d grid{Eigen::Vector2d(-3, -1.6), Eigen::Vector2d(33, 1.6)};
   double cell_m = 0.05;
   PlannedPath plan;
-  Pose2 start;
+  controllers::Pose2 start;
   Values values;  ///< of the guidance
   double longest_s = 120.0;
   double range_noise_m = 0.0;
@@ -57,8 +57,8 @@ struct Course {
 Course make_alley(double canopy_half_m = 0.3);
 /// A polyline with headings and curvature as planners write it: straight pieces and arcs.
 /// @param pieces  (length m, curvature 1/m) one after the other
-PlannedPath make_plan(const Pose2& start, const std::vector<std::pair<double, double>>& pieces,
-                      double pitch_m = 0.25);
+PlannedPath make_plan(const controllers::Pose2& start,
+                      const std::vector<std::pair<double, double>>& pieces, double pitch_m = 0.25);
 RowMap make_map(const Course& course);
 
 struct Drive {
@@ -71,9 +71,9 @@ struct Drive {
   int drive_ticks = 0, follow_ticks = 0, stop_ticks = 0;
   std::size_t allocations = 0;  ///< in steps that tell no event, the first one left out
   std::vector<Event> events;
-  std::vector<Pose2> poses;            ///< 10 Hz
-  std::vector<LocalCommand> commands;  ///< 10 Hz
-  Pose2 end;
+  std::vector<controllers::Pose2> poses;  ///< 10 Hz
+  std::vector<LocalCommand> commands;     ///< 10 Hz
+  controllers::Pose2 end;
 };
 
 /// Until the end of the plan or longest_s.

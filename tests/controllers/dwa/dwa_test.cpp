@@ -199,7 +199,7 @@ std::string refusal(const Values& values, Change&& change) {
   context.part = "rover.guidance";
   context.vehicle_description = &vehicle;
   try {
-    make_dwa(make_dwa_parameters(values), context);
+    controllers::make_dwa(make_dwa_parameters(values), context);
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -243,7 +243,7 @@ TEST(Dwa, StandingWhereTheAuthorityEndsIsNoJam) {
   for (const Event& event : result.events) {
     EXPECT_NE(event.text.find("sees an obstacle"), std::string::npos) << event.text;
   }
-  for (const Pose2& pose : result.poses) ASSERT_LE(pose.p.x(), 9.1);
+  for (const controllers::Pose2& pose : result.poses) ASSERT_LE(pose.p.x(), 9.1);
   EXPECT_GE(result.end.p.x(), 8.7);
   EXPECT_EQ(result.poses[300].p, result.end.p);
 }

@@ -19,7 +19,8 @@ constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 /// A vehicle with one ranger at its nose (or two) and a memory; a tick is 0.1 s.
 struct Bench {
-  explicit Bench(ObstacleMemoryParams params = {}, const DistanceField& map = DistanceField(),
+  explicit Bench(controllers::ObstacleMemoryParams params = {},
+                 const controllers::DistanceField& map = controllers::DistanceField(),
                  double half_angle_deg = 15.0, double height_m = 1.0, int sensors = 1)
       : known(map),
         half_angle_rad(rad_from_deg(half_angle_deg)),
@@ -48,9 +49,9 @@ struct Bench {
   }
   std::size_t count() const { return memory.obstacles_W().size(); }
 
-  DistanceField known;
+  controllers::DistanceField known;
   double half_angle_rad;
-  ObstacleMemory memory;
+  controllers::ObstacleMemory memory;
   Pose X_WB;
   Time now;
 };
@@ -60,7 +61,7 @@ TEST(ObstacleMemory, MarksTheArcAtTheEstimatedPose) {
   bench.X_WB = {quaternion_from_rpy({0, 0, 1.0}), {5, 7, 0}};
   bench.see({1.5}, 5);
   ASSERT_GE(bench.count(), 7u);  // 1.5 m * 30 deg = 0.79 m of arc, a point per 0.1 m
-  const Eigen::Vector2d nose = Eigen::Vector2d(5, 7) + 0.95 * direction(1.0);
+  const Eigen::Vector2d nose = Eigen::Vector2d(5, 7) + 0.95 * controllers::direction(1.0);
   double widest = 0.0;
   for (const Eigen::Vector2d& p : bench.memory.obstacles_W()) {
     EXPECT_NEAR((p - nose).norm(), 1.5, 1e-9);
@@ -97,7 +98,7 @@ TEST(ObstacleMemory, LeavesFarEchoesOut) {
 
 TEST(ObstacleMemory, LeavesOutWhatTheMapExplains) {
   // Canopies at y = +-0.95: an arc's end reaches within 0.25 m of them at r sin(15 deg) >= 0.7.
-  const DistanceField alley(make_map(make_alley()).occupancy);
+  const controllers::DistanceField alley(make_map(make_alley()).occupancy);
   Bench bench({.obstacle_range_m = 4.0}, alley);
   bench.X_WB.p = {10, 0, 0};
   bench.see({0.7 / std::sin(rad_from_deg(15)) + 0.05}, 10);
@@ -179,7 +180,7 @@ TEST(ObstacleMemory, HoldsNoMoreThanItsCapacityAndTakesNoHeap) {
     allocations = counter.count();
   }
   EXPECT_EQ(allocations, 0u);
-  EXPECT_LE(bench.count(), static_cast<std::size_t>(ObstacleMemory::kCapacity));
+  EXPECT_LE(bench.count(), static_cast<std::size_t>(controllers::ObstacleMemory::kCapacity));
   EXPECT_GT(bench.count(), 200u);
 }
 

@@ -69,9 +69,11 @@ TEST(FixedWingLqr, StaysWithItsModelForSmallOffsets) {
   setup.turned_rad = 0.002;
   setup.roll_rad = 0.001;
   AircraftLoop loop(setup);
-  const Aircraft aircraft = read_aircraft(describe(setup.numbers), 9.81, "test");
-  const Trim trim = *find_trim(aircraft, {12.0, 0.0, 0.0});
-  const AircraftLaws laws = make_aircraft_laws(aircraft, trim, 0.05, {}, "test");
+  const controllers::Aircraft aircraft =
+      controllers::read_aircraft(describe(setup.numbers), 9.81, "test");
+  const controllers::Trim trim = *controllers::find_trim(aircraft, {12.0, 0.0, 0.0});
+  const controllers::AircraftLaws laws =
+      controllers::make_aircraft_laws(aircraft, trim, 0.05, {}, "test");
   Eigen::VectorXd x(5), y(5);
   int tick = 0;
   loop.run_until(2.0, [&](const AircraftLoop& now) {

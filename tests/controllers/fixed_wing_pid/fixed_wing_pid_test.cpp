@@ -56,8 +56,8 @@ TEST(FixedWingPid, DoesNotPullIntoTheStall) {
 }
 
 TEST(FixedWingPidLaw, DampsAndCorrectsWithTheRightSigns) {
-  FixedWingPidLaw law({}, 12.0, 0.05);
-  AircraftDeviation x;
+  controllers::FixedWingPidLaw law({}, 12.0, 0.05);
+  controllers::AircraftDeviation x;
   x.lon(4) = 1.0;  // too high: elevator down
   EXPECT_GT(law.step(x, 0.0).elevator_rad, 0.0);
   EXPECT_GT(law.step({}, 0.5).elevator_rad, 0.0);  // climbs too fast
@@ -76,18 +76,18 @@ TEST(FixedWingPidLaw, DampsAndCorrectsWithTheRightSigns) {
 
 TEST(FixedWingPidLaw, DoesNotWindUpAtAStop) {
   // Ten seconds of full throttle that is not enough leave nothing behind.
-  FixedWingPidLaw law({}, 12.0, 0.05);
-  AircraftDeviation slow;
+  controllers::FixedWingPidLaw law({}, 12.0, 0.05);
+  controllers::AircraftDeviation slow;
   slow.lon(0) = -8.0;
   for (int i = 0; i < 200; ++i) {
-    const AircraftControls asked = law.step(slow, 0.0);
-    AircraftControls left = asked;
+    const controllers::AircraftControls asked = law.step(slow, 0.0);
+    controllers::AircraftControls left = asked;
     left.throttle = 0.4;
     law.learn(asked, left);
   }
   EXPECT_EQ(law.step({}, 0.0).throttle, 0.0);
   // Where the actuator follows, it learns.
-  const AircraftControls asked = law.step(slow, 0.0);
+  const controllers::AircraftControls asked = law.step(slow, 0.0);
   law.learn(asked, asked);
   EXPECT_NEAR(law.step({}, 0.0).throttle, 0.02 * 0.05 * 8.0, 1e-12);
 }

@@ -19,7 +19,9 @@ struct OracleCase {
   std::array<double, 4> wheel_radps;
   bool saturated = false;  ///< a wheel is at its limit: rolling speeds cannot be had
 
-  AxleAngles axles() const { return {rad_from_deg(front_deg), rad_from_deg(rear_deg)}; }
+  controllers::AxleAngles axles() const {
+    return {rad_from_deg(front_deg), rad_from_deg(rear_deg)};
+  }
 };
 
 constexpr double kFar_m = std::numeric_limits<double>::infinity();

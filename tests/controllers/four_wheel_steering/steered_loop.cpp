@@ -16,17 +16,22 @@ constexpr double kPitch_m = 0.2;
 }  // namespace
 
 PlannedPath make_straight_plan(double length_m, double heading_rad) {
-  return make_planned_path(
-      {make_straight({0, 0}, length_m * direction(heading_rad), PathKind::kLeg, 0, 0.0)}, kPitch_m);
+  return controllers::make_planned_path(
+      {controllers::make_straight({0, 0}, length_m * controllers::direction(heading_rad),
+                                  PathKind::kLeg, 0, 0.0)},
+      kPitch_m);
 }
 
 PlannedPath make_omega(double radius_m, double spacing_m, double length_m, double heading_rad) {
-  const Eigen::Vector2d t = direction(heading_rad), side = spacing_m * left_of(t);
-  const Pose2 out{length_m * t, heading_rad}, back{length_m * t + side, heading_rad + kPi};
-  std::vector<PathPiece> pieces = {make_straight({0, 0}, out.p, PathKind::kLeg, 0, 0.0)};
-  append_dubins(out, calc_dubins(out, back, radius_m), PathKind::kTurn, 0.0, pieces);
-  pieces.push_back(make_straight(back.p, side, PathKind::kLeg, 1, 0.0));
-  return make_planned_path(pieces, kPitch_m);
+  const Eigen::Vector2d t = controllers::direction(heading_rad), side = spacing_m * left_of(t);
+  const controllers::Pose2 out{length_m * t, heading_rad},
+      back{length_m * t + side, heading_rad + kPi};
+  std::vector<controllers::PathPiece> pieces = {
+      controllers::make_straight({0, 0}, out.p, PathKind::kLeg, 0, 0.0)};
+  controllers::append_dubins(out, controllers::calc_dubins(out, back, radius_m), PathKind::kTurn,
+                             0.0, pieces);
+  pieces.push_back(controllers::make_straight(back.p, side, PathKind::kLeg, 1, 0.0));
+  return controllers::make_planned_path(pieces, kPitch_m);
 }
 
 std::unique_ptr<Controller> make_steered_controller(const Values& values,
@@ -36,12 +41,13 @@ std::unique_ptr<Controller> make_steered_controller(const Values& values,
   context.part = "rover.controller";
   context.period = kCycle;
   context.vehicle_description = &description;
-  ParameterSet parameters(four_wheel_steering_spec().parameters, "four_wheel_steering");
+  ParameterSet parameters(controllers::four_wheel_steering_spec().parameters,
+                          "four_wheel_steering");
   for (const auto& [name, value] : values) parameters.set(name, value);
-  return make_four_wheel_steering(parameters, context);
+  return controllers::make_four_wheel_steering(parameters, context);
 }
 
-SteeredLoop::SteeredLoop(const LoopOptions& options, const Pose2& start)
+SteeredLoop::SteeredLoop(const LoopOptions& options, const controllers::Pose2& start)
     : description_(make_steered_description()),
       plant_({start.p + options.offset_m, start.yaw_rad + options.heading_error_rad},
              options.plant),
@@ -87,14 +93,15 @@ Tracking track(const PlannedPath& plan, const LoopOptions& options) {
   const PathPoint& first = plan.points.front();
   SteeredLoop loop(options, {first.p_W.head<2>(), first.yaw_rad});
   loop.set_plan(plan);
-  const Path path(plan);
+  const controllers::Path path(plan);
   Tracking result;
   double leg2 = 0.0, turn2 = 0.0;
   int legs = 0, turns = 0;
   for (; loop.now().s() < options.longest_s && !loop.controller().finished();) {
     loop.step();
     const double along = loop.follower().distance_m;
-    const Path::Nearest at = path.nearest(loop.plant().pose().p, along - 1.0, along + 1.0);
+    const controllers::Path::Nearest at =
+        path.nearest(loop.plant().pose().p, along - 1.0, along + 1.0);
     if (at.distance_m < options.settle_m) continue;
     const double e = at.lateral_error_m;
     const bool is_leg = plan.points[at.segment].kind == PathKind::kLeg;

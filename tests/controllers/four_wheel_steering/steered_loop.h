@@ -44,7 +44,7 @@ struct LoopOptions {
 /// Controller, plant and signals; step() is one cycle of both.
 class SteeredLoop {
  public:
-  explicit SteeredLoop(const LoopOptions& options, const Pose2& start = {});
+  explicit SteeredLoop(const LoopOptions& options, const controllers::Pose2& start = {});
   void set_plan(const PlannedPath& plan) { plan_.write(now_, plan); }
   void set_local(const LocalCommand& command) { local_.write(now_, command); }
   void step();

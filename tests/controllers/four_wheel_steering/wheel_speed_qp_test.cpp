@@ -21,10 +21,11 @@ namespace {
 constexpr double kLimit_rad = 0.4014257279586958;  // 23 deg
 
 TEST(WheelSpeedQp, GivesTheWheelSpeedsOfEveryReferenceCase) {
-  WheelSpeedQp qp({});
+  controllers::WheelSpeedQp qp({});
   for (const OracleCase& row : kOracle) {
-    ASSERT_EQ(qp.solve(calc_rolling({}, row.axles()), row.speed_mps), QpStatus::kSolved);
-    for (int i = 0; i < kWheels; ++i) {
+    ASSERT_EQ(qp.solve(controllers::calc_rolling({}, row.axles()), row.speed_mps),
+              controllers::QpStatus::kSolved);
+    for (int i = 0; i < controllers::kWheels; ++i) {
       EXPECT_NEAR(qp.rim_mps()[i] / 0.2, row.wheel_radps[i], 1e-4)
           << row.front_deg << " wheel " << i;
     }
@@ -33,16 +34,16 @@ TEST(WheelSpeedQp, GivesTheWheelSpeedsOfEveryReferenceCase) {
 
 TEST(WheelSpeedQp, ChoosesTheRollingSpeedsWhereTheyAreAllowed) {
   RandomStream random(1, "test", "wheel_speed_qp");
-  WheelSpeedQp qp({});
+  controllers::WheelSpeedQp qp({});
   int unsaturated = 0;
   for (int n = 0; n < 1000; ++n) {
-    const AxleAngles axles{random.uniform(-kLimit_rad, kLimit_rad),
-                           random.uniform(-kLimit_rad, kLimit_rad)};
+    const controllers::AxleAngles axles{random.uniform(-kLimit_rad, kLimit_rad),
+                                        random.uniform(-kLimit_rad, kLimit_rad)};
     const double asked = random.uniform(-1.6, 1.6);
-    const Rolling rolling = calc_rolling({}, axles);
-    const double speed = limit_speed(rolling, asked, 1.6);
+    const controllers::Rolling rolling = controllers::calc_rolling({}, axles);
+    const double speed = controllers::limit_speed(rolling, asked, 1.6);
     unsaturated += speed == asked;
-    ASSERT_EQ(qp.solve(rolling, speed), QpStatus::kSolved);
+    ASSERT_EQ(qp.solve(rolling, speed), controllers::QpStatus::kSolved);
     const Eigen::Vector4d v = qp.rim_mps();
     EXPECT_LT((v - rolling.rim_mps(speed)).cwiseAbs().maxCoeff(), 1e-8);
     EXPECT_LT(qp.cost(v), 1e-15);
@@ -58,7 +59,7 @@ TEST(WheelSpeedQp, ChoosesTheRollingSpeedsWhereTheyAreAllowed) {
 struct Kkt {
   double stationarity, sign, violation;
 };
-Kkt check_kkt(const Rolling& rolling, double speed, const Eigen::Vector4d& lower,
+Kkt check_kkt(const controllers::Rolling& rolling, double speed, const Eigen::Vector4d& lower,
               const Eigen::Vector4d& upper, const Eigen::Vector4d& v) {
   const double eps = 5e-3, rho = 1e-3;
   const Eigen::Array4d c = rolling.wheel_rad.array().cos(), s = rolling.wheel_rad.array().sin();
@@ -102,26 +103,26 @@ Kkt check_kkt(const Rolling& rolling, double speed, const Eigen::Vector4d& lower
 
 TEST(WheelSpeedQp, MeetsTheOptimalityConditionsWhereLimitsBind) {
   RandomStream random(2, "test", "wheel_speed_qp");
-  WheelSpeedParams params;
+  controllers::WheelSpeedParams params;
   params.rim_change_max_mps = 0.04;
-  WheelSpeedQp qp(params);
+  controllers::WheelSpeedQp qp(params);
   int solved = 0, infeasible = 0, bound = 0;
   for (int n = 0; n < 2000; ++n) {
-    const AxleAngles before{random.uniform(-kLimit_rad, kLimit_rad),
-                            random.uniform(-kLimit_rad, kLimit_rad)};
-    const AxleAngles axles{before.front_rad + random.uniform(-0.04, 0.04),
-                           before.rear_rad + random.uniform(-0.04, 0.04)};
+    const controllers::AxleAngles before{random.uniform(-kLimit_rad, kLimit_rad),
+                                         random.uniform(-kLimit_rad, kLimit_rad)};
+    const controllers::AxleAngles axles{before.front_rad + random.uniform(-0.04, 0.04),
+                                        before.rear_rad + random.uniform(-0.04, 0.04)};
     const double speed_before = random.uniform(-1.2, 1.2);
     const double speed = speed_before + random.uniform(-0.1, 0.1);
-    const Eigen::Vector4d last = calc_rolling({}, before).rim_mps(speed_before);
-    const Rolling rolling = calc_rolling({}, axles);
+    const Eigen::Vector4d last = controllers::calc_rolling({}, before).rim_mps(speed_before);
+    const controllers::Rolling rolling = controllers::calc_rolling({}, axles);
     qp.set_last(last);
-    const QpStatus status = qp.solve(rolling, speed);
-    if (status == QpStatus::kInfeasible) {
+    const controllers::QpStatus status = qp.solve(rolling, speed);
+    if (status == controllers::QpStatus::kInfeasible) {
       ++infeasible;
       continue;
     }
-    ASSERT_EQ(status, QpStatus::kSolved);
+    ASSERT_EQ(status, controllers::QpStatus::kSolved);
     ++solved;
     const Eigen::Vector4d lower = (last.array() - 0.04).max(-1.6);
     const Eigen::Vector4d upper = (last.array() + 0.04).min(1.6);
@@ -137,11 +138,11 @@ TEST(WheelSpeedQp, MeetsTheOptimalityConditionsWhereLimitsBind) {
 }
 
 TEST(WheelSpeedQp, AsPrintedAdmitsWheelsThatFightEachOther) {
-  WheelSpeedParams params;
-  params.form = WheelSpeedForm::kPrinted;
-  WheelSpeedQp printed(params), right({});
+  controllers::WheelSpeedParams params;
+  params.form = controllers::WheelSpeedForm::kPrinted;
+  controllers::WheelSpeedQp printed(params), right({});
   struct Case {
-    AxleAngles axles;
+    controllers::AxleAngles axles;
     Eigen::Vector4d rim_mps;
     double cost;
   };
@@ -149,24 +150,25 @@ TEST(WheelSpeedQp, AsPrintedAdmitsWheelsThatFightEachOther) {
   const Case cases[] = {{{0.0, 0.0}, {0.4, 0.4, 1.6, 1.6}, 1e-20},
                         {{rad_from_deg(15), 0.0}, {-0.62, 1.6, 1.6, 1.55}, 1e-4}};
   for (const Case& c : cases) {
-    const Rolling rolling = calc_rolling({}, c.axles);
-    ASSERT_EQ(printed.solve(rolling, 1.0), QpStatus::kSolved);
+    const controllers::Rolling rolling = controllers::calc_rolling({}, c.axles);
+    ASSERT_EQ(printed.solve(rolling, 1.0), controllers::QpStatus::kSolved);
     EXPECT_LT(printed.cost(c.rim_mps), c.cost);
     // A v <= eps and |v_i| <= rim_max, as printed; two-sided it is refused.
     EXPECT_LE(printed.slip_mps(c.rim_mps).maxCoeff(), params.slip_mps);
     EXPECT_LE(c.rim_mps.cwiseAbs().maxCoeff(), params.rim_max_mps);
-    ASSERT_EQ(right.solve(rolling, 1.0), QpStatus::kSolved);
+    ASSERT_EQ(right.solve(rolling, 1.0), controllers::QpStatus::kSolved);
     EXPECT_GT(right.slip_mps(c.rim_mps).cwiseAbs().maxCoeff(), params.slip_mps + 1e-3);
   }
 }
 
 TEST(WheelSpeedQp, AsPrintedSlipsInATurn) {
-  WheelSpeedParams params;
-  params.form = WheelSpeedForm::kPrinted;
-  WheelSpeedQp qp(params);
+  controllers::WheelSpeedParams params;
+  params.form = controllers::WheelSpeedForm::kPrinted;
+  controllers::WheelSpeedQp qp(params);
   for (const double side : {1.0, -1.0}) {
-    const Rolling rolling = calc_rolling({}, {side * kLimit_rad, -side * kLimit_rad});
-    ASSERT_EQ(qp.solve(rolling, 0.8), QpStatus::kSolved);
+    const controllers::Rolling rolling =
+        controllers::calc_rolling({}, {side * kLimit_rad, -side * kLimit_rad});
+    ASSERT_EQ(qp.solve(rolling, 0.8), controllers::QpStatus::kSolved);
     EXPECT_LT(qp.cost(qp.rim_mps()), 1e-8);
     // The inner wheels are told to be as fast as the outer ones, or faster.
     EXPECT_GT(qp.slip_mps(qp.rim_mps()).cwiseAbs().maxCoeff(), 0.1);
@@ -174,26 +176,28 @@ TEST(WheelSpeedQp, AsPrintedSlipsInATurn) {
 }
 
 TEST(WheelSpeedQp, TellsWhenAJumpOfTheAxlesLeavesNoSolution) {
-  WheelSpeedParams params;
+  controllers::WheelSpeedParams params;
   params.rim_change_max_mps = 0.01;
-  WheelSpeedQp qp(params);
+  controllers::WheelSpeedQp qp(params);
   qp.set_last(Eigen::Vector4d::Ones());
-  ASSERT_EQ(qp.solve(calc_rolling({}, {0.0, 0.0}), 1.0), QpStatus::kSolved);
+  ASSERT_EQ(qp.solve(controllers::calc_rolling({}, {0.0, 0.0}), 1.0),
+            controllers::QpStatus::kSolved);
   // sin(29.2 deg) v_l - sin(18.9 deg) v_r = 0 wants v_r = 1.51 v_l; +-0.01 around 1 cannot.
-  EXPECT_EQ(qp.solve(calc_rolling({}, {kLimit_rad, -kLimit_rad}), 0.8), QpStatus::kInfeasible);
+  EXPECT_EQ(qp.solve(controllers::calc_rolling({}, {kLimit_rad, -kLimit_rad}), 0.8),
+            controllers::QpStatus::kInfeasible);
 }
 
 TEST(WheelSpeedQp, AllocatesNothing) {
-  WheelSpeedParams params;
+  controllers::WheelSpeedParams params;
   params.rim_change_max_mps = 0.02;
-  WheelSpeedQp qp(params);
+  controllers::WheelSpeedQp qp(params);
   std::size_t allocations = 1;
   {
     AllocationCounter counter;
     for (int i = 0; i < 200; ++i) {
       const double angle = kLimit_rad * std::sin(0.05 * i);
-      qp.set_last(calc_rolling({}, {angle, -angle}).rim_mps(0.5));
-      qp.solve(calc_rolling({}, {angle + 0.01, -angle}), 0.6);
+      qp.set_last(controllers::calc_rolling({}, {angle, -angle}).rim_mps(0.5));
+      qp.solve(controllers::calc_rolling({}, {angle + 0.01, -angle}), 0.6);
     }
     allocations = counter.count();
   }
@@ -201,15 +205,16 @@ TEST(WheelSpeedQp, AllocatesNothing) {
 }
 
 TEST(WheelSpeeds, StopsSafelyWithoutASolutionAndStaysStopped) {
-  WheelSpeedsParams params;
+  controllers::WheelSpeedsParams params;
   params.qp.rim_change_max_mps = 0.01;
-  WheelSpeeds wheels(params);
-  const Rolling straight = calc_rolling({}, {}), bent = calc_rolling({}, {kLimit_rad, -kLimit_rad});
+  controllers::WheelSpeeds wheels(params);
+  const controllers::Rolling straight = controllers::calc_rolling({}, {}),
+                             bent = controllers::calc_rolling({}, {kLimit_rad, -kLimit_rad});
   for (int i = 1; i <= 100; ++i) wheels.update(straight, 0.01 * i);
   ASSERT_FALSE(wheels.has_failed());
   ASSERT_NEAR(wheels.rim_mps()[0], 1.0, 1e-6);
   wheels.update(bent, 0.8);
-  EXPECT_EQ(wheels.status(), QpStatus::kInfeasible);
+  EXPECT_EQ(wheels.status(), controllers::QpStatus::kInfeasible);
   double last = 1.0;
   for (int i = 0; i < 99; ++i) {
     const double rim = wheels.rim_mps()[0];
@@ -226,10 +231,10 @@ TEST(WheelSpeeds, StopsSafelyWithoutASolutionAndStaysStopped) {
 }
 
 TEST(WheelSpeeds, TurnEveryWheelAlikeWhenAskedTo) {
-  WheelSpeedsParams params;
-  params.rule = SpeedRule::kEqual;
-  WheelSpeeds wheels(params);
-  wheels.update(calc_rolling({}, {kLimit_rad, -kLimit_rad}), 0.8);
+  controllers::WheelSpeedsParams params;
+  params.rule = controllers::SpeedRule::kEqual;
+  controllers::WheelSpeeds wheels(params);
+  wheels.update(controllers::calc_rolling({}, {kLimit_rad, -kLimit_rad}), 0.8);
   EXPECT_EQ(wheels.rim_mps(), Eigen::Vector4d::Constant(0.8));
 }
 

@@ -11,7 +11,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/support/mission.h"
 
-namespace vinerow::path_follower_test {
+namespace vinerow::controllers::path_follower_test {
 namespace {
 
 PathFollowerParams make_params() {
@@ -180,4 +180,4 @@ TEST(SlipEstimate, StaysWhenSwitchedOff) {
 }
 
 }  // namespace
-}  // namespace vinerow::path_follower_test
+}  // namespace vinerow::controllers::path_follower_test

@@ -5,7 +5,7 @@
 #include "controllers/parts/paths/path_pieces.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::pure_pursuit_law_test {
+namespace vinerow::controllers::pure_pursuit_law_test {
 namespace {
 
 PlannedPath make_straight_plan(double length_m = 10.0, double pitch_m = 1.0) {
@@ -83,4 +83,4 @@ TEST(PurePursuitLaw, DoesNotEndWhereAPathStartsAtItsGoal) {
 }
 
 }  // namespace
-}  // namespace vinerow::pure_pursuit_law_test
+}  // namespace vinerow::controllers::pure_pursuit_law_test

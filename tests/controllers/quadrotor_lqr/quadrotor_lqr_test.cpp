@@ -14,8 +14,8 @@
 namespace vinerow::test::quadrotor_lqr_test {
 namespace {
 
-FlightLimits wide_limits() {
-  FlightLimits limits;
+controllers::FlightLimits wide_limits() {
+  controllers::FlightLimits limits;
   limits.tilt_rad = 1.0;
   limits.max_thrust_N = 1e3;
   limits.torque_Nm.setConstant(1e3);
@@ -24,21 +24,21 @@ FlightLimits wide_limits() {
 }
 
 struct Law {
-  explicit Law(const QuadrotorNumbers& numbers, const LqrParams& p = {},
-               const FlightLimits& limits = wide_limits())
-      : craft(read_rotorcraft(describe(numbers), 9.80665, "test")),
+  explicit Law(const QuadrotorNumbers& numbers, const controllers::LqrParams& p = {},
+               const controllers::FlightLimits& limits = wide_limits())
+      : craft(controllers::read_rotorcraft(describe(numbers), 9.80665, "test")),
         mixer(craft, "test"),
         params(p),
         law(craft, mixer, limits, p, "test") {}
-  RotorcraftModel craft;
-  RotorMixer mixer;
-  LqrParams params;
-  QuadrotorLqrLaw law;
+  controllers::RotorcraftModel craft;
+  controllers::RotorMixer mixer;
+  controllers::LqrParams params;
+  controllers::QuadrotorLqrLaw law;
 };
 
 /// Weights as the law documents them.
 void make_weights(const Law& law, Eigen::MatrixXd& Q, Eigen::MatrixXd& R) {
-  const LqrParams& p = law.params;
+  const controllers::LqrParams& p = law.params;
   Eigen::VectorXd q(16);
   q << p.position_per_m2.x(), p.position_per_m2.x(), p.position_per_m2.y(), p.velocity_per_mps2.x(),
       p.velocity_per_mps2.x(), p.velocity_per_mps2.y(), p.angle_per_rad2.x(), p.angle_per_rad2.x(),
@@ -55,8 +55,9 @@ void make_weights(const Law& law, Eigen::MatrixXd& Q, Eigen::MatrixXd& R) {
 TEST(QuadrotorLqr, HasTheGainOfALongFiniteHorizon) {
   for (const QuadrotorNumbers& numbers : {make_q4t(), make_m100()}) {
     const Law law(numbers);
-    const HoverModel model = make_hover_model(law.craft, true);
-    const SampledModel m = discretise(model.A, model.B, law.params.period_s);
+    const controllers::HoverModel model = controllers::make_hover_model(law.craft, true);
+    const controllers::SampledModel m =
+        controllers::discretise(model.A, model.B, law.params.period_s);
     Eigen::MatrixXd Q, R;
     make_weights(law, Q, R);
     Eigen::MatrixXd P = Q, K;
@@ -100,7 +101,7 @@ TEST(QuadrotorLqr, IsExactlyLinearInsideItsLimits) {
   x << 0.02, -0.01, 0.03, 0.05, 0.02, -0.04, roll, pitch, yaw, 0, 0, 0, 0, 0, 0, 0;
   // In H the tilts are arc tangents of the thrust's direction: differences of third order.
   const Eigen::Vector4d u = -law.law.gain() * x;
-  const Wrench wanted = law.law.step(at, odometry, true);
+  const controllers::Wrench wanted = law.law.step(at, odometry, true);
   EXPECT_LT((wanted.torque_B - u.tail<3>()).norm(), 2e-3 * u.tail<3>().norm());
   EXPECT_NEAR(wanted.thrust_N - 2.0 * 9.80665, u(0), 0.02);
 }
@@ -122,7 +123,7 @@ TEST(QuadrotorLqr, LeavesNothingToTheGainOnAFeasibleReference) {
   R_WB << x, z.cross(x), z;
   odometry.X_WB.q = Eigen::Quaterniond(R_WB);
   odometry.v_WB_B = R_WB.transpose() * at.v_W;
-  const Wrench wanted = law.law.step(at, odometry, true);
+  const controllers::Wrench wanted = law.law.step(at, odometry, true);
   EXPECT_NEAR(wanted.thrust_N, 2.0 * push.norm(), 0.01 * 2.0 * 9.80665);
   EXPECT_LT(wanted.torque_B.head<2>().norm(), 0.35);  // of 60: rates of a turning lean are not fed
 }
@@ -131,8 +132,9 @@ TEST(QuadrotorLqr, StepsAsItsLinearModelDoes) {
   // A step of 1 cm in the nonlinear vehicle against x+ = (A - B K) x of the sampled model.
   const QuadrotorNumbers numbers = make_q4t();
   const Law law(numbers);
-  const HoverModel model = make_hover_model(law.craft, true);
-  const SampledModel m = discretise(model.A, model.B, law.params.period_s);
+  const controllers::HoverModel model = controllers::make_hover_model(law.craft, true);
+  const controllers::SampledModel m =
+      controllers::discretise(model.A, model.B, law.params.period_s);
   FlightSetup setup;
   setup.controller = {"quadrotor_lqr", {{"disturbance_s", 0.0}}};
   setup.guidance_rate_Hz = 50.0;
@@ -174,7 +176,7 @@ TEST(QuadrotorLqr, ObserverTakesAwayWhatAWindLeaves) {
 }
 
 TEST(QuadrotorLqr, CutsTheWantedTilt) {
-  FlightLimits limits = wide_limits();
+  controllers::FlightLimits limits = wide_limits();
   limits.tilt_rad = 0.2;
   Law law(make_q4t(), {}, limits);
   law.law.reset(true);
@@ -187,7 +189,7 @@ TEST(QuadrotorLqr, CutsTheWantedTilt) {
 }
 
 TEST(QuadrotorLqr, RefusesWeightsWithoutAGain) {
-  const PartSpec spec = quadrotor_lqr_spec();
+  const PartSpec spec = controllers::quadrotor_lqr_spec();
   ParameterSet parameters(spec.parameters, spec.name);
   EXPECT_THROW(parameters.set("position_weight", std::vector<double>{0.0, 1.0}), ConfigError);
   EXPECT_THROW(parameters.set("thrust_weight", 0.0), ConfigError);

@@ -56,7 +56,7 @@ TEST(QuadrotorMpc, RefusesBadNumbers) {
 }
 
 TEST(QuadrotorMpc, DocumentsItsParameters) {
-  for (const ParameterSpec& parameter : quadrotor_mpc_spec().parameters) {
+  for (const ParameterSpec& parameter : controllers::quadrotor_mpc_spec().parameters) {
     EXPECT_FALSE(parameter.description.empty()) << parameter.name;
   }
 }

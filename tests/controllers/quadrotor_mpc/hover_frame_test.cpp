@@ -14,8 +14,8 @@
 namespace vinerow::test::hover_frame_test {
 namespace {
 
-RotorcraftModel q4t() {
-  return read_rotorcraft(describe(make_q4t()), 9.80665, "test");
+controllers::RotorcraftModel q4t() {
+  return controllers::read_rotorcraft(describe(make_q4t()), 9.80665, "test");
 }
 
 Odometry turned(double roll, double pitch, double yaw) {
@@ -27,11 +27,11 @@ Odometry turned(double roll, double pitch, double yaw) {
 }
 
 TEST(HoverFrame, SeesPlaceAndVelocityAlongTheWantedHeading) {
-  const HoverFrame frame({10, 20, 5}, M_PI / 6.0);
+  const controllers::HoverFrame frame({10, 20, 5}, M_PI / 6.0);
   Odometry odometry = turned(0, 0, M_PI / 6.0);
   odometry.X_WB.p = {10.0 + std::cos(M_PI / 6.0), 20.0 + std::sin(M_PI / 6.0), 4.0};
   odometry.v_WB_B = {3.0, 0.5, 0.25};
-  const HoverState state = calc_hover_state(odometry, frame);
+  const controllers::HoverState state = controllers::calc_hover_state(odometry, frame);
   EXPECT_LT((state.x.head<6>() - Eigen::Matrix<double, 6, 1>{1, 0, -1, 3, 0.5, 0.25}).norm(),
             1e-12);
   EXPECT_LT(state.x.tail<6>().norm(), 1e-12);
@@ -41,23 +41,23 @@ TEST(HoverFrame, SeesPlaceAndVelocityAlongTheWantedHeading) {
 // The thrust of a body that leans must push where the model says: g (tan pitch, -tan roll).
 TEST(HoverFrame, TakesTiltFromTheDirectionOfThrustWhateverTheYaw) {
   for (const double yaw : {0.0, 0.4, -2.5}) {
-    const HoverFrame frame({0, 0, 0}, 0.7);
+    const controllers::HoverFrame frame({0, 0, 0}, 0.7);
     const Odometry odometry = turned(0.3, -0.25, 0.7 + yaw);
-    const HoverState state = calc_hover_state(odometry, frame);
+    const controllers::HoverState state = controllers::calc_hover_state(odometry, frame);
     const Eigen::Vector3d z_W = odometry.X_WB.q * Eigen::Vector3d::UnitZ();
     const Eigen::Vector3d push = frame.from_W(z_W / z_W.z());
-    EXPECT_NEAR(std::tan(state.x[kHoverAngle + 1]), push.x(), 1e-12);
-    EXPECT_NEAR(-std::tan(state.x[kHoverAngle]), push.y(), 1e-12);
+    EXPECT_NEAR(std::tan(state.x[controllers::kHoverAngle + 1]), push.x(), 1e-12);
+    EXPECT_NEAR(-std::tan(state.x[controllers::kHoverAngle]), push.y(), 1e-12);
     EXPECT_NEAR(std::cos(state.tilt_rad()), z_W.z(), 1e-12);
     if (yaw == 0.0) {
-      EXPECT_NEAR(state.x[kHoverAngle + 1], -0.25, 0.013);
+      EXPECT_NEAR(state.x[controllers::kHoverAngle + 1], -0.25, 0.013);
     }
-    EXPECT_NEAR(state.x[kHoverAngle + 2], yaw, 1e-12);
+    EXPECT_NEAR(state.x[controllers::kHoverAngle + 2], yaw, 1e-12);
   }
 }
 
 TEST(HoverFrame, GivesTheRatesOfItsAngles) {
-  const HoverFrame frame({0, 0, 0}, -0.4);
+  const controllers::HoverFrame frame({0, 0, 0}, -0.4);
   Odometry now = turned(0.4, -0.3, 0.5);
   now.w_WB_B = {0.8, -1.1, 0.6};
   const double dt = 1e-6;
@@ -65,35 +65,44 @@ TEST(HoverFrame, GivesTheRatesOfItsAngles) {
     Odometry moved = now;
     moved.X_WB.q = now.X_WB.q * Eigen::Quaterniond(Eigen::AngleAxisd(time_s * now.w_WB_B.norm(),
                                                                      now.w_WB_B.normalized()));
-    return calc_hover_state(moved, frame).x;
+    return controllers::calc_hover_state(moved, frame).x;
   };
-  const Eigen::Vector2d rates = (at(dt) - at(-dt)).segment<2>(kHoverAngle) / (2.0 * dt);
-  EXPECT_LT((at(0.0).segment<2>(kHoverRate) - rates).norm(), 1e-8);
+  const Eigen::Vector2d rates =
+      (at(dt) - at(-dt)).segment<2>(controllers::kHoverAngle) / (2.0 * dt);
+  EXPECT_LT((at(0.0).segment<2>(controllers::kHoverRate) - rates).norm(), 1e-8);
   // The third is the rate about the vertical.
-  EXPECT_NEAR(at(0.0)[kHoverRate + 2], (now.X_WB.q * now.w_WB_B).z(), 1e-12);
+  EXPECT_NEAR(at(0.0)[controllers::kHoverRate + 2], (now.X_WB.q * now.w_WB_B).z(), 1e-12);
 }
 
 TEST(HoverFrame, TurnsWrenchesForthAndBack) {
-  const HoverState state = calc_hover_state(turned(0.2, 0.3, 0.9), HoverFrame({0, 0, 0}, 0.4));
+  const controllers::HoverState state =
+      controllers::calc_hover_state(turned(0.2, 0.3, 0.9), controllers::HoverFrame({0, 0, 0}, 0.4));
   const Eigen::Vector4d u(1.5, 0.3, -0.2, 0.1);
-  const Wrench wrench = calc_body_wrench(u, state, 20.0);
+  const controllers::Wrench wrench = controllers::calc_body_wrench(u, state, 20.0);
   EXPECT_NEAR(wrench.thrust_N * state.upright, 21.5, 1e-12);
   // The body looks 0.5 rad to the left of H, so H's x torque is partly a negative y torque in B.
   EXPECT_NEAR(wrench.torque_B.x(), 0.3 * std::cos(0.5) - 0.2 * std::sin(0.5), 1e-3);
-  EXPECT_LT((calc_hover_wrench(wrench, state, 20.0) - u).norm(), 1e-12);
+  EXPECT_LT((controllers::calc_hover_wrench(wrench, state, 20.0) - u).norm(), 1e-12);
   // Lying on the side it does not ask for endless thrust, head down for none.
-  EXPECT_NEAR(calc_body_wrench(u, calc_hover_state(turned(1.5, 0, 0), HoverFrame({0, 0, 0}, 0)), 20)
-                  .thrust_N,
-              43.0, 1e-12);
+  EXPECT_NEAR(
+      controllers::calc_body_wrench(
+          u,
+          controllers::calc_hover_state(turned(1.5, 0, 0), controllers::HoverFrame({0, 0, 0}, 0)),
+          20)
+          .thrust_N,
+      43.0, 1e-12);
   EXPECT_EQ(
-      calc_body_wrench(u, calc_hover_state(turned(2, 0, 0), HoverFrame({0, 0, 0}, 0)), 20).thrust_N,
+      controllers::calc_body_wrench(
+          u, controllers::calc_hover_state(turned(2, 0, 0), controllers::HoverFrame({0, 0, 0}, 0)),
+          20)
+          .thrust_N,
       0.0);
 }
 
 TEST(RotorPrediction, FollowsTheLagAndItsMeanThrust) {
-  const RotorcraftModel craft = q4t();
-  const RotorMixer mixer(craft, "test");
-  RotorPrediction rotors(craft, mixer);
+  const controllers::RotorcraftModel craft = q4t();
+  const controllers::RotorMixer mixer(craft, "test");
+  controllers::RotorPrediction rotors(craft, mixer);
   const std::vector<double> start = {100, 200, 300, 400}, wanted = {500, 250, 100, 0};
   rotors.set_speeds(start);
   rotors.command(wanted, 0.05);
@@ -122,9 +131,9 @@ TEST(RotorPrediction, FollowsTheLagAndItsMeanThrust) {
 
 /// A vehicle that is pushed by `force_W` and turned by `torque_B`, held up by its weight as thrust,
 /// while it yaws.
-FlightDisturbance learn(double time_s, double seconds, bool torques = true) {
-  const RotorcraftModel craft = q4t();
-  FlightDisturbance disturbance(craft, time_s, torques, 0.05);
+controllers::FlightDisturbance learn(double time_s, double seconds, bool torques = true) {
+  const controllers::RotorcraftModel craft = q4t();
+  controllers::FlightDisturbance disturbance(craft, time_s, torques, 0.05);
   const double weight_N = craft.mass_kg * craft.gravity_mps2;
   const Eigen::Vector3d force_W(1.2, -0.4, 0.6), torque_B(0.02, 0.01, -0.03);
   Eigen::Vector3d v_W(0, 0, 0), w_B(0, 0, 0);
@@ -149,7 +158,7 @@ FlightDisturbance learn(double time_s, double seconds, bool torques = true) {
 }
 
 TEST(FlightDisturbance, LearnsAForceInItsTimeThoughTheVehicleTurns) {
-  const FlightDisturbance learnt = learn(0.3, 3.0);
+  const controllers::FlightDisturbance learnt = learn(0.3, 3.0);
   EXPECT_LT((learnt.acceleration_W() - Eigen::Vector3d(0.6, -0.2, 0.3)).norm(), 1e-4);
   // After one time constant 1 - 1/e of it, after the first estimate nothing.
   EXPECT_NEAR(learn(0.3, 0.3).acceleration_W().x(), 0.6 * (1.0 - std::exp(-1.0)), 1e-9);
@@ -165,7 +174,7 @@ TEST(FlightDisturbance, LearnsATorqueIfItMay) {
 }
 
 TEST(FlightDisturbance, IsNeverMoreThanTheVehicleCouldCarry) {
-  FlightDisturbance disturbance(q4t(), 0.01, true, 0.05);
+  controllers::FlightDisturbance disturbance(q4t(), 0.01, true, 0.05);
   Odometry odometry;
   for (int i = 0; i < 50; ++i) {
     odometry.v_WB_B = {100.0 * i, 0, 0};

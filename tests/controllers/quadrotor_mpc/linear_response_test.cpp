@@ -72,8 +72,11 @@ TEST(QuadrotorMpcLinear, IsTheInfiniteHorizonLqrWhileNoLimitIsActive) {
   EXPECT_NEAR(LinearLoop(0.0).spectral_radius(), 0.893, 5e-4);
   const LinearLoop loop;
   EXPECT_NEAR(loop.spectral_radius(), 0.899, 5e-4);
-  const RotorcraftModel craft = read_rotorcraft(describe(make_q4t()), 9.80665, "test");
-  LinearMpc mpc(make_quadrotor_problem(craft, RotorMixer(craft, "test"), {}, "test"), "test");
+  const controllers::RotorcraftModel craft =
+      controllers::read_rotorcraft(describe(make_q4t()), 9.80665, "test");
+  controllers::LinearMpc mpc(controllers::make_quadrotor_problem(
+                                 craft, controllers::RotorMixer(craft, "test"), {}, "test"),
+                             "test");
   State x = State::Zero(), expected;
   x.head<3>() << 0.05, -0.04, 0.03;
   x.segment<3>(3) << 0.1, 0.05, -0.1;
@@ -83,7 +86,7 @@ TEST(QuadrotorMpcLinear, IsTheInfiniteHorizonLqrWhileNoLimitIsActive) {
   const Eigen::MatrixXd r = Eigen::MatrixXd::Zero(kStates, 21), v = Eigen::MatrixXd::Zero(4, 20);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(kStates), before = Eigen::VectorXd::Zero(4);
   for (int k = 0; k < 60; ++k) {
-    ASSERT_EQ(mpc.solve(x, r, v, none, before), QpStatus::kSolved);
+    ASSERT_EQ(mpc.solve(x, r, v, none, before), controllers::QpStatus::kSolved);
     ASSERT_EQ(mpc.soft_violation(), 0.0);
     x = (loop.A * x + loop.B * mpc.u()).eval();
     expected = ((loop.A - loop.B * loop.K) * expected).eval();

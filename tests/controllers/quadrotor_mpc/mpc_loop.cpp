@@ -15,9 +15,9 @@ std::unique_ptr<Controller> make_mpc(const Values& parameters,
   context.part = "drone.controller";
   context.vehicle_description = &description;
   if (rate_Hz > 0.0) context.period = period_of_rate(rate_Hz);
-  ParameterSet set(quadrotor_mpc_spec().parameters, "quadrotor_mpc");
+  ParameterSet set(controllers::quadrotor_mpc_spec().parameters, "quadrotor_mpc");
   for (const auto& [name, value] : parameters) set.set(name, value);
-  return make_quadrotor_mpc(set, context);
+  return controllers::make_quadrotor_mpc(set, context);
 }
 
 MpcLoop::MpcLoop(const MpcSetup& setup)

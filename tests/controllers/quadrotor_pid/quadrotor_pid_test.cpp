@@ -14,20 +14,20 @@ namespace {
 
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-RotorcraftModel make_craft() {
-  return read_rotorcraft(describe(make_q4t()), 9.80665, "test");
+controllers::RotorcraftModel make_craft() {
+  return controllers::read_rotorcraft(describe(make_q4t()), 9.80665, "test");
 }
 
-PositionParams make_params() {
-  PositionParams params;
+controllers::PositionParams make_params() {
+  controllers::PositionParams params;
   params.velocity_d.setZero();
   params.tilt_limit_rad = rad_from_deg(25.0);
   return params;
 }
 
 TEST(PositionLaw, FeedsTheReferenceForward) {
-  const RotorcraftModel craft = make_craft();
-  PositionLaw law(craft, make_params());
+  const controllers::RotorcraftModel craft = make_craft();
+  controllers::PositionLaw law(craft, make_params());
   TrajectoryPoint at;
   at.p_W = {1, 2, 3};
   at.v_W = {3, 0, 0};
@@ -40,7 +40,7 @@ TEST(PositionLaw, FeedsTheReferenceForward) {
 }
 
 TEST(PositionLaw, CutsTiltBeforeHeightAndKeepsTheDirection) {
-  PositionLaw law(make_craft(), make_params());
+  controllers::PositionLaw law(make_craft(), make_params());
   TrajectoryPoint at;
   at.p_W = {30, 40, 0};
   const Eigen::Vector3d F = law.step(at, Eigen::Vector3d::Zero(), {-9, -12, 0}, 0.0, true);
@@ -55,8 +55,8 @@ TEST(PositionLaw, CutsTiltBeforeHeightAndKeepsTheDirection) {
 }
 
 TEST(PositionLaw, DoesNotWindUpAtItsLimits) {
-  const PositionParams params = make_params();
-  PositionLaw law(make_craft(), params);
+  const controllers::PositionParams params = make_params();
+  controllers::PositionLaw law(make_craft(), params);
   TrajectoryPoint at;
   at.p_W = {30, 40, 0};
   const Eigen::Vector3d here = Eigen::Vector3d::Zero();
@@ -80,7 +80,7 @@ TEST(PositionLaw, DoesNotWindUpAtItsLimits) {
 TEST(AttitudeLaw, PointsThrustAndNoseWhereWanted) {
   const Eigen::Vector3d F(3, -2, 18);
   for (const double yaw : {0.0, 1.0, 3.0, -2.5}) {
-    const Eigen::Quaterniond q = calc_wanted_attitude(F, yaw);
+    const Eigen::Quaterniond q = controllers::calc_wanted_attitude(F, yaw);
     EXPECT_LT((q * kZ - F.normalized()).norm(), 1e-12);
     const Eigen::Vector3d x = q * Eigen::Vector3d::UnitX();
     EXPECT_NEAR(std::atan2(x.y(), x.x()), yaw, 1e-12);
@@ -88,12 +88,12 @@ TEST(AttitudeLaw, PointsThrustAndNoseWhereWanted) {
 }
 
 TEST(AttitudeLaw, TurnsTheThrustTheShortestWayWhateverTheYawError) {
-  AttitudeParams params;
+  controllers::AttitudeParams params;
   params.tilt_rate_limit_radps = 100.0;
   const Eigen::Quaterniond q_WB = quaternion_from_rpy({0.2, -0.1, 0.5});
   for (const double yaw : {0.5, 1.5, 3.0, -2.0}) {
-    const Eigen::Quaterniond wanted = calc_wanted_attitude({-4, 6, 18}, yaw);
-    const Eigen::Vector3d rates = calc_wanted_rates(q_WB, wanted, 0.0, params);
+    const Eigen::Quaterniond wanted = controllers::calc_wanted_attitude({-4, 6, 18}, yaw);
+    const Eigen::Vector3d rates = controllers::calc_wanted_rates(q_WB, wanted, 0.0, params);
     // About the axis that is square to both thrusts, by the angle between them.
     const Eigen::Vector3d z = q_WB * kZ, z_wanted = wanted * kZ;
     const Eigen::Vector3d axis_B = q_WB.conjugate() * z.cross(z_wanted).normalized();
@@ -104,10 +104,12 @@ TEST(AttitudeLaw, TurnsTheThrustTheShortestWayWhateverTheYawError) {
 }
 
 TEST(AttitudeLaw, TurnsTheNoseTheShortWayWithinItsLimitAndFeedsTheYawRateForward) {
-  const AttitudeParams params;
+  const controllers::AttitudeParams params;
   const Eigen::Quaterniond level = Eigen::Quaterniond::Identity();
   const auto yaw_rate = [&](double error, double reference) {
-    return calc_wanted_rates(level, quaternion_from_rpy({0, 0, error}), reference, params).z();
+    return controllers::calc_wanted_rates(level, quaternion_from_rpy({0, 0, error}), reference,
+                                          params)
+        .z();
   };
   EXPECT_NEAR(yaw_rate(0.1, 0.0), params.yaw_p_per_s * 0.1, 1e-12);
   EXPECT_NEAR(yaw_rate(3.0, 0.0), params.yaw_rate_limit_radps, 1e-12);
@@ -116,25 +118,25 @@ TEST(AttitudeLaw, TurnsTheNoseTheShortWayWithinItsLimitAndFeedsTheYawRateForward
   EXPECT_NEAR(yaw_rate(0.0, 0.7), 0.7, 1e-12);
   // A tilted vehicle turns about the vertical: part of it is roll and pitch rate.
   const Eigen::Quaterniond tilted = quaternion_from_rpy({0.3, 0.2, 1.0});
-  const Eigen::Vector3d rates = calc_wanted_rates(tilted, tilted, 0.7, params);
+  const Eigen::Vector3d rates = controllers::calc_wanted_rates(tilted, tilted, 0.7, params);
   EXPECT_LT((tilted * rates - 0.7 * kZ).norm(), 1e-9);
 }
 
 TEST(AttitudeLaw, RightsAVehicleThatHangsHeadDown) {
-  const AttitudeParams params;
+  const controllers::AttitudeParams params;
   const Eigen::Quaterniond down(0.0, 1.0, 0.0, 0.0);
   const Eigen::Vector3d rates =
-      calc_wanted_rates(down, Eigen::Quaterniond::Identity(), 0.0, params);
+      controllers::calc_wanted_rates(down, Eigen::Quaterniond::Identity(), 0.0, params);
   EXPECT_TRUE(rates.allFinite());
   EXPECT_NEAR(rates.head<2>().norm(), params.tilt_rate_limit_radps, 1e-9);
-  EXPECT_EQ(calc_wanted_rates(down, down, 0.0, params), Eigen::Vector3d::Zero());
+  EXPECT_EQ(controllers::calc_wanted_rates(down, down, 0.0, params), Eigen::Vector3d::Zero());
 }
 
 TEST(RateLaw, ScalesWithInertiaAndCancelsTheGyroscopicTorque) {
-  const RotorcraftModel craft = make_craft();
-  RateParams params;
+  const controllers::RotorcraftModel craft = make_craft();
+  controllers::RateParams params;
   params.torque_limits_Nm.setConstant(1e3);
-  RateLaw law(craft, params);
+  controllers::RateLaw law(craft, params);
   const Eigen::Vector3d w(1, -2, 3), wanted(1.5, -2.5, 3.5), J = craft.inertia_kgm2;
   const Eigen::Vector3d torque = law.step(wanted, w, Eigen::Vector3d::Zero(), false);
   const Eigen::Vector3d alpha =
@@ -144,9 +146,9 @@ TEST(RateLaw, ScalesWithInertiaAndCancelsTheGyroscopicTorque) {
 }
 
 TEST(RateLaw, DoesNotWindUpWhereTorqueIsLost) {
-  const RotorcraftModel craft = make_craft();
-  RateParams params;
-  RateLaw law(craft, params);
+  const controllers::RotorcraftModel craft = make_craft();
+  controllers::RateParams params;
+  controllers::RateLaw law(craft, params);
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   // Far beyond the own limits about x and z, within them about y.
   for (int i = 0; i < 100; ++i) law.step({100, 0.1, 100}, none, none, true);

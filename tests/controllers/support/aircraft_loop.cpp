@@ -111,10 +111,10 @@ AircraftLoop::AircraftLoop(const AircraftLoopSetup& setup)
   follower_ = world.read<FollowerState>("follower");
 
   const AirReference first = setup.reference(0.0);
-  const Aircraft aircraft =
-      read_aircraft(describe(setup.numbers), setup.numbers.gravity_mps2, "test");
-  const Result<Trim> trim =
-      find_trim(aircraft, {first.airspeed_mps, first.climb_angle_rad, first.bank_rad});
+  const controllers::Aircraft aircraft =
+      controllers::read_aircraft(describe(setup.numbers), setup.numbers.gravity_mps2, "test");
+  const Result<controllers::Trim> trim =
+      controllers::find_trim(aircraft, {first.airspeed_mps, first.climb_angle_rad, first.bank_rad});
   VINEROW_DEMAND(trim.ok());
   sim_.set_wind(setup.wind);
   // From east to the left becomes from north to the right.

@@ -42,7 +42,7 @@ MissionSetup make_paper_mission(double pitch_m) {
 const Registry& parts() {
   static const Registry registry = [] {
     Registry r;
-    register_controllers(r);
+    controllers::register_controllers(r);
     return r;
   }();
   return registry;
@@ -175,7 +175,7 @@ MissionResult run_mission(const MissionSetup& setup) {
   DeviationMeter meter(line);
   double leg_square_m2 = 0.0;
   std::int64_t leg_samples = 0;
-  const auto measure = [&](const Pose2& pose) {
+  const auto measure = [&](const controllers::Pose2& pose) {
     const auto nearest = meter.add(pose.p);
     if (result.plan.points[nearest.segment].kind == PathKind::kLeg) {
       leg_square_m2 += nearest.distance_m * nearest.distance_m;

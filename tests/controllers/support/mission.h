@@ -28,7 +28,7 @@ struct PartChoice {
 
 struct MissionSetup {
   Indirect<RowMap> map;
-  Pose2 start;
+  controllers::Pose2 start;
   PartChoice planner{"coverage", {}};
   PartChoice estimator{"", {}};  ///< "" = the truth
   PartChoice controller{"pure_pursuit", {}};
@@ -50,7 +50,7 @@ struct MissionResult {
   double relative_accuracy = 0.0;
   double max_yaw_rate_radps = 0.0;
   PlannedPath plan;
-  std::vector<Pose2> poses;
+  std::vector<controllers::Pose2> poses;
 };
 
 /// Of the vehicle that a controller drives here: paper B's rover, or the steered one where the

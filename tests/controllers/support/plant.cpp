@@ -23,12 +23,12 @@ VelocityCommand unmix(const std::vector<double>& wheels_radps) {
 
 class RoverPlant final : public Plant {
  public:
-  explicit RoverPlant(const Pose2& start) : pose_(start) {}
+  explicit RoverPlant(const controllers::Pose2& start) : pose_(start) {}
   void drive(const std::vector<double>& actuators, double dt_s) override {
     driven_ = unmix(actuators);
-    pose_ = advance(pose_, driven_.v_mps * dt_s, driven_.yaw_rate_radps * dt_s);
+    pose_ = controllers::advance(pose_, driven_.v_mps * dt_s, driven_.yaw_rate_radps * dt_s);
   }
-  Pose2 pose() const override { return pose_; }
+  controllers::Pose2 pose() const override { return pose_; }
   Odometry truth() const override {
     Odometry truth;
     truth.X_WB = {quaternion_from_rpy({0, 0, pose_.yaw_rad}), {pose_.p.x(), pose_.p.y(), 0.0}};
@@ -38,14 +38,14 @@ class RoverPlant final : public Plant {
   }
 
  private:
-  Pose2 pose_;
+  controllers::Pose2 pose_;
   VelocityCommand driven_;
 };
 
 /// A pose in plan stands on a plane that rises to the north: its heading there is steeper.
-Pose2 put_on_plane(const Pose2& plan, double slope_rad) {
+controllers::Pose2 put_on_plane(const controllers::Pose2& plan, double slope_rad) {
   const double stretch = 1.0 / std::cos(slope_rad);
-  const Eigen::Vector2d t = direction(plan.yaw_rad);
+  const Eigen::Vector2d t = controllers::direction(plan.yaw_rad);
   return {{plan.p.x(), plan.p.y() * stretch}, std::atan2(t.y() * stretch, t.x())};
 }
 
@@ -67,7 +67,7 @@ VehicleDescription make_rover_description() {
   return description;
 }
 
-std::unique_ptr<Plant> make_rover_plant(const Pose2& start) {
+std::unique_ptr<Plant> make_rover_plant(const controllers::Pose2& start) {
   return std::make_unique<RoverPlant>(start);
 }
 
@@ -94,7 +94,7 @@ VehicleDescription make_steered_description() {
   return description;
 }
 
-SteeredPlant::SteeredPlant(const Pose2& start, const SteeredPlantOptions& options)
+SteeredPlant::SteeredPlant(const controllers::Pose2& start, const SteeredPlantOptions& options)
     : options_(options), in_plane_(put_on_plane(start, options.slope_rad)) {}
 
 void SteeredPlant::move(const std::vector<double>& actuators, double dt_s) {
@@ -123,8 +123,8 @@ void SteeredPlant::move(const std::vector<double>& actuators, double dt_s) {
   yaw_rate_radps_ = forward * curvature_per_m_;
   // A constant twist moves along an arc in the direction of travel.
   const double side = std::atan2(v_B_.y(), v_B_.x());
-  const Pose2 moved =
-      advance({in_plane_.p, in_plane_.yaw_rad + side}, v_B_.norm() * dt_s, yaw_rate_radps_ * dt_s);
+  const controllers::Pose2 moved = controllers::advance({in_plane_.p, in_plane_.yaw_rad + side},
+                                                        v_B_.norm() * dt_s, yaw_rate_radps_ * dt_s);
   in_plane_ = {moved.p, moved.yaw_rad - side};
 }
 
@@ -133,9 +133,9 @@ void SteeredPlant::drive(const std::vector<double>& actuators, double dt_s) {
   for (int i = 0; i < kParts; ++i) move(actuators, dt_s / kParts);
 }
 
-Pose2 SteeredPlant::pose() const {
+controllers::Pose2 SteeredPlant::pose() const {
   const double shrink = std::cos(options_.slope_rad);
-  const Eigen::Vector2d t = direction(in_plane_.yaw_rad);
+  const Eigen::Vector2d t = controllers::direction(in_plane_.yaw_rad);
   return {{in_plane_.p.x(), in_plane_.p.y() * shrink}, std::atan2(t.y() * shrink, t.x())};
 }
 

@@ -16,14 +16,14 @@ class Plant {
   /// Moves on with these actuator values, in the order of its description.
   virtual void drive(const std::vector<double>& actuators, double dt_s) = 0;
   /// Pose in plan.
-  virtual Pose2 pose() const = 0;
+  virtual controllers::Pose2 pose() const = 0;
   virtual Odometry truth() const = 0;
 };
 
 /// Paper B's rover: 1 m track, 0.2 m wheels, four wheel speeds without limit.
 VehicleDescription make_rover_description();
 /// Moves by the mean speeds of its sides.
-std::unique_ptr<Plant> make_rover_plant(const Pose2& start);
+std::unique_ptr<Plant> make_rover_plant(const controllers::Pose2& start);
 
 /// Paper A's rover: two steered axles 1.5 m apart, 23 deg at most, four wheel speeds of 8 rad/s.
 VehicleDescription make_steered_description();
@@ -43,9 +43,9 @@ struct SteeredPlantOptions {
 /// speed is the mean of the wheels'. Written without the code under test.
 class SteeredPlant final : public Plant {
  public:
-  explicit SteeredPlant(const Pose2& start, const SteeredPlantOptions& options = {});
+  explicit SteeredPlant(const controllers::Pose2& start, const SteeredPlantOptions& options = {});
   void drive(const std::vector<double>& actuators, double dt_s) override;
-  Pose2 pose() const override;
+  controllers::Pose2 pose() const override;
   Odometry truth() const override;
 
   double front_rad() const { return front_rad_; }
@@ -55,7 +55,7 @@ class SteeredPlant final : public Plant {
   void move(const std::vector<double>& actuators, double dt_s);
 
   SteeredPlantOptions options_;
-  Pose2 in_plane_;  ///< on the sloping plane, x east along the contour
+  controllers::Pose2 in_plane_;  ///< on the sloping plane, x east along the contour
   double front_rad_ = 0.0, rear_rad_ = 0.0;
   Eigen::Vector2d v_B_ = Eigen::Vector2d::Zero();
   double yaw_rate_radps_ = 0.0;

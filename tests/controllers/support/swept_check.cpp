@@ -50,7 +50,7 @@ double gap_between(const Polygon& one, const Polygon& other) {
 
 }  // namespace
 
-double distance_to_cells(const Polygon& outline_B, const Pose2& pose, const OccupancyGrid& grid,
+double distance_to_cells(const Polygon& outline_B, const controllers::Pose2& pose, const OccupancyGrid& grid,
                          double reach_m) {
   Polygon outline;
   Eigen::AlignedBox2d box;
@@ -92,14 +92,14 @@ SweptVerdict check_swept(const PlannedPath& path, const Polygon& outline_B,
     const double k = a.curvature_per_m, chord_m = (b.p_W - a.p_W).head<2>().norm();
     const double length_m =
         k == 0.0 ? chord_m : 2.0 / std::abs(k) * std::asin(0.5 * chord_m * std::abs(k));
-    const Pose2 start = {a.p_W.head<2>(), a.yaw_rad};
+    const controllers::Pose2 start = {a.p_W.head<2>(), a.yaw_rad};
     const int parts = std::max(1, static_cast<int>(std::ceil(length_m / step_m)));
     for (int s = 0; s <= parts; ++s) {
       const double at_m = length_m * s / parts;
-      const Pose2 pose = advance(start, at_m, at_m * k);
+      const controllers::Pose2 pose = controllers::advance(start, at_m, at_m * k);
       verdict.least_m = std::min(verdict.least_m, distance_to_cells(outline_B, pose, grid));
     }
-    const Pose2 end = advance(start, length_m, length_m * k);
+    const controllers::Pose2 end = controllers::advance(start, length_m, length_m * k);
     if (verdict.fault.empty() && ((end.p - b.p_W.head<2>()).norm() > kMeets_m ||
                                   std::abs(wrap_angle(end.yaw_rad - b.yaw_rad)) > kMeets_rad)) {
       verdict.fault =

@@ -13,8 +13,9 @@ namespace vinerow::test {
 /// Least distance from a convex polygon at a pose to any taken square, m; 0 where they overlap or
 /// where the polygon leaves the grid. Exact, by edges and corners. @param reach_m  how far is
 /// looked
-double distance_to_cells(const std::vector<Eigen::Vector2d>& outline_B, const Pose2& pose,
-                         const OccupancyGrid& grid, double reach_m = 0.5);
+double distance_to_cells(const std::vector<Eigen::Vector2d>& outline_B,
+                         const controllers::Pose2& pose, const OccupancyGrid& grid,
+                         double reach_m = 0.5);
 
 struct SweptVerdict {
   double least_m = 1e9;  ///< distance to anything taken, over the whole plan

@@ -22,13 +22,14 @@ constexpr double kRadius_m = 1.77;
 constexpr double kBlend_m = 0.8;
 
 /// 10 m straight along x, half a turn to the left, 10 m back.
-CurveRun make_hairpin() {
-  const Pose2 start;
-  const PathPiece out{start, 10.0, 0.0, PathKind::kLeg, 0, 0.0};
-  const PathPiece arc{out.end(), kPi * kRadius_m, 1.0 / kRadius_m, PathKind::kTurn, -1, 0.0};
-  const PathPiece back{arc.end(), 10.0, 0.0, PathKind::kLeg, 1, 0.0};
-  const std::vector<CurveRun> runs =
-      make_curve_runs(make_planned_path({out, arc, back}, 0.25), 0.3);
+controllers::CurveRun make_hairpin() {
+  const controllers::Pose2 start;
+  const controllers::PathPiece out{start, 10.0, 0.0, PathKind::kLeg, 0, 0.0};
+  const controllers::PathPiece arc{out.end(), kPi * kRadius_m, 1.0 / kRadius_m, PathKind::kTurn, -1,
+                                   0.0};
+  const controllers::PathPiece back{arc.end(), 10.0, 0.0, PathKind::kLeg, 1, 0.0};
+  const std::vector<controllers::CurveRun> runs =
+      controllers::make_curve_runs(controllers::make_planned_path({out, arc, back}, 0.25), 0.3);
   EXPECT_EQ(runs.size(), 1u);
   return runs.front();
 }
@@ -36,20 +37,21 @@ CurveRun make_hairpin() {
 TEST(BoxFilter, KeepsStraightLinesAndEnds) {
   std::vector<double> line;
   for (int i = 0; i < 30; ++i) line.push_back(3.0 - 0.7 * i);
-  const std::vector<double> smooth = smooth_box(line, 4, Beyond::kTurnedAbout);
+  const std::vector<double> smooth =
+      controllers::smooth_box(line, 4, controllers::Beyond::kTurnedAbout);
   for (int i = 0; i < 30; ++i) EXPECT_NEAR(smooth[i], line[i], 1e-12);
   const std::vector<double> step = {0, 0, 0, 0, 1, 1, 1, 1};
-  const std::vector<double> mean = smooth_box(step, 1, Beyond::kConstant);
+  const std::vector<double> mean = controllers::smooth_box(step, 1, controllers::Beyond::kConstant);
   EXPECT_NEAR(mean[3], 0.25, 1e-12);
   EXPECT_NEAR(mean[4], 0.75, 1e-12);
   EXPECT_EQ(mean[2], 0.0);
   EXPECT_EQ(mean[0], 0.0);
-  EXPECT_EQ(dilate(step, 2)[2], 1.0);
-  EXPECT_EQ(dilate(step, 2)[1], 0.0);
+  EXPECT_EQ(controllers::dilate(step, 2)[2], 1.0);
+  EXPECT_EQ(controllers::dilate(step, 2)[1], 0.0);
 }
 
 TEST(SmoothRun, StraightsStayAndArcsMoveInwardsAsTold) {
-  const SmoothRun run(make_hairpin(), kBlend_m);
+  const controllers::SmoothRun run(make_hairpin(), kBlend_m);
   EXPECT_NEAR(run.length_m(), 20.0 + kPi * kRadius_m, 1e-9);
   for (const double at_m : {0.0, 0.013, 2.0, 8.7}) {
     EXPECT_NEAR((run.at(at_m).p_W - Vec3(at_m, 0, 0)).norm(), 0.0, 1e-9);
@@ -67,7 +69,7 @@ TEST(SmoothRun, StraightsStayAndArcsMoveInwardsAsTold) {
 }
 
 TEST(SmoothRun, CurvatureRampsOverTheBlend) {
-  const SmoothRun run(make_hairpin(), kBlend_m);
+  const controllers::SmoothRun run(make_hairpin(), kBlend_m);
   // Half way up where the arc begins, linear within the blend, full after it.
   EXPECT_NEAR(run.at(10.0).yaw_per_m, 0.5 / kRadius_m, 0.01);
   EXPECT_NEAR(run.at(10.2).yaw_per_m, 0.75 / kRadius_m, 0.015);
@@ -76,11 +78,11 @@ TEST(SmoothRun, CurvatureRampsOverTheBlend) {
 }
 
 TEST(TimeLaw, AFlightOfYearsIsRefusedBeforeItIsSampled) {
-  const SmoothRun run(make_hairpin(), kBlend_m);
-  TrajectoryLimits limits;
+  const controllers::SmoothRun run(make_hairpin(), kBlend_m);
+  controllers::TrajectoryLimits limits;
   limits.lateral_acceleration_mps2 = 1e-308;
   try {
-    const TimeLaw law(run, limits, 1e9);
+    const controllers::TimeLaw law(run, limits, 1e9);
     FAIL() << "not refused";
   } catch (const ConfigError& error) {
     EXPECT_NE(std::string(error.what()).find("at most 56 h are planned: raise its speeds"),
@@ -90,11 +92,12 @@ TEST(TimeLaw, AFlightOfYearsIsRefusedBeforeItIsSampled) {
 }
 
 TEST(TimeLaw, FliesAStraightAsFastAsItMay) {
-  const PathPiece straight{Pose2{}, 100.0, 0.0, PathKind::kLeg, 0, 0.0};
-  const auto runs = make_curve_runs(make_planned_path({straight}, 0.5), 0.3);
-  const SmoothRun run(runs.front(), kBlend_m);
-  const TrajectoryLimits limits;
-  const TimeLaw law(run, limits, 1e9);
+  const controllers::PathPiece straight{controllers::Pose2{}, 100.0, 0.0, PathKind::kLeg, 0, 0.0};
+  const auto runs =
+      controllers::make_curve_runs(controllers::make_planned_path({straight}, 0.5), 0.3);
+  const controllers::SmoothRun run(runs.front(), kBlend_m);
+  const controllers::TrajectoryLimits limits;
+  const controllers::TimeLaw law(run, limits, 1e9);
   // v / a to speed up, the same to slow down, and what the easing adds.
   const double least_s = 100.0 / 3.0 + 3.0 / limits.acceleration_mps2;
   EXPECT_GT(law.duration_s(), least_s);
@@ -115,10 +118,10 @@ TEST(TimeLaw, FliesAStraightAsFastAsItMay) {
 }
 
 TEST(YawMove, TakesTheShortWayWithinBothLimits) {
-  const YawMove move = make_yaw_move(2.0, 3.0, -3.0, 1.5, 2.5);
+  const controllers::YawMove move = controllers::make_yaw_move(2.0, 3.0, -3.0, 1.5, 2.5);
   EXPECT_NEAR(move.turn_rad, 2.0 * kPi - 6.0, 1e-12);
   double rate = 0.0, acceleration = 0.0;
-  const YawMove wide = make_yaw_move(0.0, 0.0, 3.0, 1.5, 2.5);
+  const controllers::YawMove wide = controllers::make_yaw_move(0.0, 0.0, 3.0, 1.5, 2.5);
   for (double t = 0.0; t < wide.duration_s; t += 1e-3) {
     rate = std::max(rate, wide.at(t).rate_radps);
     acceleration =
@@ -133,9 +136,9 @@ TEST(YawMove, TakesTheShortWayWithinBothLimits) {
 
 TEST(LandingWatch, FeelsTheGroundOnlyNearTheEndAndOnlyWhileSinking) {
   constexpr double kTick_s = 0.05;
-  LandingWatch watch;
-  const auto ticks_until = [&](LandingWatch::Seen seen) {
-    watch = LandingWatch(LandingWatch::Params{});
+  controllers::LandingWatch watch;
+  const auto ticks_until = [&](controllers::LandingWatch::Seen seen) {
+    watch = controllers::LandingWatch(controllers::LandingWatch::Params{});
     int ticks = 0;
     while (ticks < 100 && !watch.has_landed(seen, kTick_s)) ++ticks;
     return ticks;

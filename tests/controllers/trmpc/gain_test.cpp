@@ -12,11 +12,12 @@
 namespace vinerow::test::gain_test {
 namespace {
 
-AircraftLaws laws_of(const AircraftNumbers& numbers) {
-  const Aircraft aircraft = read_aircraft(describe(numbers), numbers.gravity_mps2, "test");
-  const Result<Trim> trim = find_trim(aircraft, {12.0, 0.0, 0.0});
+controllers::AircraftLaws laws_of(const AircraftNumbers& numbers) {
+  const controllers::Aircraft aircraft =
+      controllers::read_aircraft(describe(numbers), numbers.gravity_mps2, "test");
+  const Result<controllers::Trim> trim = controllers::find_trim(aircraft, {12.0, 0.0, 0.0});
   EXPECT_TRUE(trim) << trim.reason();
-  return make_aircraft_laws(aircraft, *trim, 0.05, {}, "test");
+  return controllers::make_aircraft_laws(aircraft, *trim, 0.05, {}, "test");
 }
 
 /// The largest spectral radius of A + B K over all vertices.
@@ -27,15 +28,15 @@ double worst_radius(bool longitudinal, const Eigen::MatrixXd& K, Change&& change
     const auto sign = [&](int bit) { return (vertex >> bit) & 1 ? 1.0 : -1.0; };
     AircraftNumbers numbers = make_reference_wing();
     change(numbers, sign(0), sign(1), sign(2));
-    const AircraftLaws laws = laws_of(numbers);
-    const SampledAxis& axis = longitudinal ? laws.lon.model : laws.lat.model;
-    worst = std::max(worst, spectral_radius(axis.A + axis.B * K));
+    const controllers::AircraftLaws laws = laws_of(numbers);
+    const controllers::SampledAxis& axis = longitudinal ? laws.lon.model : laws.lat.model;
+    worst = std::max(worst, controllers::spectral_radius(axis.A + axis.B * K));
   }
   return worst;
 }
 
 TEST(TubeGains, BothAreSchurAtEveryVertex) {
-  const AircraftLaws nominal = laws_of(make_reference_wing());
+  const controllers::AircraftLaws nominal = laws_of(make_reference_wing());
   const auto lon = [](AircraftNumbers& n, double a, double b, double c) {
     n.Cma *= 1.0 + 0.2 * a;
     n.Cmde *= 1.0 + 0.2 * b;
@@ -57,7 +58,7 @@ TEST(TubeGains, BothAreSchurAtEveryVertex) {
 }
 
 TEST(TubeGains, LqrGainsAreThePrototypes) {
-  const AircraftLaws laws = laws_of(make_reference_wing());
+  const controllers::AircraftLaws laws = laws_of(make_reference_wing());
   const Eigen::MatrixXd lon = longitudinal_wing().K, lat = lateral_wing().K;
   EXPECT_LT((laws.lon.K - lon).cwiseAbs().maxCoeff(), 2e-3);
   EXPECT_LT((laws.lat.K - lat).cwiseAbs().maxCoeff(), 2e-3);

@@ -22,11 +22,13 @@ std::unique_ptr<Controller> make_wing_controller(const WingSetup& setup,
   context.period = period_of_rate(setup.rate_Hz);
   const bool is_tube = setup.type == "trmpc", is_nominal = setup.type == "mpc_nominal";
   const PartSpec spec =
-      is_tube ? trmpc_spec() : (is_nominal ? mpc_nominal_spec() : fixed_wing_lqr_spec());
+      is_tube ? controllers::trmpc_spec()
+              : (is_nominal ? controllers::mpc_nominal_spec() : controllers::fixed_wing_lqr_spec());
   ParameterSet set(spec.parameters, spec.name);
   for (const auto& [name, value] : setup.parameters) set.set(name, value);
-  if (is_tube) return make_trmpc(set, context);
-  return is_nominal ? make_mpc_nominal(set, context) : make_fixed_wing_lqr(set, context);
+  if (is_tube) return controllers::make_trmpc(set, context);
+  return is_nominal ? controllers::make_mpc_nominal(set, context)
+                    : controllers::make_fixed_wing_lqr(set, context);
 }
 
 WingLoop::WingLoop(const WingSetup& setup)
@@ -52,9 +54,10 @@ WingLoop::WingLoop(const WingSetup& setup)
   wanted_.power = true;
   wanted_.airspeed_mps = setup.numbers.cruise_speed_mps;
   wanted_.height_m = 100.0;
-  const Aircraft aircraft =
-      read_aircraft(description_, setup.numbers.gravity_mps2, "plane.controller (test)");
-  const Result<Trim> trim = find_trim(aircraft, {setup.numbers.cruise_speed_mps, 0.0, 0.0});
+  const controllers::Aircraft aircraft = controllers::read_aircraft(
+      description_, setup.numbers.gravity_mps2, "plane.controller (test)");
+  const Result<controllers::Trim> trim =
+      controllers::find_trim(aircraft, {setup.numbers.cruise_speed_mps, 0.0, 0.0});
   VINEROW_DEMAND(trim.ok());
   // East is a quarter turn clockwise from north.
   sim_.start({0.0, 0.0, 100.0 - setup.low_m}, 0.0, trim->pitch_rad, 0.5 * M_PI + setup.off_rad,

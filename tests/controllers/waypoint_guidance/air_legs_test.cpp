@@ -34,15 +34,15 @@ TEST(LegFrame, DistanceIsThatOfEquationOneWithASign) {
   // 22.3607 m: the number of the reference, 10 sqrt(5).
   const Eigen::Vector3d i(0, 0, 0), j(100, 200, 0);
   const Eigen::Vector2d p(50, 50);
-  const LegFrame leg(i, j);
+  const controllers::LegFrame leg(i, j);
   EXPECT_NEAR(printed_distance_m(i, j, p), 22.3607, 5e-5);
   EXPECT_NEAR(leg.left_m(p), -22.360679774997898, 1e-12);  // right of the track
-  EXPECT_NEAR(LegFrame(j, i).left_m(p), 22.360679774997898, 1e-12);
+  EXPECT_NEAR(controllers::LegFrame(j, i).left_m(p), 22.360679774997898, 1e-12);
   EXPECT_NEAR(leg.along_m(p), (100.0 * 50 + 200.0 * 50) / std::sqrt(50000.0), 1e-12);
 }
 
 TEST(LegFrame, EastWestLegsHaveADistance) {
-  const LegFrame east({-10, 5, 0}, {90, 5, 0}), west({90, 5, 0}, {-10, 5, 0});
+  const controllers::LegFrame east({-10, 5, 0}, {90, 5, 0}), west({90, 5, 0}, {-10, 5, 0});
   EXPECT_DOUBLE_EQ(east.left_m({20, 8}), 3.0);
   EXPECT_DOUBLE_EQ(west.left_m({20, 8}), -3.0);
   EXPECT_DOUBLE_EQ(east.along_m({20, 8}), 30.0);
@@ -50,7 +50,7 @@ TEST(LegFrame, EastWestLegsHaveADistance) {
 }
 
 TEST(LegFrame, FootLiesOnTheLegAndAtRightAngles) {
-  const LegFrame leg({3, -4, 0}, {50, 31, 0});
+  const controllers::LegFrame leg({3, -4, 0}, {50, 31, 0});
   const Eigen::Vector2d p(10, 40), foot = leg.foot(p);
   EXPECT_NEAR(leg.left_m(foot), 0.0, 1e-12);
   EXPECT_NEAR(leg.along_m(foot), leg.along_m(p), 1e-12);
@@ -62,7 +62,7 @@ TEST(LegFrame, FootLiesOnTheLegAndAtRightAngles) {
 }
 
 TEST(LegFrame, RampRunsOnlyInsideTheLeg) {
-  const LegFrame leg({0, 0, 100}, {200, 0, 110});
+  const controllers::LegFrame leg({0, 0, 100}, {200, 0, 110});
   EXPECT_DOUBLE_EQ(leg.height_m(-30.0), 100.0);
   EXPECT_DOUBLE_EQ(leg.height_m(50.0), 102.5);
   EXPECT_DOUBLE_EQ(leg.height_m(260.0), 110.0);
@@ -72,27 +72,27 @@ TEST(LegFrame, RampRunsOnlyInsideTheLeg) {
 }
 
 TEST(LegFrame, ToleranceIsInMetres) {
-  EXPECT_DOUBLE_EQ(calc_cross_track_tolerance_m(0.0, 4.0, 1.0), 4.0);
-  EXPECT_DOUBLE_EQ(calc_cross_track_tolerance_m(0.5, 4.0, 1.0), 2.0);
-  EXPECT_DOUBLE_EQ(calc_cross_track_tolerance_m(0.9, 4.0, 1.0), 1.0);
+  EXPECT_DOUBLE_EQ(controllers::calc_cross_track_tolerance_m(0.0, 4.0, 1.0), 4.0);
+  EXPECT_DOUBLE_EQ(controllers::calc_cross_track_tolerance_m(0.5, 4.0, 1.0), 2.0);
+  EXPECT_DOUBLE_EQ(controllers::calc_cross_track_tolerance_m(0.9, 4.0, 1.0), 1.0);
 }
 
 TEST(WindTriangle, HeadingIntoTheWindHoldsTheCourse) {
   // 3-4-5: east at 5 m/s through the air in 3 m/s from the north.
-  const Crab crab = calc_crab(0.0, {0.0, -3.0}, 5.0);
+  const controllers::Crab crab = controllers::calc_crab(0.0, {0.0, -3.0}, 5.0);
   EXPECT_NEAR(crab.angle_rad, std::asin(0.6), 1e-12);
   EXPECT_NEAR(crab.ground_speed_mps, 4.0, 1e-12);
   EXPECT_TRUE(crab.is_possible);
-  const Eigen::Vector2d v = calc_ground_velocity(crab.angle_rad, {0.0, -3.0}, 5.0);
+  const Eigen::Vector2d v = controllers::calc_ground_velocity(crab.angle_rad, {0.0, -3.0}, 5.0);
   EXPECT_NEAR(v.y(), 0.0, 1e-12);
-  EXPECT_FALSE(calc_crab(0.0, {0.0, -5.1}, 5.0).is_possible);
-  EXPECT_DOUBLE_EQ(calc_crab(0.0, {0.0, -5.1}, 5.0).angle_rad, 0.5 * kPi);
-  EXPECT_FALSE(calc_crab(0.0, {-5.1, 0.0}, 5.0).is_possible);  // blown back
-  EXPECT_TRUE(calc_crab(0.0, {-4.9, 0.0}, 5.0).is_possible);
+  EXPECT_FALSE(controllers::calc_crab(0.0, {0.0, -5.1}, 5.0).is_possible);
+  EXPECT_DOUBLE_EQ(controllers::calc_crab(0.0, {0.0, -5.1}, 5.0).angle_rad, 0.5 * kPi);
+  EXPECT_FALSE(controllers::calc_crab(0.0, {-5.1, 0.0}, 5.0).is_possible);  // blown back
+  EXPECT_TRUE(controllers::calc_crab(0.0, {-4.9, 0.0}, 5.0).is_possible);
 }
 
 TEST(WindEstimate, IsTheMeanAtFirstAndALowPassLater) {
-  WindEstimate wind(10.0);
+  controllers::WindEstimate wind(10.0);
   Odometry odometry;
   odometry.X_WB.q = quaternion_from_rpy({0.2, 0.1, 2.0});
   const auto add = [&](const Eigen::Vector3d& wind_W) {
@@ -112,8 +112,8 @@ TEST(WindEstimate, IsTheMeanAtFirstAndALowPassLater) {
   EXPECT_TRUE(wind.wind_W().allFinite());
 }
 
-TurnLimits make_limits(double bank_deg = 35.0) {
-  TurnLimits limits;
+controllers::TurnLimits make_limits(double bank_deg = 35.0) {
+  controllers::TurnLimits limits;
   limits.bank_rad = rad_from_deg(bank_deg);
   limits.bank_rate_radps = rad_from_deg(60.0);
   // The reference's generator: one lag.
@@ -135,7 +135,7 @@ TEST(TurnLimits, RadiiAreThoseOfTheReference) {
 
 TEST(HeadingGenerator, FullBankComesAfterRateAndLag) {
   // A bank that comes at a rate and then with a lag is late by bank / (2 rate) + lag.
-  HeadingGenerator generator(make_limits());
+  controllers::HeadingGenerator generator(make_limits());
   generator.start(0.0);
   const double dt_s = 0.0005, bank_rad = rad_from_deg(35.0);
   double sum_rads = 0.0;
@@ -149,13 +149,13 @@ TEST(HeadingGenerator, FullBankComesAfterRateAndLag) {
 }
 
 TEST(HeadingGenerator, HeadingLagsTheBankByTheYawLag) {
-  TurnLimits limits = make_limits();
+  controllers::TurnLimits limits = make_limits();
   limits.yaw_lag_s = 0.3;
-  HeadingGenerator lagging(limits), plain(make_limits());
+  controllers::HeadingGenerator lagging(limits), plain(make_limits());
   lagging.start(0.0);
   plain.start(0.0);
   for (int i = 0; i < 24000; ++i) {
-    for (HeadingGenerator* generator : {&lagging, &plain}) {
+    for (controllers::HeadingGenerator* generator : {&lagging, &plain}) {
       generator->advance(0.0005, 100.0, 0.0, 12.0);
     }
   }
@@ -166,7 +166,7 @@ TEST(HeadingGenerator, HeadingLagsTheBankByTheYawLag) {
 }
 
 TEST(HeadingGenerator, SettlesOnTheHeadingAndIsMirrored) {
-  HeadingGenerator left(make_limits()), right(make_limits());
+  controllers::HeadingGenerator left(make_limits()), right(make_limits());
   left.start(0.3, 0.1);
   right.start(-0.3, -0.1);
   double most_rad = 0.0;
@@ -182,10 +182,11 @@ TEST(HeadingGenerator, SettlesOnTheHeadingAndIsMirrored) {
 }
 
 TEST(HeadingGenerator, PredictionEndsWhereTheTurnEnds) {
-  HeadingGenerator generator(make_limits());
+  controllers::HeadingGenerator generator(make_limits());
   generator.start(0.0);
   const Eigen::Vector2d wind(2.0, -1.0);
-  const PredictedTurn turn = predict_turn(generator, {10, 20}, 1.5, 0.0873, wind, 12.0);
+  const controllers::PredictedTurn turn =
+      controllers::predict_turn(generator, {10, 20}, 1.5, 0.0873, wind, 12.0);
   // The same turn flown by the guidance's ticks, the way by Simpson's rule.
   Eigen::Vector2d p(10, 20);
   while (std::abs(1.5 - generator.heading_rad()) > rad_from_deg(0.5) ||
@@ -195,15 +196,17 @@ TEST(HeadingGenerator, PredictionEndsWhereTheTurnEnds) {
     const double after_rad = generator.heading_rad();
     const double middle_rad =
         0.5 * (before_rad + after_rad) + 0.05 / 8.0 * (rate_radps - generator.rate_radps());
-    const auto v = [&](double yaw_rad) { return calc_ground_velocity(yaw_rad, wind, 12.0); };
+    const auto v = [&](double yaw_rad) {
+      return controllers::calc_ground_velocity(yaw_rad, wind, 12.0);
+    };
     p += 0.05 / 6.0 * (v(before_rad) + 4.0 * v(middle_rad) + v(after_rad));
   }
   EXPECT_LT((turn.at_rest - p).norm(), 0.05);
   EXPECT_GT((turn.at_rest - turn.near_end).norm(), 5.0);
 }
 
-FlightLegsOptions make_options() {
-  FlightLegsOptions options;
+controllers::FlightLegsOptions make_options() {
+  controllers::FlightLegsOptions options;
   options.turn = make_limits();
   options.least_airspeed_mps = 9.3;
   options.most_airspeed_mps = 20.0;
@@ -212,15 +215,16 @@ FlightLegsOptions make_options() {
 
 TEST(FlyBy, IsTheFormulaOfTheReference) {
   const double delay_s = 35.0 / 120.0 + 0.45, radius_m = make_limits().radius_m(12.0);
-  EXPECT_NEAR(calc_fly_by_m(make_limits(), 0.5 * kPi, 12.0, 12.0), radius_m + 12.0 * delay_s, 1e-9);
-  EXPECT_NEAR(calc_fly_by_m(make_limits(), -rad_from_deg(60), 12.0, 12.0),
+  EXPECT_NEAR(controllers::calc_fly_by_m(make_limits(), 0.5 * kPi, 12.0, 12.0),
+              radius_m + 12.0 * delay_s, 1e-9);
+  EXPECT_NEAR(controllers::calc_fly_by_m(make_limits(), -rad_from_deg(60), 12.0, 12.0),
               radius_m * std::tan(rad_from_deg(30)) + 12.0 * delay_s, 1e-9);
 }
 
 TEST(FlightLegs, KnowTheirPlaceAlongThePlan) {
   PlannedPath plan = make_waypoints({{0, 0, 1}, {0, 0.05, 2}, {0, 100, 2}, {80, 100, 3}});
   plan.points[2].speed_mps = 15.0;
-  const auto legs = make_flight_legs(plan, make_options());
+  const auto legs = controllers::make_flight_legs(plan, make_options());
   ASSERT_TRUE(legs.ok());
   ASSERT_EQ(legs->legs.size(), 2u);  // two waypoints in one place are one
   EXPECT_DOUBLE_EQ(legs->legs[0].frame.from_W().z(), 2.0);
@@ -233,18 +237,20 @@ TEST(FlightLegs, KnowTheirPlaceAlongThePlan) {
 }
 
 TEST(FlightLegs, RefusePlansThatAreNone) {
-  EXPECT_EQ(make_flight_legs({}, make_options()).reason(),
+  EXPECT_EQ(controllers::make_flight_legs({}, make_options()).reason(),
             "plan has 0 waypoints apart from each other, needs two or more");
-  EXPECT_EQ(make_flight_legs(make_waypoints({{1, 2, 3}, {1, 2, 9}}), make_options()).reason(),
+  EXPECT_EQ(controllers::make_flight_legs(make_waypoints({{1, 2, 3}, {1, 2, 9}}), make_options())
+                .reason(),
             "plan has 1 waypoint apart from each other, needs two or more");
-  EXPECT_EQ(make_flight_legs(make_waypoints({{1, 2, 3}, {1, NAN, 9}}), make_options()).reason(),
+  EXPECT_EQ(controllers::make_flight_legs(make_waypoints({{1, 2, 3}, {1, NAN, 9}}), make_options())
+                .reason(),
             "waypoint 1 of the plan is not finite");
 }
 
 TEST(FlightLegs, WarnOfLanesNearerThanTheTurnsTake) {
-  EXPECT_THAT(make_flight_legs(make_lanes(4, 200, 42.0, 50), make_options())->warnings,
+  EXPECT_THAT(controllers::make_flight_legs(make_lanes(4, 200, 42.0, 50), make_options())->warnings,
               ElementsAre());
-  EXPECT_THAT(make_flight_legs(make_lanes(4, 200, 40.0, 50), make_options())->warnings,
+  EXPECT_THAT(controllers::make_flight_legs(make_lanes(4, 200, 40.0, 50), make_options())->warnings,
               ElementsAre("waypoint 2 is 40.0 m after the one before it and the turns there take "
                           "41.9 m (radius 21.0 m at 12.0 m/s and 35 deg of bank), and 2 more are "
                           "too near: overshoots there"));
@@ -253,9 +259,9 @@ TEST(FlightLegs, WarnOfLanesNearerThanTheTurnsTake) {
 TEST(FlightLegs, WarnOfSlopesAndSpeedsThatAreNotFlown) {
   PlannedPath plan = make_waypoints({{0, 0, 0}, {0, 100, 30}, {0, 300, 30}});
   plan.points[1].speed_mps = 25.0;
-  FlightLegsOptions options = make_options();
+  controllers::FlightLegsOptions options = make_options();
   options.climb_max_rad = rad_from_deg(10.0);
-  EXPECT_THAT(make_flight_legs(plan, options)->warnings,
+  EXPECT_THAT(controllers::make_flight_legs(plan, options)->warnings,
               ElementsAre("the plan wants 25.0 m/s, which is not in the range 9.3 to 20.0 m/s that "
                           "can be flown with the turns' bank: flies the nearest",
                           "the way to waypoint 1 climbs 16.7 deg and the guidance climbs at most "
@@ -263,31 +269,33 @@ TEST(FlightLegs, WarnOfSlopesAndSpeedsThatAreNotFlown) {
 }
 
 TEST(Height, KinksAreParabolasThatMeetTheRamps) {
-  const auto legs =
-      make_flight_legs(make_waypoints({{0, 0, 100}, {200, 0, 120}, {300, 0, 115}}), make_options())
-          ->legs;
+  const auto legs = controllers::make_flight_legs(
+                        make_waypoints({{0, 0, 100}, {200, 0, 120}, {300, 0, 115}}), make_options())
+                        ->legs;
   constexpr double kKink_m = 10.0;
   // At the kink: half the slopes' difference times a quarter of the length below the corner.
-  EXPECT_NEAR(calc_height(legs, 0, 200.0, kKink_m).height_m, 120.0 - 0.15 * kKink_m / 4.0, 1e-12);
-  EXPECT_NEAR(calc_height(legs, 0, 200.0, kKink_m).slope, 0.025, 1e-12);
-  EXPECT_NEAR(calc_height(legs, 0, 190.0, kKink_m).height_m, 119.0, 1e-12);
-  EXPECT_NEAR(calc_height(legs, 1, 10.0, kKink_m).height_m, 119.5, 1e-12);
+  EXPECT_NEAR(controllers::calc_height(legs, 0, 200.0, kKink_m).height_m,
+              120.0 - 0.15 * kKink_m / 4.0, 1e-12);
+  EXPECT_NEAR(controllers::calc_height(legs, 0, 200.0, kKink_m).slope, 0.025, 1e-12);
+  EXPECT_NEAR(controllers::calc_height(legs, 0, 190.0, kKink_m).height_m, 119.0, 1e-12);
+  EXPECT_NEAR(controllers::calc_height(legs, 1, 10.0, kKink_m).height_m, 119.5, 1e-12);
   // Continuous with its slope everywhere, and the same seen from either leg.
-  double before_m = calc_height(legs, 0, 0.0, kKink_m).height_m;
+  double before_m = controllers::calc_height(legs, 0, 0.0, kKink_m).height_m;
   for (double s = 0.25; s < 299.0; s += 0.25) {
-    const HeightPoint here = calc_height(legs, 0, s, kKink_m);
-    const HeightPoint middle = calc_height(legs, 0, s - 0.125, kKink_m);
+    const controllers::HeightPoint here = controllers::calc_height(legs, 0, s, kKink_m);
+    const controllers::HeightPoint middle = controllers::calc_height(legs, 0, s - 0.125, kKink_m);
     ASSERT_NEAR((here.height_m - before_m) / 0.25, middle.slope, 1e-9) << s;
-    ASSERT_NEAR(calc_height(legs, 1, s - 200.0, kKink_m).height_m, here.height_m, 1e-9) << s;
+    ASSERT_NEAR(controllers::calc_height(legs, 1, s - 200.0, kKink_m).height_m, here.height_m, 1e-9)
+        << s;
     before_m = here.height_m;
   }
-  EXPECT_DOUBLE_EQ(calc_height(legs, 0, 200.0, 0.0).height_m, 120.0);
-  EXPECT_DOUBLE_EQ(calc_height(legs, 1, 150.0, kKink_m).height_m, 115.0);
-  EXPECT_DOUBLE_EQ(calc_height(legs, 0, -50.0, kKink_m).height_m, 100.0);
+  EXPECT_DOUBLE_EQ(controllers::calc_height(legs, 0, 200.0, 0.0).height_m, 120.0);
+  EXPECT_DOUBLE_EQ(controllers::calc_height(legs, 1, 150.0, kKink_m).height_m, 115.0);
+  EXPECT_DOUBLE_EQ(controllers::calc_height(legs, 0, -50.0, kKink_m).height_m, 100.0);
 }
 
 TEST(Height, ReferenceHasNoLagOnRampsAndKeepsItsRate) {
-  HeightReference height;
+  controllers::HeightReference height;
   height.start(10.0);
   double wanted_m = 10.0;
   for (int i = 0; i < 200; ++i) {
@@ -305,7 +313,7 @@ TEST(Height, ReferenceHasNoLagOnRampsAndKeepsItsRate) {
 
 TEST(LandingSlope, GlidesAndFlaresToTheTouchdown) {
   const double glide = rad_from_deg(5.0);
-  const LandingSlope slope(7.0, glide, 2.0);
+  const controllers::LandingSlope slope(7.0, glide, 2.0);
   const double length_m = slope.length_m(30.0);
   EXPECT_NEAR(slope.at(length_m).height_m, 37.0, 1e-9);
   EXPECT_NEAR(slope.at(0.0).height_m, 7.0, 1e-9);

@@ -70,12 +70,12 @@ TEST(AirMission, LaunchesStraightAheadAndFliesToTheFirstWaypoint) {
 }
 
 TEST(AirMission, EventsTellBearingsFromNorth) {
-  EXPECT_EQ(bearing_deg(0.0), 90.0);
-  EXPECT_EQ(bearing_deg(rad_from_deg(90.0)), 0.0);
-  EXPECT_EQ(bearing_deg(rad_from_deg(90.4)), 0.0);
-  EXPECT_EQ(bearing_deg(rad_from_deg(150.0)), 300.0);
-  EXPECT_EQ(bearing_deg(rad_from_deg(-180.0)), 270.0);
-  EXPECT_EQ(bearing_deg(rad_from_deg(1.0 + 720.0)), 89.0);
+  EXPECT_EQ(controllers::bearing_deg(0.0), 90.0);
+  EXPECT_EQ(controllers::bearing_deg(rad_from_deg(90.0)), 0.0);
+  EXPECT_EQ(controllers::bearing_deg(rad_from_deg(90.4)), 0.0);
+  EXPECT_EQ(controllers::bearing_deg(rad_from_deg(150.0)), 300.0);
+  EXPECT_EQ(controllers::bearing_deg(rad_from_deg(-180.0)), 270.0);
+  EXPECT_EQ(controllers::bearing_deg(rad_from_deg(1.0 + 720.0)), 89.0);
 }
 
 TEST(AirMission, CirclesWhereTheWayIsTooShortToClimb) {

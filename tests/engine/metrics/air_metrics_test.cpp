@@ -16,7 +16,7 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::air_metrics_test {
+namespace vinerow::metrics::air_metrics_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -304,4 +304,4 @@ TEST_F(WingBench, AStepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::air_metrics_test
+}  // namespace vinerow::metrics::air_metrics_test

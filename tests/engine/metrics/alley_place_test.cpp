@@ -14,7 +14,7 @@
 #include "tests/engine/physics/small_worlds.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::alley_place_test {
+namespace vinerow::metrics::alley_place_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -180,4 +180,4 @@ TEST(AlleyPlace, NamesItsResultsAndAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::alley_place_test
+}  // namespace vinerow::metrics::alley_place_test

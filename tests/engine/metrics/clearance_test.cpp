@@ -15,7 +15,7 @@
 #include "engine/physics/world_scene.h"
 #include "tests/engine/physics/small_worlds.h"
 
-namespace vinerow::clearance_test {
+namespace vinerow::metrics::clearance_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -205,4 +205,4 @@ TEST(Clearance, ATouchOfLeavesIsAnEvent) {
 }
 
 }  // namespace
-}  // namespace vinerow::clearance_test
+}  // namespace vinerow::metrics::clearance_test

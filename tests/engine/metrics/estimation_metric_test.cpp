@@ -15,7 +15,7 @@
 #include "engine/metrics/estimation.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::estimation_metric_test {
+namespace vinerow::metrics::estimation_metric_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -321,4 +321,4 @@ TEST(EstimationMetric, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::estimation_metric_test
+}  // namespace vinerow::metrics::estimation_metric_test

@@ -15,7 +15,7 @@
 #include "engine/metrics/wheel_slip.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::flight_metrics_test {
+namespace vinerow::metrics::flight_metrics_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -374,4 +374,4 @@ TEST_F(FlightBench, AStepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::flight_metrics_test
+}  // namespace vinerow::metrics::flight_metrics_test

@@ -11,7 +11,7 @@
 #include "engine/sensors/camera_trigger.h"
 #include "tests/engine/sensors/fixed_scene.h"
 
-namespace vinerow::gsd_test {
+namespace vinerow::metrics::gsd_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -23,11 +23,11 @@ class GsdBench : public ::testing::Test {
  protected:
   GsdBench() {
     plane_.fixed_wing.emplace();
-    ParameterSet camera(camera_trigger_spec().parameters, "camera_trigger");
+    ParameterSet camera(sensors::camera_trigger_spec().parameters, "camera_trigger");
     camera.set("on", std::string("always"));
     // Upright at the nose's 7.35 deg up in level flight, as in the shipped surveys.
     camera.set("rotation_deg", std::vector<double>{0.0, 97.35, 0.0});
-    camera_ = make_camera_trigger(camera, bench_.context(20.0));
+    camera_ = sensors::make_camera_trigger(camera, bench_.context(20.0));
     bench_.connect(*camera_);
     ParameterSet survey(survey_coverage_spec().parameters, "survey");
     survey.set("camera", std::string("s"));
@@ -117,4 +117,4 @@ TEST_F(GsdBench, BankedByFiveDegreesItIsOnePixelWithinOnePercent) {
 }
 
 }  // namespace
-}  // namespace vinerow::gsd_test
+}  // namespace vinerow::metrics::gsd_test

@@ -14,7 +14,7 @@
 #include "engine/metrics/wheel_slip.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::metrics_test {
+namespace vinerow::metrics::metrics_test {
 namespace {
 
 using Results = std::map<std::string, double>;
@@ -402,4 +402,4 @@ TEST(Travel, StandingDriftCountsFromWhereTheSpringsHaveSettled) {
 }
 
 }  // namespace
-}  // namespace vinerow::metrics_test
+}  // namespace vinerow::metrics::metrics_test

@@ -10,7 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/math/pose.h"
 
-namespace vinerow::coverage_test {
+namespace vinerow::metrics::coverage_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -271,4 +271,4 @@ TEST(Coverage, RefusesBadParcels) {
 }
 
 }  // namespace
-}  // namespace vinerow::coverage_test
+}  // namespace vinerow::metrics::coverage_test

@@ -9,7 +9,7 @@
 #include "engine/math/angles.h"
 #include "engine/physics/world_scene.h"
 
-namespace vinerow::clear_view_test {
+namespace vinerow::playback::clear_view_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -141,4 +141,4 @@ TEST(ClearView, PointsLieInsideEachLinksBox) {
 }
 
 }  // namespace
-}  // namespace vinerow::clear_view_test
+}  // namespace vinerow::playback::clear_view_test

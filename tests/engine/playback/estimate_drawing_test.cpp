@@ -11,7 +11,7 @@
 #include "engine/playback/frame_composer.h"
 #include "tests/engine/sim/small_parts.h"
 
-namespace vinerow::estimate_drawing_test {
+namespace vinerow::playback::estimate_drawing_test {
 namespace {
 
 constexpr double kGround_m = 7.0;
@@ -124,7 +124,7 @@ TEST(EstimateDrawing, EarlierEllipsesTouchButDoNotOverlap) {
 class EstimatePicture : public ::testing::Test {
  protected:
   EstimatePicture() {
-    io::VehicleConfig rover;
+    scenario::VehicleConfig rover;
     rover.name = "rover";
     rover.estimator.emplace();
     rover.observers.push_back({"no_map", {}});
@@ -145,7 +145,7 @@ class EstimatePicture : public ::testing::Test {
     trace.estimates["estimate"] = {{Time{}},
                                    {estimate_at({1, 0.5, kGround_m}, 0.5, 0.25, 0.5 * kPi)}};
     trace.estimates["no_map"] = {{Time{}}, {estimate_at({-1, 0, kGround_m}, 1.0, 1.0, 0)}};
-    camera_.kind = io::CameraKind::kTop;
+    camera_.kind = scenario::CameraKind::kTop;
     camera_.centre_W = Eigen::Vector2d(0, 0);
     camera_.height_m = 10.0;
     camera_.show_plan = false;
@@ -171,11 +171,11 @@ class EstimatePicture : public ::testing::Test {
     return {rgb[0], rgb[1], rgb[2]};
   }
 
-  io::Scenario scenario_;
+  scenario::Scenario scenario_;
   WorldModel world_;
   std::vector<std::unique_ptr<Vehicle>> vehicles_;
   LogTrace trace_;
-  io::CameraConfig camera_;
+  scenario::CameraConfig camera_;
 };
 
 bool is_red(const Eigen::Vector3i& p) {
@@ -273,7 +273,7 @@ TEST_F(EstimatePicture, SeenAslantTheMapFadesBeforeItRunsTogether) {
   edges.points_W = {{0, 0, 8}, {0, 1, 8}, {20, 0, 8}, {20, 1, 8}, {500, 0, 8}, {500, 1, 8}};
   ASSERT_EQ(compose().lines.size(), 1u);
   EXPECT_EQ(compose().lines[0].points_W.size(), 6u) << "from above all of it";
-  camera_.kind = io::CameraKind::kChase;
+  camera_.kind = scenario::CameraKind::kChase;
   camera_.vehicle = "rover";
   const std::vector<render::Polyline> lines = compose().lines;
   ASSERT_EQ(lines.size(), 2u);
@@ -283,4 +283,4 @@ TEST_F(EstimatePicture, SeenAslantTheMapFadesBeforeItRunsTogether) {
 }
 
 }  // namespace
-}  // namespace vinerow::estimate_drawing_test
+}  // namespace vinerow::playback::estimate_drawing_test

@@ -10,14 +10,14 @@
 #include "engine/render/cameras.h"
 #include "tests/engine/sim/small_parts.h"
 
-namespace vinerow::frame_composer_test {
+namespace vinerow::playback::frame_composer_test {
 namespace {
 
 /// One vehicle without links on level ground at 7 m, with a plan and its tree written at 1 s.
 class ComposedFrame : public ::testing::Test {
  protected:
   ComposedFrame() {
-    io::VehicleConfig rover;
+    scenario::VehicleConfig rover;
     rover.name = "rover";
     scenario_.vehicles.push_back(rover);
     vehicles_.push_back(std::make_unique<test::Statue>());
@@ -40,7 +40,7 @@ class ComposedFrame : public ::testing::Test {
     trace.plan_tree.times = trace.plan.times;
     trace.plan_tree.values = {tree};
   }
-  render::Frame compose(const io::CameraConfig& camera, double t_s = 2.0) {
+  render::Frame compose(const scenario::CameraConfig& camera, double t_s = 2.0) {
     const FrameComposer composer(scenario_, world_, vehicles_, trace_, {phases_, false});
     return composer.compose(camera, Time{} + duration_from_s(t_s));
   }
@@ -52,7 +52,7 @@ class ComposedFrame : public ::testing::Test {
     return grid;
   }
 
-  io::Scenario scenario_;
+  scenario::Scenario scenario_;
   WorldModel world_;
   std::vector<std::unique_ptr<Vehicle>> vehicles_;
   LogTrace trace_;
@@ -71,14 +71,14 @@ class ComposedFrame : public ::testing::Test {
     }
   }
   void add_phase(const std::string& name, const std::string& vehicle, PhaseSpan span) {
-    io::PhaseConfig phase;
+    scenario::PhaseConfig phase;
     phase.name = name;
     phase.vehicles = {vehicle};
     scenario_.phases.push_back(phase);
     phases_[name] = span;
   }
   void add_vehicle(const std::string& name, std::unique_ptr<Vehicle> vehicle) {
-    io::VehicleConfig config;
+    scenario::VehicleConfig config;
     config.name = name;
     scenario_.vehicles.push_back(config);
     vehicles_.push_back(std::move(vehicle));
@@ -86,14 +86,14 @@ class ComposedFrame : public ::testing::Test {
   }
 };
 
-io::CameraConfig top_camera() {
-  io::CameraConfig camera;
-  camera.kind = io::CameraKind::kTop;
+scenario::CameraConfig top_camera() {
+  scenario::CameraConfig camera;
+  camera.kind = scenario::CameraKind::kTop;
   return camera;
 }
 
 TEST_F(ComposedFrame, ATopCameraLooksAtTheGivenPlace) {
-  io::CameraConfig camera = top_camera();
+  scenario::CameraConfig camera = top_camera();
   camera.centre_W = Eigen::Vector2d(12, -5);
   camera.height_m = 8.0;
   const render::Camera placed = compose(camera).camera;
@@ -136,7 +136,7 @@ TEST_F(ComposedFrame, AScansEchoesStandWhereTheBeamsEnd) {
   Trace<LaserScan>& trace = trace_.vehicles["rover"].scans["lidar"];
   trace.times = {Time{1'000'000'000}};
   trace.values = {scan};
-  io::CameraConfig camera = top_camera();
+  scenario::CameraConfig camera = top_camera();
   camera.show_plan = camera.show_trail = false;
   EXPECT_TRUE(compose(camera).lines.empty());
   camera.show_sensor_rays = true;
@@ -176,8 +176,8 @@ TEST_F(ComposedFrame, AShotIsDrawnFromWhereItWasTakenWithItsAngles) {
   EXPECT_NEAR(view->along, 0.5, 1e-12);
   EXPECT_FALSE(view_of({{Time{}}, {in_the_sky}}));
 
-  io::CameraConfig camera;
-  camera.kind = io::CameraKind::kShots;
+  scenario::CameraConfig camera;
+  camera.kind = scenario::CameraKind::kShots;
   camera.vehicle = "rover";
   camera.show_plan = camera.show_trail = false;
   const render::Frame frame = compose(camera);
@@ -217,8 +217,8 @@ TEST_F(ComposedFrame, LinesOfAFlightAreDrawnAtItsHeight) {
 
 // A rotorcraft pitches to gain speed; who chases it would nod with it, and dive into the ground.
 TEST_F(ComposedFrame, AChaseOfAFlyerDoesNotNodAndStaysAboveTheGround) {
-  io::CameraConfig camera;
-  camera.kind = io::CameraKind::kChase;
+  scenario::CameraConfig camera;
+  camera.kind = scenario::CameraKind::kChase;
   camera.vehicle = "rover";
   camera.distance_m = 5.0;
   camera.height_m = 1.0;
@@ -240,7 +240,7 @@ TEST_F(ComposedFrame, AChaseOfAFlyerDoesNotNodAndStaysAboveTheGround) {
 }
 
 TEST_F(ComposedFrame, TheTreeIsDrawnOnTheGroundFromWhenItIsThere) {
-  io::CameraConfig camera = top_camera();
+  scenario::CameraConfig camera = top_camera();
   camera.show_plan = false;
   EXPECT_TRUE(compose(camera).lines.empty());
   camera.show_tree = true;
@@ -258,7 +258,7 @@ TEST_F(ComposedFrame, TheTreeIsDrawnOnTheGroundFromWhenItIsThere) {
 }
 
 TEST_F(ComposedFrame, TheGridIsTheLogsOrElseTheWorlds) {
-  io::CameraConfig camera = top_camera();
+  scenario::CameraConfig camera = top_camera();
   camera.show_grid = true;
   EXPECT_EQ(compose(camera).grid, nullptr) << "there is none";
   world_.rows->occupancy = grid_of(0.1);
@@ -272,7 +272,7 @@ TEST_F(ComposedFrame, TheGridIsTheLogsOrElseTheWorlds) {
 
 TEST_F(ComposedFrame, AViewOfTheWholeGridShowsTheParcelsBoundary) {
   world_.rows->boundary_W = {{-40, -30}, {40, -30}, {40, 30}, {-40, 30}};
-  io::CameraConfig camera = top_camera();
+  scenario::CameraConfig camera = top_camera();
   const double without_m = compose(camera).camera.ortho_height_m;
   camera.show_grid = true;
   const double with_m = compose(camera).camera.ortho_height_m;
@@ -281,9 +281,9 @@ TEST_F(ComposedFrame, AViewOfTheWholeGridShowsTheParcelsBoundary) {
   EXPECT_LT(with_m, 70.0);
 }
 
-io::CameraConfig fixed_camera() {
-  io::CameraConfig camera;
-  camera.kind = io::CameraKind::kFixed;
+scenario::CameraConfig fixed_camera() {
+  scenario::CameraConfig camera;
+  camera.kind = scenario::CameraKind::kFixed;
   camera.p_W = {-20, 0, 5};
   camera.show_plan = false;
   return camera;
@@ -304,7 +304,7 @@ TEST_F(ComposedFrame, AnOldTrailIsGoneFromAViewAslant) {
   EXPECT_DOUBLE_EQ(trail.points_W.front().x(), 100.0) << "the latest is drawn first";
   EXPECT_DOUBLE_EQ(trail.points_W.back().x(), 60.0);
   // From above the whole way is seen.
-  io::CameraConfig above = top_camera();
+  scenario::CameraConfig above = top_camera();
   above.show_plan = false;
   const render::Polyline whole = compose(above, 100.0).lines.at(0);
   EXPECT_TRUE(whole.fade.empty());
@@ -313,7 +313,7 @@ TEST_F(ComposedFrame, AnOldTrailIsGoneFromAViewAslant) {
 
 TEST_F(ComposedFrame, ATrailBesideAnEstimatesIsAsLongAsThat) {
   drive_until(100);
-  io::CameraConfig camera = fixed_camera();
+  scenario::CameraConfig camera = fixed_camera();
   camera.show_estimate = true;
   const render::Frame frame = compose(camera, 100.0);
   ASSERT_EQ(frame.lines.size(), 1u);
@@ -343,8 +343,8 @@ TEST_F(ComposedFrame, WhoStandsParkedHasNoTrailNoPlanAndNoSpeed) {
 
 TEST_F(ComposedFrame, SpeedsStandInTheTextWhereNoLineHasTheVehiclesColour) {
   drive_until(10);
-  io::CameraConfig camera = fixed_camera();
-  camera.kind = io::CameraKind::kChase;
+  scenario::CameraConfig camera = fixed_camera();
+  camera.kind = scenario::CameraKind::kChase;
   camera.vehicle = "rover";
   camera.show_trail = false;
   const render::Frame frame = compose(camera, 5.0);
@@ -366,16 +366,16 @@ TEST_F(ComposedFrame, AMapMarksVehiclesAndHasAScale) {
   EXPECT_EQ(frame.markers[1].text, "plane (parked)");
   EXPECT_FALSE(compose(fixed_camera(), 5.0).show_scale);
   // Seen from a fixed place those in the picture have their names too, those behind it none.
-  io::CameraConfig fixed = fixed_camera();
+  scenario::CameraConfig fixed = fixed_camera();
   fixed.target_W = {5, 0, 0};
   EXPECT_EQ(compose(fixed, 5.0).markers.size(), 2u);
   fixed.target_W = {-50, 0, 0};
   EXPECT_TRUE(compose(fixed, 5.0).markers.empty());
-  io::CameraConfig chase;
+  scenario::CameraConfig chase;
   chase.vehicle = "rover";
   EXPECT_TRUE(compose(chase, 5.0).markers.empty());
   // Parked outside the picture it needs no arrow; at work it does.
-  io::CameraConfig small = top_camera();
+  scenario::CameraConfig small = top_camera();
   small.centre_W = Eigen::Vector2d(5, -4);
   small.height_m = 9.0;
   EXPECT_EQ(compose(small, 5.0).markers.size(), 1u);
@@ -427,8 +427,8 @@ TEST_F(ComposedFrame, AChaseSeeksAClearViewOnlyWhereThatIsAskedFor) {
   wall.surface = SurfaceClass::kCanopy;
   wall.X_WM.p = {2, 0, 7};
   world_.meshes.push_back(wall);
-  io::CameraConfig camera;
-  camera.kind = io::CameraKind::kChase;
+  scenario::CameraConfig camera;
+  camera.kind = scenario::CameraKind::kChase;
   camera.vehicle = "rover";
   camera.distance_m = 6.0;
   camera.height_m = 0.5;
@@ -443,4 +443,4 @@ TEST_F(ComposedFrame, AChaseSeeksAClearViewOnlyWhereThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace vinerow::frame_composer_test
+}  // namespace vinerow::playback::frame_composer_test

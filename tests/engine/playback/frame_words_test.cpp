@@ -3,14 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vinerow::frame_words_test {
+namespace vinerow::playback::frame_words_test {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 std::string title(const std::string& name, const std::string& description) {
-  io::Scenario scenario;
+  scenario::Scenario scenario;
   scenario.name = name;
   scenario.description = description;
   return picture_title(scenario);
@@ -40,7 +40,7 @@ TEST(FrameWords, TheClockDoesNotRoundUpToSixtySeconds) {
 }
 
 TEST(FrameWords, PhasesThatRunAreNamedInTheScenariosOrder) {
-  io::Scenario scenario;
+  scenario::Scenario scenario;
   for (const char* name : {"survey", "build_map", "spray"}) {
     scenario.phases.emplace_back().name = name;
   }
@@ -59,4 +59,4 @@ TEST(FrameWords, WhatAFrameShowsIsReadAsItWasWritten) {
 }
 
 }  // namespace
-}  // namespace vinerow::frame_words_test
+}  // namespace vinerow::playback::frame_words_test

@@ -8,7 +8,7 @@
 #include "engine/api/vehicle.h"
 #include "engine/api/world_model.h"
 
-namespace vinerow::log_scene_test {
+namespace vinerow::playback::log_scene_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -176,4 +176,4 @@ TEST(LogScene, AVehiclesLinksMoveWithTheirFrames) {
 }
 
 }  // namespace
-}  // namespace vinerow::log_scene_test
+}  // namespace vinerow::playback::log_scene_test

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vinerow::phase_moments_test {
+namespace vinerow::playback::phase_moments_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -25,34 +25,34 @@ class PhaseMoments : public ::testing::Test {
     spans_["spray"] = {at_s(100.0), std::nullopt};
   }
   void add_phase(const char* name, const char* vehicle) {
-    io::PhaseConfig phase;
+    scenario::PhaseConfig phase;
     phase.name = name;
     phase.vehicles = {vehicle};
     scenario_.phases.push_back(phase);
   }
-  std::set<Time> times(io::CameraKind kind, const char* vehicle) const {
-    io::CameraConfig camera;
+  std::set<Time> times(scenario::CameraKind kind, const char* vehicle) const {
+    scenario::CameraConfig camera;
     camera.kind = kind;
     camera.vehicle = vehicle;
     return moment_times(scenario_, camera, spans_);
   }
 
-  io::Scenario scenario_;
+  scenario::Scenario scenario_;
   std::map<std::string, PhaseSpan> spans_;
 };
 
 TEST_F(PhaseMoments, AreThoseOfEveryPhaseThatBegan) {
-  EXPECT_THAT(times(io::CameraKind::kFixed, ""), ElementsAre(at_s(69.0), at_s(105.0)));
-  EXPECT_THAT(times(io::CameraKind::kTop, "rover"), ElementsAre(at_s(69.0), at_s(105.0)))
+  EXPECT_THAT(times(scenario::CameraKind::kFixed, ""), ElementsAre(at_s(69.0), at_s(105.0)));
+  EXPECT_THAT(times(scenario::CameraKind::kTop, "rover"), ElementsAre(at_s(69.0), at_s(105.0)))
       << "the picture is of the place";
 }
 
 TEST_F(PhaseMoments, FollowNobodyWhoStandsParked) {
-  EXPECT_THAT(times(io::CameraKind::kChase, "plane"), ElementsAre(at_s(69.0)));
-  EXPECT_THAT(times(io::CameraKind::kChase, "rover"), ElementsAre(at_s(105.0)));
-  EXPECT_THAT(times(io::CameraKind::kOnBoard, "rover"), ElementsAre(at_s(105.0)));
-  EXPECT_EQ(times(io::CameraKind::kChase, "trailer").size(), 0u) << "it never works";
+  EXPECT_THAT(times(scenario::CameraKind::kChase, "plane"), ElementsAre(at_s(69.0)));
+  EXPECT_THAT(times(scenario::CameraKind::kChase, "rover"), ElementsAre(at_s(105.0)));
+  EXPECT_THAT(times(scenario::CameraKind::kOnBoard, "rover"), ElementsAre(at_s(105.0)));
+  EXPECT_EQ(times(scenario::CameraKind::kChase, "trailer").size(), 0u) << "it never works";
 }
 
 }  // namespace
-}  // namespace vinerow::phase_moments_test
+}  // namespace vinerow::playback::phase_moments_test

@@ -7,7 +7,7 @@
 #include "engine/record/log_reader.h"
 #include "tests/engine/sim/small_run.h"
 
-namespace vinerow::observer_run_test {
+namespace vinerow::run::observer_run_test {
 namespace {
 
 /// The truth and so much to the east, with a covariance of one; tells its offset once.
@@ -143,4 +143,4 @@ TEST_F(ObserverRun, NamesTheObserverThatWritesNaN) {
 }
 
 }  // namespace
-}  // namespace vinerow::observer_run_test
+}  // namespace vinerow::run::observer_run_test

@@ -12,7 +12,7 @@
 #include "tests/engine/record/raw_messages.h"
 #include "tests/engine/sim/small_run.h"
 
-namespace vinerow::run_files_test {
+namespace vinerow::run::run_files_test {
 namespace {
 
 const char* const kScenario = R"(
@@ -34,7 +34,7 @@ metrics: {travel: {type: travel}}
 
 Registry registry_with_sensors() {
   Registry registry = test::small_registry();
-  register_sensors(registry);
+  sensors::register_sensors(registry);
   return registry;
 }
 
@@ -185,10 +185,10 @@ TEST_F(RunFiles, TheTruthOfAScanIsStoredOnce) {
 
 TEST_F(RunFiles, RehearsingRefusesWhatARunRefusesAndWritesNothing) {
   const auto rehearse = [&](const std::vector<std::string>& sets) -> std::string {
-    io::Overrides overrides;
+    scenario::Overrides overrides;
     overrides.sets = sets;
     try {
-      rehearse_run(io::parse_scenario(kScenario, ".", registry_, overrides), registry_);
+      rehearse_run(scenario::parse_scenario(kScenario, ".", registry_, overrides), registry_);
       return "";
     } catch (const ConfigError& error) {
       return error.what();
@@ -214,4 +214,4 @@ TEST_F(RunFiles, RehearsingRefusesWhatARunRefusesAndWritesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::run_files_test
+}  // namespace vinerow::run::run_files_test

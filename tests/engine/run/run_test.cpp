@@ -13,7 +13,7 @@
 #include "engine/record/log_reader.h"
 #include "tests/engine/sim/small_run.h"
 
-namespace vinerow::run_test {
+namespace vinerow::run::run_test {
 namespace {
 
 const char* const kScenario = R"(
@@ -108,27 +108,28 @@ TEST_F(SmallRun, AVehiclesOwnMapIsInTheLogOnceAsEdges) {
 
 TEST_F(SmallRun, EstimatesAndMapsAreReadFromTheLogWhereTheyAreAskedFor) {
   run({"rover.map={type: one_sheet}"});
-  const VehicleTrace plain = read_trace(log(), {"rover"}).vehicles.at("rover");
+  const playback::VehicleTrace plain = playback::read_trace(log(), {"rover"}).vehicles.at("rover");
   EXPECT_FALSE(plain.truth.empty());
   EXPECT_TRUE(plain.estimates.empty());
   EXPECT_TRUE(plain.map_edges.points_W.empty());
-  TraceWishes wishes;
+  playback::TraceWishes wishes;
   wishes.estimates = wishes.map_edges = true;
-  const VehicleTrace all = read_trace(log(), {"rover"}, wishes).vehicles.at("rover");
+  const playback::VehicleTrace all =
+      playback::read_trace(log(), {"rover"}, wishes).vehicles.at("rover");
   ASSERT_EQ(all.estimates.size(), 1u) << "the truth is none";
   EXPECT_EQ(all.estimates.at("estimate").times, all.truth.times);
   EXPECT_EQ(all.map_edges.points_W.size(), 6u);
 }
 
 TEST(OdometryAt, CovarianceGoesStraightFromSampleToSample) {
-  Trace<Odometry> trace;
+  playback::Trace<Odometry> trace;
   trace.times = {Time{0}, Time{1'000'000'000}};
   trace.values.resize(2);
   trace.values[1].X_WB.p = {4, 0, 0};
   trace.values[0].position_variance_m2 = {1, 2, 3};
   trace.values[1].position_variance_m2 = {5, 2, 7};
   trace.values[1].position_covariance_m2 = {0.4, 0, 0};
-  const Odometry at = odometry_at(trace, Time{250'000'000});
+  const Odometry at = playback::odometry_at(trace, Time{250'000'000});
   EXPECT_LT((at.X_WB.p - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12);
   EXPECT_LT((at.position_variance_m2 - Eigen::Vector3d(2, 2, 4)).norm(), 1e-12);
   EXPECT_LT((at.position_covariance_m2 - Eigen::Vector3d(0.1, 0, 0)).norm(), 1e-12);
@@ -153,4 +154,4 @@ TEST_F(SmallRun, TheMapIsInTheLogOnceWhereTheWorldHasOne) {
 }
 
 }  // namespace
-}  // namespace vinerow::run_test
+}  // namespace vinerow::run::run_test

@@ -15,7 +15,7 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sim/small_parts.h"
 
-namespace vinerow::sensor_run_test {
+namespace vinerow::run::sensor_run_test {
 namespace {
 
 /// Registered sensors at their default rates on a scheduler, without physics.
@@ -24,7 +24,7 @@ class SensorHour {
   void add(const std::string& type, const std::string& name,
            const std::vector<std::pair<std::string, double>>& values = {}) {
     Registry registry;
-    register_sensors(registry);
+    sensors::register_sensors(registry);
     const PartSpec& spec = registry.spec(PartKind::kSensor, type);
     ParameterSet parameters(spec.parameters, type);
     for (const auto& [parameter, value] : values) parameters.set(parameter, value);
@@ -84,13 +84,13 @@ TEST(SensorHour, HoldsExactlyTheReadingsOfEachRate) {
 
 TEST(SensorLog, HoldsLateAndLostFixesBesideTheirTruth) {
   Registry registry = test::small_registry();
-  register_sensors(registry);
+  sensors::register_sensors(registry);
   const auto folder = std::filesystem::temp_directory_path() / "vinerow_sensor_log";
   std::filesystem::remove_all(folder);
   RunOptions options;
   options.out = folder;
   options.pictures = false;
-  run_scenario(io::parse_scenario(R"(
+  run_scenario(scenario::parse_scenario(R"(
 vinerow: 1
 name: sensor_log
 duration_s: 20
@@ -102,7 +102,7 @@ vehicles:
     sensors:
       gps: {type: gps, rate_Hz: 5, delay_s: 0.3, dropout_share: 0.4, position_m: [0.5, 0, 1]}
 )",
-                                  ".", registry),
+                                        ".", registry),
                registry, options);
   const record::LogReader log(folder / "log.mcap");
   std::map<std::int64_t, GnssFix> truths;
@@ -130,4 +130,4 @@ vehicles:
 }
 
 }  // namespace
-}  // namespace vinerow::sensor_run_test
+}  // namespace vinerow::run::sensor_run_test

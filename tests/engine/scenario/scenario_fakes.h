@@ -11,7 +11,7 @@
 #include "engine/scenario/scenario.h"
 #include "tests/support/spec_makers.h"
 
-namespace vinerow::io::test {
+namespace vinerow::scenario::test {
 
 inline PartSpec fake_spec(std::string name, std::vector<ParameterSpec> parameters,
                           double default_rate_Hz = 0.0) {
@@ -167,4 +167,4 @@ inline std::string fault_of_file(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace vinerow::io::test
+}  // namespace vinerow::scenario::test

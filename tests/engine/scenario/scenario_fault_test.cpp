@@ -3,7 +3,7 @@
 
 #include "tests/engine/scenario/scenario_fakes.h"
 
-namespace vinerow::io::test::scenario_fault_test {
+namespace vinerow::scenario::test::scenario_fault_test {
 namespace {
 
 using ::testing::EndsWith;
@@ -482,4 +482,4 @@ TEST(ScenarioFault, OverridesNameTheirText) {
 }
 
 }  // namespace
-}  // namespace vinerow::io::test::scenario_fault_test
+}  // namespace vinerow::scenario::test::scenario_fault_test

@@ -3,7 +3,7 @@
 #include "engine/core/random.h"
 #include "tests/engine/scenario/scenario_fakes.h"
 
-namespace vinerow::io::test::scenario_fuzz_test {
+namespace vinerow::scenario::test::scenario_fuzz_test {
 namespace {
 
 constexpr const char* kTokens[] = {
@@ -107,4 +107,4 @@ TEST(ScenarioFuzz, MutatedOverridesLoadOrExplainThemselves) {
 }
 
 }  // namespace
-}  // namespace vinerow::io::test::scenario_fuzz_test
+}  // namespace vinerow::scenario::test::scenario_fuzz_test

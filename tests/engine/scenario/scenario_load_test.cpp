@@ -3,7 +3,7 @@
 
 #include "tests/engine/scenario/scenario_fakes.h"
 
-namespace vinerow::io::test::scenario_load_test {
+namespace vinerow::scenario::test::scenario_load_test {
 namespace {
 
 Scenario parse(const std::string& yaml, const std::filesystem::path& folder = "/") {
@@ -372,4 +372,4 @@ TEST(ScenarioOverride, NewValueDoesNotKeepTheOldSource) {
 }
 
 }  // namespace
-}  // namespace vinerow::io::test::scenario_load_test
+}  // namespace vinerow::scenario::test::scenario_load_test

@@ -7,7 +7,7 @@
 
 #include "tests/engine/scenario/scenario_fakes.h"
 
-namespace vinerow::io::scenario_phases_test {
+namespace vinerow::scenario::scenario_phases_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -175,4 +175,4 @@ INSTANTIATE_TEST_SUITE_P(
               "pictures.moments: 'b + 3': unknown phase 'b'"}));
 
 }  // namespace
-}  // namespace vinerow::io::scenario_phases_test
+}  // namespace vinerow::scenario::scenario_phases_test

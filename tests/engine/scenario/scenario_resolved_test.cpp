@@ -7,7 +7,7 @@
 #include "engine/io/files/yaml.h"
 #include "tests/engine/scenario/scenario_fakes.h"
 
-namespace vinerow::io::test::scenario_resolved_test {
+namespace vinerow::scenario::test::scenario_resolved_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -159,9 +159,9 @@ TEST(ResolvedScenario, NumbersRoundTripToTheLastBit) {
   // Neighbours of awkward values: what printing with too few digits would merge.
   double value = 0.1;
   for (int i = 0; i < 200; ++i) {
-    const YamlNode printed = yaml_number(value);
-    const YamlNode read = parse_yaml(printed.text, "text", "/");
-    const YamlScalar scalar = scalar_value(read);
+    const io::YamlNode printed = io::yaml_number(value);
+    const io::YamlNode read = io::parse_yaml(printed.text, "text", "/");
+    const io::YamlScalar scalar = io::scalar_value(read);
     if (const double* number = std::get_if<double>(&scalar)) {
       EXPECT_EQ(*number, value);
     } else {
@@ -172,4 +172,4 @@ TEST(ResolvedScenario, NumbersRoundTripToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace vinerow::io::test::scenario_resolved_test
+}  // namespace vinerow::scenario::test::scenario_resolved_test

@@ -9,24 +9,24 @@
 #include "tests/engine/scenario/scenario_fakes.h"
 #include "tests/support/paths.h"
 
-namespace vinerow::io::test::scenario_schema_test {
+namespace vinerow::scenario::test::scenario_schema_test {
 namespace {
 
-nlohmann::json json_of(const YamlNode& node) {
+nlohmann::json json_of(const io::YamlNode& node) {
   nlohmann::json json;
   switch (node.kind) {
-    case YamlKind::kNull:
+    case io::YamlKind::kNull:
       break;
-    case YamlKind::kScalar:
-      std::visit([&](const auto& value) { json = value; }, scalar_value(node));
+    case io::YamlKind::kScalar:
+      std::visit([&](const auto& value) { json = value; }, io::scalar_value(node));
       break;
-    case YamlKind::kList:
+    case io::YamlKind::kList:
       json = nlohmann::json::array();
-      for (const YamlNode& item : node.items) json.push_back(json_of(item));
+      for (const io::YamlNode& item : node.items) json.push_back(json_of(item));
       break;
-    case YamlKind::kMapping:
+    case io::YamlKind::kMapping:
       json = nlohmann::json::object();
-      for (const YamlEntry& entry : node.entries) json[entry.key] = json_of(entry.value);
+      for (const io::YamlEntry& entry : node.entries) json[entry.key] = json_of(entry.value);
       break;
   }
   return json;
@@ -39,7 +39,7 @@ const SchemaValidator& validator() {
 }
 
 bool schema_accepts(const std::string& yaml) {
-  return validator().accepts(json_of(parse_yaml(yaml, "text", "/")));
+  return validator().accepts(json_of(io::parse_yaml(yaml, "text", "/")));
 }
 
 struct Variant {
@@ -270,7 +270,7 @@ TEST(ScenarioSchema, JudgesTheSameInAnotherValidator) {
   nlohmann::json cases = nlohmann::json::array();
   const auto add = [&](bool accepted, const Variant& variant) {
     const std::string yaml = with_line(variant.line, variant.text);
-    cases.push_back({accepted, json_of(parse_yaml(yaml, "text", "/"))});
+    cases.push_back({accepted, json_of(io::parse_yaml(yaml, "text", "/"))});
   };
   for (const Variant& variant : kGood) add(true, variant);
   for (const Variant& variant : kBad) add(false, variant);
@@ -299,8 +299,8 @@ TEST(ScenarioSchema, TellsUnitsRangesAndDefaults) {
 
 TEST(ScenarioSchema, OfAnEmptyRegistryIsStillASchema) {
   const SchemaValidator empty(nlohmann::json::parse(scenario_json_schema(Registry())));
-  EXPECT_FALSE(empty.accepts(json_of(parse_yaml(kCartScenario, "text", "/"))));
+  EXPECT_FALSE(empty.accepts(json_of(io::parse_yaml(kCartScenario, "text", "/"))));
 }
 
 }  // namespace
-}  // namespace vinerow::io::test::scenario_schema_test
+}  // namespace vinerow::scenario::test::scenario_schema_test

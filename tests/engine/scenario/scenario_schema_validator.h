@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace vinerow::io::test {
+namespace vinerow::scenario::test {
 
 class SchemaValidator {
  public:
@@ -161,4 +161,4 @@ class SchemaValidator {
   Json root_;
 };
 
-}  // namespace vinerow::io::test
+}  // namespace vinerow::scenario::test

@@ -5,12 +5,12 @@
 #include "engine/core/error.h"
 #include "engine/io/files/yaml.h"
 
-namespace vinerow::io::scenario_yaml_test {
+namespace vinerow::scenario::scenario_yaml_test {
 namespace {
 
 template <class T>
 T scalar(const std::string& text) {
-  return std::get<T>(scalar_value(parse_yaml(text, "text", "/")));
+  return std::get<T>(io::scalar_value(io::parse_yaml(text, "text", "/")));
 }
 
 TEST(Yaml, ScalarsFollowTheCoreSchema) {
@@ -41,20 +41,20 @@ TEST(Yaml, ScalarsFollowTheCoreSchema) {
 }
 
 TEST(Yaml, MarksAreLinesFromOne) {
-  const YamlNode root = parse_yaml("a: 1\nb:\n  - x\n  - {c: 2}\n", "f.yaml", "/");
+  const io::YamlNode root = io::parse_yaml("a: 1\nb:\n  - x\n  - {c: 2}\n", "f.yaml", "/");
   EXPECT_EQ(root.mark.text(), "f.yaml:1");
   EXPECT_EQ(root.find_entry("b")->mark.line, 2);
   EXPECT_EQ(root.find("b")->items[1].find("c")->mark.line, 4);
 }
 
 TEST(Yaml, AliasesAreCopies) {
-  const YamlNode root = parse_yaml("a: &x {b: [1, 2]}\nc: *x\n", "f.yaml", "/");
+  const io::YamlNode root = io::parse_yaml("a: &x {b: [1, 2]}\nc: *x\n", "f.yaml", "/");
   EXPECT_EQ(root.find("c")->find("b")->items.size(), 2u);
 }
 
 std::string fault_of(const std::string& text) {
   try {
-    parse_yaml(text, "f.yaml", "/");
+    io::parse_yaml(text, "f.yaml", "/");
     return "";
   } catch (const ConfigError& fault) {
     return fault.what();
@@ -81,18 +81,18 @@ TEST(Yaml, DeepNestingIsAnErrorNotACrash) {
 }
 
 TEST(Yaml, TextsPrintAndReadBack) {
-  YamlNode list = yaml_list();
+  io::YamlNode list = io::yaml_list();
   const std::vector<std::string> texts = {
       "",     " x",   "true",        "No",   "null", "~",    "12",  "1e5",
       "a: b", "#c",   "'",           "\"",   "\\",   "a\nb", "\t",  "[x]",
       "a,b",  "\x01", "caf\xc3\xa9", "/a/b", "-x",   "y",    "nan", ".nan"};
-  for (const std::string& text : texts) list.items.push_back(yaml_text(text));
-  const YamlNode back = parse_yaml(to_yaml(list), "text", "/");
+  for (const std::string& text : texts) list.items.push_back(io::yaml_text(text));
+  const io::YamlNode back = io::parse_yaml(io::to_yaml(list), "text", "/");
   ASSERT_EQ(back.items.size(), texts.size());
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    EXPECT_EQ(std::get<std::string>(scalar_value(back.items[i])), texts[i]);
+    EXPECT_EQ(std::get<std::string>(io::scalar_value(back.items[i])), texts[i]);
   }
 }
 
 }  // namespace
-}  // namespace vinerow::io::scenario_yaml_test
+}  // namespace vinerow::scenario::scenario_yaml_test

@@ -7,7 +7,7 @@
 #include "engine/scenario/space_filling.h"
 #include "tests/engine/scenario/scenario_fakes.h"
 
-namespace vinerow::io::test::study_test {
+namespace vinerow::scenario::test::study_test {
 namespace {
 
 /// Loads "vinerow_study: 1", a scenario and this.
@@ -208,4 +208,4 @@ TEST(StudyValues, AreCheckedAgainstTheScenario) {
 }
 
 }  // namespace
-}  // namespace vinerow::io::test::study_test
+}  // namespace vinerow::scenario::test::study_test

@@ -7,7 +7,7 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
-namespace vinerow::air_data_test {
+namespace vinerow::sensors::air_data_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -107,4 +107,4 @@ TEST_F(AirDataBench, ADelayedReadingKeepsItsTime) {
 }
 
 }  // namespace
-}  // namespace vinerow::air_data_test
+}  // namespace vinerow::sensors::air_data_test

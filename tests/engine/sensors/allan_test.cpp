@@ -11,7 +11,7 @@
 #include "tests/engine/sensors/data_sheet.h"
 #include "tests/engine/sensors/sensor_rig.h"
 
-namespace vinerow::allan_test {
+namespace vinerow::sensors::allan_test {
 namespace {
 
 using test::AllanDeviation;
@@ -146,4 +146,4 @@ TEST(ImuNoise, AnInstabilityBelowTheWhiteNoiseIsRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow::allan_test
+}  // namespace vinerow::sensors::allan_test

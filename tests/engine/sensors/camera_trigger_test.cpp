@@ -10,7 +10,7 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
-namespace vinerow::camera_trigger_test {
+namespace vinerow::sensors::camera_trigger_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -307,4 +307,4 @@ TEST_F(CameraBench, LanesNeedAPlanner) {
 }
 
 }  // namespace
-}  // namespace vinerow::camera_trigger_test
+}  // namespace vinerow::sensors::camera_trigger_test

@@ -8,7 +8,7 @@
 #include "tests/engine/sensors/conformance_bench.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::conformance_test {
+namespace vinerow::sensors::conformance_test {
 namespace {
 
 using test::ConformanceBench;
@@ -148,4 +148,4 @@ INSTANTIATE_TEST_SUITE_P(All, SensorConformance,
                          [](const auto& parameter) { return parameter.param; });
 
 }  // namespace
-}  // namespace vinerow::conformance_test
+}  // namespace vinerow::sensors::conformance_test

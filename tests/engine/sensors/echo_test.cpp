@@ -11,7 +11,7 @@
 #include "tests/engine/sensors/ranging_bench.h"
 #include "tests/engine/sensors/shape_scene.h"
 
-namespace vinerow::echo_test {
+namespace vinerow::sensors::echo_test {
 namespace {
 
 using test::Panel;
@@ -20,7 +20,7 @@ using Bench = test::RangingBench<RangeSample>;
 
 constexpr auto kSmooth = SurfaceClass::kObstacle;
 
-io::PartConfig hc_sr04() {
+scenario::PartConfig hc_sr04() {
   // Many rays: these tests are of the model, not of the bundle.
   return test::data_sheet(
       "hc_sr04", {{"missed_share", 0.0}, {"false_share", 0.0}, {"rings", std::int64_t{40}}});
@@ -49,7 +49,7 @@ ShapeScene panel(double distance_m, double width_m, double height_m, double asid
 }
 
 TEST(HcSr04, ReadsItsFile) {
-  const io::PartConfig part = test::data_sheet("hc_sr04");
+  const scenario::PartConfig part = test::data_sheet("hc_sr04");
   EXPECT_EQ(part.type, "ultrasound");
   EXPECT_EQ(part.rate_Hz, 20.0);
   EXPECT_EQ(part.parameters.number("accuracy_m"), 0.003);
@@ -156,4 +156,4 @@ TEST(Echo, ReturnsWithinAPulseAddUp) {
 }
 
 }  // namespace
-}  // namespace vinerow::echo_test
+}  // namespace vinerow::sensors::echo_test

@@ -10,7 +10,7 @@
 #include "tests/engine/sensors/sensor_parts.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::encoders_test {
+namespace vinerow::sensors::encoders_test {
 namespace {
 
 using test::SensorBench;
@@ -146,4 +146,4 @@ TEST(Encoders, SaysWhichVehicleTellsNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::encoders_test
+}  // namespace vinerow::sensors::encoders_test

@@ -10,7 +10,7 @@
 #include "tests/support/no_alloc.h"
 #include "tests/support/paths.h"
 
-namespace vinerow::field_sensors_test {
+namespace vinerow::sensors::field_sensors_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -210,4 +210,4 @@ TEST(DataSheets, EveryNumberHasASource) {
 }
 
 }  // namespace
-}  // namespace vinerow::field_sensors_test
+}  // namespace vinerow::sensors::field_sensors_test

@@ -20,7 +20,7 @@ void PrintTo(GnssFix::Mode mode, std::ostream* out) {
 
 }  // namespace vinerow
 
-namespace vinerow::gnss_mode_test {
+namespace vinerow::sensors::gnss_mode_test {
 namespace {
 
 using Mode = GnssFix::Mode;
@@ -249,4 +249,4 @@ TEST(GnssError, ABaseStationFarAwayAddsAMillimetrePerKilometre) {
 }
 
 }  // namespace
-}  // namespace vinerow::gnss_mode_test
+}  // namespace vinerow::sensors::gnss_mode_test

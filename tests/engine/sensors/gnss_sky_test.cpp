@@ -9,7 +9,7 @@
 #include "engine/sensors/gnss_geometry.h"
 #include "engine/sensors/gnss_sky.h"
 
-namespace vinerow::gnss_sky_test {
+namespace vinerow::sensors::gnss_sky_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -187,4 +187,4 @@ TEST(GnssGeometry, SatellitesOnOneConeTellNoPosition) {
 }
 
 }  // namespace
-}  // namespace vinerow::gnss_sky_test
+}  // namespace vinerow::sensors::gnss_sky_test

@@ -10,7 +10,7 @@
 #include "tests/engine/sensors/sensor_rig.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::gnss_test {
+namespace vinerow::sensors::gnss_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -197,8 +197,8 @@ TEST(Gnss, ContradictionsAreRefusedInOneSentence) {
 
 TEST(Gnss, TheDataSheetsAreReadAndDiffer) {
   const BoxScene open;
-  const io::PartConfig rtk = test::data_sheet("zed_f9p_rtk");
-  const io::PartConfig plain = test::data_sheet("neo_m8n");
+  const scenario::PartConfig rtk = test::data_sheet("zed_f9p_rtk");
+  const scenario::PartConfig plain = test::data_sheet("neo_m8n");
   EXPECT_EQ(rtk.type, "gnss");
   EXPECT_EQ(rtk.rate_Hz, 5.0);
   GnssBench good(open, rtk.parameters), usual(open, plain.parameters);
@@ -210,4 +210,4 @@ TEST(Gnss, TheDataSheetsAreReadAndDiffer) {
 }
 
 }  // namespace
-}  // namespace vinerow::gnss_test
+}  // namespace vinerow::sensors::gnss_test

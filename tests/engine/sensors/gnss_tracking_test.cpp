@@ -9,7 +9,7 @@
 #include "engine/api/parameter_table.h"
 #include "tests/engine/sensors/gnss_bench.h"
 
-namespace vinerow::gnss_tracking_test {
+namespace vinerow::sensors::gnss_tracking_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -129,4 +129,4 @@ TEST(GnssTracking, AfterABlockageCodeComesBackBeforePhase) {
 }
 
 }  // namespace
-}  // namespace vinerow::gnss_tracking_test
+}  // namespace vinerow::sensors::gnss_tracking_test

@@ -7,7 +7,7 @@
 #include "tests/engine/sensors/gnss_bench.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::gnss_vineyard_test {
+namespace vinerow::sensors::gnss_vineyard_test {
 namespace {
 
 using test::GnssBench;
@@ -61,4 +61,4 @@ TEST(GnssVineyard, NearTheGroundBetweenRowsFixAndErrorAreWorse) {
 }
 
 }  // namespace
-}  // namespace vinerow::gnss_vineyard_test
+}  // namespace vinerow::sensors::gnss_vineyard_test

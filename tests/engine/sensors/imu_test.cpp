@@ -6,7 +6,7 @@
 #include "tests/engine/sensors/sensor_rig.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::imu_test {
+namespace vinerow::sensors::imu_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -211,4 +211,4 @@ TEST(Imu, AStepWithEverythingOnAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::imu_test
+}  // namespace vinerow::sensors::imu_test

@@ -5,7 +5,7 @@
 #include "tests/engine/sensors/sensor_rig.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::ins_test {
+namespace vinerow::sensors::ins_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -155,4 +155,4 @@ TEST(Ins, AStepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::ins_test
+}  // namespace vinerow::sensors::ins_test

@@ -10,7 +10,7 @@
 #include "tests/engine/sensors/shape_scene.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::lidar_test {
+namespace vinerow::sensors::lidar_test {
 namespace {
 
 using test::SensorValues;
@@ -225,4 +225,4 @@ TEST(Lidar, RefusesBadInputInOneSentence) {
 }
 
 }  // namespace
-}  // namespace vinerow::lidar_test
+}  // namespace vinerow::sensors::lidar_test

@@ -16,7 +16,7 @@ class RangingBench {
   RangingBench(const std::string& type, const SensorValues& values, const SceneQuery& scene,
                double rate_Hz = 20.0, std::uint64_t seed = 1)
       : RangingBench(type, sensor_parameters(type, values), scene, rate_Hz, seed) {}
-  RangingBench(const io::PartConfig& part, const SceneQuery& scene, std::uint64_t seed = 1)
+  RangingBench(const scenario::PartConfig& part, const SceneQuery& scene, std::uint64_t seed = 1)
       : RangingBench(part.type, part.parameters, scene, part.rate_Hz, seed) {}
   RangingBench(const std::string& type, const ParameterSet& parameters, const SceneQuery& scene,
                double rate_Hz, std::uint64_t seed) {

@@ -16,7 +16,7 @@
 #include "tests/support/data.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::ranging_vineyard_test {
+namespace vinerow::sensors::ranging_vineyard_test {
 namespace {
 
 struct Riseholme {
@@ -92,7 +92,7 @@ TEST(RangingInAVineyard, TheConeOfADeviceFindsTheFirstReturnOnACanopy) {
 }
 
 std::vector<Eigen::Vector2d> in_plane(const std::vector<io::GeoFeature>& features) {
-  const io::LocalFrame frame(riseholme().world->origin);
+  const LocalFrame frame(riseholme().world->origin);
   std::vector<Eigen::Vector2d> points;
   for (const io::GeoFeature& feature : features)
     points.push_back(frame.to_local(feature.points.front()).head<2>());
@@ -158,4 +158,4 @@ TEST(RangingInAVineyard, WhatAScannerSeesAreTheSurveyedPolesAndVines) {
 }
 
 }  // namespace
-}  // namespace vinerow::ranging_vineyard_test
+}  // namespace vinerow::sensors::ranging_vineyard_test

@@ -14,7 +14,7 @@ namespace vinerow::test {
 inline const Registry& sensor_registry() {
   static const Registry registry = [] {
     Registry r;
-    register_sensors(r);
+    sensors::register_sensors(r);
     return r;
   }();
   return registry;

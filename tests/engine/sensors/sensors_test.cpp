@@ -8,7 +8,7 @@
 #include "tests/engine/sensors/fixed_scene.h"
 #include "tests/engine/sensors/sensor_parts.h"
 
-namespace vinerow::sensors_test {
+namespace vinerow::sensors::sensors_test {
 namespace {
 
 using test::SensorBench;
@@ -209,4 +209,4 @@ TEST(Ultrasound, NothingInRangeReadsInfinity) {
 }
 
 }  // namespace
-}  // namespace vinerow::sensors_test
+}  // namespace vinerow::sensors::sensors_test

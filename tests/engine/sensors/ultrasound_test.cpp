@@ -11,7 +11,7 @@
 #include "tests/engine/sensors/shape_scene.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::ultrasound_test {
+namespace vinerow::sensors::ultrasound_test {
 namespace {
 
 using test::Panel;
@@ -268,4 +268,4 @@ TEST(Ultrasound, RefusesBadInputInOneSentence) {
 }
 
 }  // namespace
-}  // namespace vinerow::ultrasound_test
+}  // namespace vinerow::sensors::ultrasound_test

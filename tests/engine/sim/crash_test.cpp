@@ -47,8 +47,8 @@ class CrashRun : public test::RunFixture {
 };
 
 TEST_F(CrashRun, EndsAtTheCrashUnlessTheScenarioSaysOtherwise) {
-  const RunResult result = run({"drone.crash_s=0.2"});
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  const run::RunResult result = run({"drone.crash_s=0.2"});
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
   EXPECT_EQ(static_cast<int>(result.status), 1);
   EXPECT_DOUBLE_EQ(result.simulated_s, 0.2);
   EXPECT_FALSE(result.finished);
@@ -75,8 +75,8 @@ TEST_F(CrashRun, EndsAtTheCrashUnlessTheScenarioSaysOtherwise) {
 }
 
 TEST_F(CrashRun, GoesOnForTheOthersWhereItIsToFailOnly) {
-  const RunResult result = run({"drone.crash_s=0.1", "drone.on_crash=fail"});
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  const run::RunResult result = run({"drone.crash_s=0.1", "drone.on_crash=fail"});
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
   // The rover finishes at 0.3 s; nobody waits for the wreck.
   EXPECT_DOUBLE_EQ(result.simulated_s, 0.3);
   EXPECT_FALSE(result.finished);
@@ -87,7 +87,7 @@ TEST_F(CrashRun, GoesOnForTheOthersWhereItIsToFailOnly) {
 }
 
 TEST_F(CrashRun, AllCrashesAreToldAndNobodyLeftIsTheEnd) {
-  const RunResult result = run(
+  const run::RunResult result = run(
       {"drone.crash_s=0.1", "drone.on_crash=fail", "rover.crash_s=0.25", "rover.on_crash=fail"});
   EXPECT_DOUBLE_EQ(result.simulated_s, 0.25);
   EXPECT_EQ(result.error,
@@ -97,21 +97,21 @@ TEST_F(CrashRun, AllCrashesAreToldAndNobodyLeftIsTheEnd) {
 }
 
 TEST_F(CrashRun, RunsOnToTheEndWhereNobodyWaitsForControllers) {
-  const RunResult result =
+  const run::RunResult result =
       run({"drone.crash_s=0.1", "drone.on_crash=fail", "stop_when_finished=false"});
   EXPECT_DOUBLE_EQ(result.simulated_s, 0.5);
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
 }
 
 TEST_F(CrashRun, AVehicleThatFinishedAndThenCrashedHasNotFinished) {
-  const RunResult result = run({"rover.crash_s=0.4"});
+  const run::RunResult result = run({"rover.crash_s=0.4"});
   EXPECT_DOUBLE_EQ(result.simulated_s, 0.4);
   EXPECT_EQ(result.metrics.at("rover").at("finished"), 0.0);
 }
 
 TEST_F(CrashRun, WithoutACrashThereIsNoWordOfIt) {
-  const RunResult result = run({"drone.controller.finish_s=0.2"});
-  EXPECT_EQ(result.status, RunStatus::kAllMet);
+  const run::RunResult result = run({"drone.controller.finish_s=0.2"});
+  EXPECT_EQ(result.status, run::RunStatus::kAllMet);
   EXPECT_TRUE(result.finished);
   EXPECT_TRUE(result.error.empty());
   EXPECT_FALSE(summary().contains("crashes"));

@@ -9,9 +9,9 @@
 namespace vinerow::judge_test {
 namespace {
 
-io::Criterion criterion(const std::string& metric, std::optional<double> min,
-                        std::optional<double> max) {
-  io::Criterion result;
+scenario::Criterion criterion(const std::string& metric, std::optional<double> min,
+                              std::optional<double> max) {
+  scenario::Criterion result;
   result.name = result.metric = metric;
   result.min = min;
   result.max = max;
@@ -36,7 +36,7 @@ TEST(Judge, LimitsAreInclusiveAndWhatWasNotMeasuredFails) {
 }
 
 TEST(Judge, UnknownMetricsAreRefusedWithTheNearest) {
-  io::Criterion wrong = criterion("rover.cross_track_rms", {}, 0.1);
+  scenario::Criterion wrong = criterion("rover.cross_track_rms", {}, 0.1);
   wrong.where = {"x.yaml", 7};
   try {
     judge({wrong}, {{"rover", {{"cross_track_rms_m", 0.0}, {"distance_m", 0.0}}}});
@@ -73,12 +73,12 @@ TEST(Judge, ALongListOfMetricsIsCutWhereOneIsNear) {
 /// What is said of a criterion before the run, of a scenario with these metrics.
 std::string refusal_of(const std::string& metric, std::optional<double> min,
                        std::optional<double> max, const std::vector<std::string>& types) {
-  std::vector<io::NamedPart> parts;
+  std::vector<scenario::NamedPart> parts;
   for (const std::string& type : types) {
     parts.push_back({type, {}});
     parts.back().part.type = type;
   }
-  io::Criterion wanted = criterion(metric, min, max);
+  scenario::Criterion wanted = criterion(metric, min, max);
   wanted.where = {"x.yaml", 7};
   const std::string name = metric.substr(metric.find('.') + 1);
   try {

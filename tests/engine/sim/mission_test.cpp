@@ -67,7 +67,7 @@ class MissionRun : public test::RunFixture {
     return last;
   }
   /// State, begin and end of every phase: "survey succeeded 0.0-2.0".
-  static std::vector<std::string> told(const RunResult& result) {
+  static std::vector<std::string> told(const run::RunResult& result) {
     std::vector<std::string> lines;
     for (const PhaseReport& phase : result.phases) {
       std::ostringstream line;
@@ -79,7 +79,7 @@ class MissionRun : public test::RunFixture {
     }
     return lines;
   }
-  static const PhaseReport& phase(const RunResult& result, const std::string& name) {
+  static const PhaseReport& phase(const run::RunResult& result, const std::string& name) {
     for (const PhaseReport& report : result.phases) {
       if (report.name == name) return report;
     }
@@ -93,8 +93,8 @@ class MissionRun : public test::RunFixture {
 };
 
 TEST_F(MissionRun, PhasesBeginWhenWhatTheyWaitForIsDone) {
-  const RunResult result = run();
-  EXPECT_EQ(result.status, RunStatus::kAllMet);
+  const run::RunResult result = run();
+  EXPECT_EQ(result.status, run::RunStatus::kAllMet);
   EXPECT_TRUE(result.finished);
   // A controller says at its tick that it has finished; the next instant, 1 ms later, acts on it.
   EXPECT_EQ(told(result),
@@ -104,7 +104,7 @@ TEST_F(MissionRun, PhasesBeginWhenWhatTheyWaitForIsDone) {
 }
 
 TEST_F(MissionRun, ProductsReachThoseWhoNameThem) {
-  const RunResult result = run();
+  const run::RunResult result = run();
   // Pictures at 0, 1 and 2 s, each told twice: the one at 2.0 falls into the survey's last tick.
   EXPECT_EQ(phase(result, "build_map").numbers.at("rows"), 3.0);
   const record::LogReader log(folder_ / "log.mcap");
@@ -128,8 +128,8 @@ TEST_F(MissionRun, SameMissionSameDigestAndFiles) {
 }
 
 TEST_F(MissionRun, AFailedJobBlocksWhatWaitsForItAndEndsTheMission) {
-  const RunResult result = run({"phases.build_map.job.fails=true"});
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  const run::RunResult result = run({"phases.build_map.job.fails=true"});
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
   EXPECT_EQ(phase(result, "build_map").state, PhaseState::kFailed);
   EXPECT_EQ(phase(result, "build_map").reason, "the pictures are too dark");
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kBlocked);
@@ -140,17 +140,17 @@ TEST_F(MissionRun, AFailedJobBlocksWhatWaitsForItAndEndsTheMission) {
 }
 
 TEST_F(MissionRun, ATimeoutFailsItsPhaseAloneWhereOthersMayContinue) {
-  const RunResult result = run(
+  const run::RunResult result = run(
       {"rover.controller.work_s=1000", "phases.spray.timeout_s=2", "drone.controller.work_s=6"});
   EXPECT_EQ(told(result)[2], "spray failed 5.00-7.00");
   EXPECT_EQ(phase(result, "spray").reason, "rover had not finished after 2 s, its timeout");
   EXPECT_EQ(told(result)[3], "scout succeeded 5.00-11.00");
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
 }
 
 TEST_F(MissionRun, AnAbortStopsWhatRuns) {
-  const RunResult result = run({"rover.controller.work_s=1000", "phases.spray.timeout_s=2",
-                                "phases.spray.on_failure=abort", "drone.controller.work_s=6"});
+  const run::RunResult result = run({"rover.controller.work_s=1000", "phases.spray.timeout_s=2",
+                                     "phases.spray.on_failure=abort", "drone.controller.work_s=6"});
   EXPECT_EQ(told(result)[3], "scout stopped 5.00-7.00");
   EXPECT_EQ(phase(result, "scout").reason, "'spray' failed, which ends the mission");
 }
@@ -171,31 +171,32 @@ TEST_F(MissionRun, WhatFailsInTheAirIsLeftToItsController) {
 }
 
 TEST_F(MissionRun, ACrashLeavesTheOthersAtWork) {
-  const RunResult result = run({"drone.crash_s=5.5", "phases.scout.on_failure=continue"});
+  const run::RunResult result = run({"drone.crash_s=5.5", "phases.scout.on_failure=continue"});
   EXPECT_EQ(phase(result, "scout").state, PhaseState::kFailed);
   EXPECT_THAT(phase(result, "scout").reason, HasSubstr("drone crashed at 5.500 s"));
   EXPECT_EQ(told(result)[2], "spray succeeded 5.00-9.00");
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
 }
 
 TEST_F(MissionRun, AMissedCriterionFailsItsPhase) {
-  const RunResult result = run({"phases.build_map.criteria=[{metric: rows, min: 16}]"});
+  const run::RunResult result = run({"phases.build_map.criteria=[{metric: rows, min: 16}]"});
   EXPECT_EQ(phase(result, "build_map").state, PhaseState::kFailed);
   EXPECT_EQ(phase(result, "build_map").reason, "missed rows = 3 (at least 16)");
   ASSERT_EQ(phase(result, "build_map").criteria.size(), 1u);
 }
 
 TEST_F(MissionRun, TheEndOfTheRunFailsWhatRunsAndNamesWhatWasNotReached) {
-  const RunResult result = run({"duration_s=3"});
+  const run::RunResult result = run({"duration_s=3"});
   EXPECT_EQ(phase(result, "build_map").reason, "the run's duration of 3 s was over");
   EXPECT_EQ(phase(result, "spray").state, PhaseState::kNotStarted);
-  EXPECT_EQ(result.status, RunStatus::kCriterionFailed);
+  EXPECT_EQ(result.status, run::RunStatus::kCriterionFailed);
 }
 
 TEST_F(MissionRun, WeatherIsWaitedFor) {
-  const RunResult calm = run({"phases.survey.weather={max_wind_mps: 1, over_s: 5, wait_s: 0}"});
+  const run::RunResult calm =
+      run({"phases.survey.weather={max_wind_mps: 1, over_s: 5, wait_s: 0}"});
   EXPECT_NEAR(phase(calm, "survey").begin->s(), 4.0, 0.01) << "the first five readings";
-  EXPECT_EQ(calm.status, RunStatus::kAllMet);
+  EXPECT_EQ(calm.status, run::RunStatus::kAllMet);
 }
 
 TEST_F(MissionRun, VerdictsAreTestCases) {
@@ -224,16 +225,16 @@ TEST_F(MissionRun, TheSummaryTellsThePhases) {
 }
 
 TEST_F(MissionRun, TimesOfAPhaseCountFromItsBegin) {
-  const RunResult result = run();
+  const run::RunResult result = run();
   // 4 s of work; without that it would be 9 s of the run.
   EXPECT_NEAR(result.metrics.at("rover").at("time_s"), 4.0, 0.1);
 }
 
 TEST_F(MissionRun, AVehicleMayWorkInSeveralPhasesOneAfterTheOther) {
-  const RunResult result =
+  const run::RunResult result =
       run({"phases.again={vehicles: [plane], after: [scout]}", "drone.controller.work_s=1"});
   EXPECT_EQ(told(result).back(), "again succeeded 6.00-8.00");
-  EXPECT_EQ(result.status, RunStatus::kAllMet);
+  EXPECT_EQ(result.status, run::RunStatus::kAllMet);
 }
 
 TEST_F(MissionRun, FaultsOfPartsAreFoundBeforeAnythingRuns) {

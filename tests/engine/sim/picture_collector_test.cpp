@@ -13,13 +13,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-io::NamedPart camera() {
+scenario::NamedPart camera() {
   Registry registry;
-  register_sensors(registry);
+  sensors::register_sensors(registry);
   const PartSpec& spec = registry.spec(PartKind::kSensor, "camera_trigger");
   ParameterSet parameters(spec.parameters, "camera_trigger");
   parameters.set("position_m", std::vector<double>{0.2, 0.0, -0.1});
-  io::NamedPart part;
+  scenario::NamedPart part;
   part.name = "camera";
   part.part.type = "camera_trigger";
   part.part.parameters = parameters;

@@ -19,23 +19,23 @@ class RunFixture : public FolderTest {
   /// @param yaml  the scenario
   explicit RunFixture(std::string yaml, Registry registry = small_registry())
       : FolderTest("run"), registry_(std::move(registry)), yaml_(std::move(yaml)) {
-    register_metrics(registry_);
+    metrics::register_metrics(registry_);
     register_truth_estimator(registry_);
   }
 
-  RunResult run(const std::vector<std::string>& sets = {}) {
-    io::Overrides overrides;
+  run::RunResult run(const std::vector<std::string>& sets = {}) {
+    scenario::Overrides overrides;
     overrides.sets = sets;
     options_.out = folder_;
-    return run_scenario(io::parse_scenario(yaml_, ".", registry_, overrides), registry_, options_);
+    return run::run_scenario(scenario::parse_scenario(yaml_, ".", registry_, overrides), registry_, options_);
   }
   nlohmann::json summary() const {
     return nlohmann::json::parse(std::ifstream(folder_ / "summary.json"));
   }
 
   Registry registry_;
-  RunOptions options_ = [] {
-    RunOptions options;
+  run::RunOptions options_ = [] {
+    run::RunOptions options;
     options.pictures = false;
     return options;
   }();

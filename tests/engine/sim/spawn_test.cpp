@@ -61,7 +61,7 @@ VehicleDescription rover() {
 }
 
 struct Start {
-  io::SpawnConfig spawn;
+  scenario::SpawnConfig spawn;
   WorldModel world;
 
   Start() {
@@ -177,10 +177,10 @@ TEST(Camera, IsRefusedBelowTheGroundAndInsideAnObstacle) {
                                      SurfaceClass::kObstacle));
   const physics::WorldScene scene(world);
   const auto fault_at = [&](const Vector3d& p) {
-    io::PicturesConfig pictures;
-    io::CameraConfig camera;
+    scenario::PicturesConfig pictures;
+    scenario::CameraConfig camera;
     camera.name = "gate";
-    camera.kind = io::CameraKind::kFixed;
+    camera.kind = scenario::CameraKind::kFixed;
     camera.where = {"s.yaml", 30};
     camera.p_W = p;
     pictures.cameras.push_back(camera);

@@ -150,7 +150,7 @@ Registry alley_registry() {
                           [](const ParameterSet& parameters, const ControllerContext& context) {
                             return std::make_unique<Driver>(parameters, context);
                           });
-  register_metrics(registry);
+  metrics::register_metrics(registry);
   register_truth_estimator(registry);
   return registry;
 }
@@ -188,10 +188,10 @@ class AlleyRun : public RunObserver {
  public:
   explicit AlleyRun(const std::vector<std::string>& sets = {}, const std::string& more = "")
       : registry_(alley_registry()) {
-    io::Overrides overrides;
+    scenario::Overrides overrides;
     overrides.sets = sets;
     simulation_ = std::make_unique<Simulation>(
-        io::parse_scenario(kScenario + more, ".", registry_, overrides), registry_);
+        scenario::parse_scenario(kScenario + more, ".", registry_, overrides), registry_);
     simulation_->add_observer(this);
   }
   void until(double t_s) { simulation_->run_until(Time{} + duration_from_s(t_s)); }

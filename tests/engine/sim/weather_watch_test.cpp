@@ -20,7 +20,7 @@ WorldModel windy(double mean_mps) {
 }
 
 /// When the verdict fell, and which.
-std::pair<double, Verdict> wait(const io::WeatherWindow& window, const WorldModel& world) {
+std::pair<double, Verdict> wait(const scenario::WeatherWindow& window, const WorldModel& world) {
   WeatherWatch watch(window, world);
   for (int k = 0; k < 1'000'000; ++k) {
     const Time now{k * 10'000'000ll};

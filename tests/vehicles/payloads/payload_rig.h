@@ -67,7 +67,7 @@ inline double area_of(const MeshInstance& instance) {
 inline const Registry& vehicle_registry() {
   static const Registry registry = [] {
     Registry r;
-    register_vehicles(r);
+    vehicles::register_vehicles(r);
     return r;
   }();
   return registry;

@@ -13,16 +13,16 @@ namespace vinerow::test {
 
 /// Rows, hulls and accuracy of a survey of the true canopy, the world's ground and grid; a report
 /// with a number of its own in every field.
-inline const worlds::CloudMap& map_of_world(const std::string& type) {
-  static std::map<std::string, worlds::CloudMap> maps;
-  worlds::CloudMap& map = maps[type];
+inline const mapping::CloudMap& map_of_world(const std::string& type) {
+  static std::map<std::string, mapping::CloudMap> maps;
+  mapping::CloudMap& map = maps[type];
   if (!map.map.rows.empty()) return map;
   const SurveyedWorld& world = surveyed_world(type);
   map.map = *world_registry().make_map("row_mesh", map_parameters("row_mesh"), world.context());
   map.map.terrain = world.model->terrain;
   map.origin = world.model->origin;
   map.has_origin = true;
-  worlds::CloudMapReport& report = map.report;
+  mapping::CloudMapReport& report = map.report;
   report.file = "flight \"one\"/parcel_ü.las";
   report.format = "LAS 1.4";
   report.crs = "EPSG:32632";
@@ -42,7 +42,7 @@ inline const worlds::CloudMap& map_of_world(const std::string& type) {
   report.reduction = 0.9876;
   report.notes = {"First sentence.", "Second <sentence> & \"more\"."};
   for (const PlantRow& row : map.map.rows) {
-    worlds::MappedRowFigures figures;
+    mapping::MappedRowFigures figures;
     figures.row = row.id;
     figures.first_W = row.line_W.front();
     figures.last_W = row.line_W.back();
@@ -79,7 +79,7 @@ class MapFolders {
 inline std::string folder_of_world(const std::string& type) {
   static const MapFolders folders;
   const std::filesystem::path folder = folders.path() / type;
-  if (!std::filesystem::exists(folder)) worlds::save_map(map_of_world(type), folder);
+  if (!std::filesystem::exists(folder)) mapping::save_map(map_of_world(type), folder);
   return folder.string();
 }
 

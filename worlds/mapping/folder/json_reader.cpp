@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 /// A value as a sentence shows it.
@@ -85,4 +85,4 @@ std::vector<double> JsonReader::numbers_of(int size) const {
   return numbers;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// A value with its place in the file. Refers to the parsed file, which must outlive it.
 class JsonReader {
@@ -47,4 +47,4 @@ class JsonReader {
   std::string subject_, place_;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -10,7 +10,7 @@
 #include "engine/io/meshes/mesh_file.h"
 #include "engine/io/meshes/mesh_writer.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 /// Reads "row_03_hull_00.ply"; nothing of other names.
@@ -70,4 +70,4 @@ std::vector<RowMesh> load_meshes(const std::string& folder) {
   return meshes;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 
 #include "engine/api/map.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// One PLY file per mesh, "row_03_hull_00.ply", into a folder that is made if need be; what it
 /// holds of such files is replaced.
@@ -17,4 +17,4 @@ void save_meshes(const std::vector<RowMesh>& meshes, const std::string& folder);
 /// none, a name tells no row, or a file is broken
 std::vector<RowMesh> load_meshes(const std::string& folder);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -16,7 +16,7 @@
 #include "worlds/mapping/folder/map_gis.h"
 #include "worlds/mapping/folder/map_json.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +140,4 @@ CloudMap load_map(const fs::path& folder) {
   return map;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

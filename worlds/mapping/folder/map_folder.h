@@ -16,7 +16,7 @@
 
 #include "worlds/mapping/model/cloud_map.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Into a folder that is made if need be. What it holds of these files is replaced; those that the
 /// map has nothing for are removed, other files are left alone. Same map, same bytes.
@@ -41,4 +41,4 @@ int count_blocks(const CloudMap& map);
 /// the rows. @pre map.has_origin
 std::string map_to_geojson(const CloudMap& map);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

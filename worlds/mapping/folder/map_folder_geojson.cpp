@@ -5,17 +5,17 @@
 #include "worlds/mapping/folder/map_folder.h"
 #include "worlds/mapping/folder/map_gis.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 /// 1e-9 deg is 0.1 mm.
-std::string position(const io::LocalFrame& frame, const Eigen::Vector3d& p_W) {
-  const io::Geodetic place = frame.to_geodetic(p_W);
+std::string position(const LocalFrame& frame, const Eigen::Vector3d& p_W) {
+  const Geodetic place = frame.to_geodetic(p_W);
   return fmt::format("[{:.9f}, {:.9f}, {:.3f}]", deg_from_rad(place.longitude_rad),
                      deg_from_rad(place.latitude_rad), place.altitude_m);
 }
 
-std::string line(const io::LocalFrame& frame, const std::vector<Eigen::Vector3d>& line_W) {
+std::string line(const LocalFrame& frame, const std::vector<Eigen::Vector3d>& line_W) {
   std::string text;
   for (const Eigen::Vector3d& p : line_W) {
     text += (text.empty() ? "" : ", ") + position(frame, p);
@@ -34,7 +34,7 @@ std::string feature(const std::string& properties, const char* kind,
 }  // namespace
 
 std::string map_to_geojson(const CloudMap& map) {
-  const io::LocalFrame frame(map.origin);
+  const LocalFrame frame(map.origin);
   std::vector<std::string> features;
   for (std::size_t k = 0; k < map.map.rows.size(); ++k) {
     const PlantRow& row = map.map.rows[k];
@@ -78,4 +78,4 @@ std::string map_to_geojson(const CloudMap& map) {
   return text + "]}\n";
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

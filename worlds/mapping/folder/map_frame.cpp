@@ -7,12 +7,12 @@
 #include "engine/math/geo.h"
 #include "worlds/mapping/model/map_placement.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 /// Frame of the new W in which points of the old are given: both are straight axes in space.
 Eigen::Isometry3d find_move(const GeoOrigin& from, const GeoOrigin& to) {
-  const io::LocalFrame old_frame(from), new_frame(to);
+  const LocalFrame old_frame(from), new_frame(to);
   const auto moved = [&](const Eigen::Vector3d& p) {
     return new_frame.to_local(old_frame.to_geodetic(p));
   };
@@ -118,4 +118,4 @@ double distance_between_m(const std::vector<PlantRow>& a, const std::vector<Plan
   return one.intersects(other) ? 0.0 : one.exteriorDistance(other);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 
 #include "worlds/mapping/model/cloud_map.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Moves everything of a map to the local East-North-Up frame of another origin. Lines, boundary
 /// and meshes are turned and shifted as the two frames lie to each other on the ellipsoid; the
@@ -20,4 +20,4 @@ void move_map(const GeoOrigin& to, CloudMap& map);
 /// boxes overlap. @pre both have rows
 double distance_between_m(const std::vector<PlantRow>& a, const std::vector<PlantRow>& b);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

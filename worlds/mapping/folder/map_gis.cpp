@@ -12,7 +12,7 @@
 #include "engine/io/geo/local_to_crs.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -255,4 +255,4 @@ void save_gis(const CloudMap& map, const ParcelCloud& cloud, const std::filesyst
   io::write_crs_raster(rasters.chm, folder / "gis" / "chm.tif");
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -15,7 +15,7 @@
 #include "worlds/mapping/model/cloud_map.h"
 #include "worlds/mapping/model/parcel_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Figures of a row under the names that tables and layers give them, in their order.
 std::vector<std::pair<std::string, double>> row_values(const MappedRowFigures& row);
@@ -32,4 +32,4 @@ std::string gis_crs(const CloudMap& map);
 /// @throws ConfigError naming a file that cannot be written
 void save_gis(const CloudMap& map, const ParcelCloud& cloud, const std::filesystem::path& folder);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

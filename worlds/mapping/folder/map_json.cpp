@@ -12,7 +12,7 @@
 #include "engine/math/angles.h"
 #include "worlds/mapping/folder/json_reader.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -370,4 +370,4 @@ void check_map(const CloudMap& map, const std::string& name) {
   }
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -9,7 +9,7 @@
 
 #include "worlds/mapping/model/cloud_map.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 inline constexpr int kMapVersion = 1;  ///< of the folder's format
 
@@ -46,4 +46,4 @@ void check_map(const CloudMap& map, const std::string& name);
 std::string map_json_schema();
 std::string report_json_schema();
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -2,7 +2,7 @@
 
 #include "worlds/mapping/folder/map_json.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -180,4 +180,4 @@ std::string report_json_schema() {
   return schema.dump(2);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

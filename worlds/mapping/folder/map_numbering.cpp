@@ -7,7 +7,7 @@
 #include "engine/api/map.h"
 #include "worlds/mapping/grid/occupancy.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -93,4 +93,4 @@ bool number_like(const RowMap& wanted, RowMap& map) {
   return true;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

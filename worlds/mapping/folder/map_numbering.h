@@ -3,7 +3,7 @@
 
 #include "engine/api/forward.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Where `wanted` counts its rows from the other side of the block, or its lines run the other way,
 /// the map's rows and alleys are put into that order, numbered anew from 0, and turned; meshes go
@@ -14,4 +14,4 @@ namespace vinerow::worlds {
 /// @returns whether anything was changed
 bool number_like(const RowMap& wanted, RowMap& map);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -11,7 +11,7 @@
 #include "engine/core/whole_file.h"
 #include "worlds/mapping/folder/json_reader.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr int kPointsVersion = 1;
@@ -121,4 +121,4 @@ ParcelCloud read_classified_cloud(const MapPoints& points, const std::filesystem
   return read;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -13,7 +13,7 @@
 #include "worlds/mapping/model/parcel_cloud.h"
 #include "worlds/mapping/reading/read_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct MapPoints {
   CloudReadOptions reading;    ///< crs, origin and thin are kept, all else is as usual
@@ -33,4 +33,4 @@ std::optional<MapPoints> load_map_points(const std::filesystem::path& folder);
 /// @throws ConfigError as read_parcel_cloud(), and where it has another number of points
 ParcelCloud read_classified_cloud(const MapPoints& points, const std::filesystem::path& cloud);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

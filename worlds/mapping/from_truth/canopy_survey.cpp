@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kBeyondEnds_m = 2.0;
@@ -194,4 +194,4 @@ std::vector<SectionChain> survey_canopy(const SceneQuery& scene, const RowCurve&
   return chains;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

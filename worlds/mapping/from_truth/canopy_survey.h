@@ -8,7 +8,7 @@
 #include "engine/core/random.h"
 #include "worlds/mapping/from_truth/section_chain.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct CanopySurveyOptions {
   double spacing_low_m = 1.0;  ///< between sections, drawn evenly from low to high
@@ -38,4 +38,4 @@ std::vector<SectionChain> survey_canopy(const SceneQuery& scene, const RowCurve&
 std::vector<double> draw_stations(double from_m, double to_m, const CanopySurveyOptions& options,
                                   std::size_t least, RandomStream& random);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 double correlation(double apart_m, double length_m) {
@@ -81,4 +81,4 @@ void add_surface_noise(SectionChain& chain, double std_m, double correlation_len
   keep_open(chain);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

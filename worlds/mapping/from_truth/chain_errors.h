@@ -7,7 +7,7 @@
 #include "engine/core/random.h"
 #include "worlds/mapping/from_truth/canopy_survey.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Joins the chains of a row: the map has vines where the truth has gaps, as an old survey. The
 /// rounded ends at a gap are dropped where a chain has more cuts.
@@ -25,4 +25,4 @@ void remove_stretch(std::vector<SectionChain>& chains, double from_m, double to_
 void add_surface_noise(SectionChain& chain, double std_m, double correlation_length_m,
                        RandomStream& random);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

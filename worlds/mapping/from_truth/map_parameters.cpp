@@ -11,7 +11,7 @@
 #include "engine/io/grids/ros_map.h"
 #include "worlds/mapping/model/row_map.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr std::int64_t kMostCells = 8'000'000;
@@ -89,4 +89,4 @@ void fill_occupancy(const MapParams& params, WorldModel& world,
   for (const std::string& note : report.notes) world.notes.push_back(note);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

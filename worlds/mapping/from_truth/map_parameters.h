@@ -10,7 +10,7 @@
 #include "engine/api/parameters.h"
 #include "worlds/mapping/grid/occupancy.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct MapParams {
   OccupancyOptions grid;                 ///< cell_m, virtual_walls and first_wall; cell_m = 0: none
@@ -35,4 +35,4 @@ void fill_occupancy(const MapParams& params, WorldModel& world,
                     const std::vector<std::vector<Eigen::Vector2d>>& obstacles_W,
                     double row_end_margin_m);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kReach_m = 0.4;        // beyond this it is another plant, or a gap
@@ -155,4 +155,4 @@ MeshAccuracy measure_accuracy(const SceneQuery& scene, const std::vector<PlantRo
   return result;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 #include "engine/api/map.h"
 #include "engine/api/scene_query.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Of points spread evenly over facets, along the facets' outward normals to the canopy; facets
 /// that look along the row are left out.
@@ -24,4 +24,4 @@ MeshAccuracy measure_accuracy(const SceneQuery& scene, const std::vector<PlantRo
                               const std::vector<RowMesh>& meshes,
                               std::int64_t wanted_points = 100'000);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -16,7 +16,7 @@
 #include "worlds/mapping/from_truth/chain_errors.h"
 #include "worlds/mapping/model/map_placement.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 RowCurve curve_of(const PlantRow& row) {
@@ -267,4 +267,4 @@ void register_row_mesh_map(Registry& registry) {
   });
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -10,7 +10,7 @@
 #include "worlds/mapping/from_truth/mesh_accuracy.h"
 #include "worlds/mapping/from_truth/row_mesh_parameters.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// What was made of what.
 struct RowMeshReport {
@@ -30,4 +30,4 @@ std::unique_ptr<RowMap> make_row_mesh_map(const ParameterSet& parameters, const 
 
 void register_row_mesh_map(Registry& registry);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -5,7 +5,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/core/error.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 const ParameterTable<MissingStretch>& missing_stretch_table() {
@@ -104,4 +104,4 @@ void check_folder_parameters(const RowMeshParams& params) {
   if (params.fill_gaps) refuse("fill_gaps");
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -10,7 +10,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "worlds/mapping/from_truth/canopy_survey.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// A gap in the map where vines may stand, along the row's line.
 struct MissingStretch {
@@ -48,4 +48,4 @@ const ParameterTable<RowMeshParams>& row_mesh_table();
 /// Refuses with a folder of meshes what only a survey can do. @throws ConfigError naming it
 void check_folder_parameters(const RowMeshParams& params);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

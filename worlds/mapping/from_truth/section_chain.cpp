@@ -6,7 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 std::vector<double> blend(const std::vector<double>& a, const std::vector<double>& b,
@@ -98,4 +98,4 @@ TriangleMesh make_chain_hull(const SectionChain& chain, const RowCurve& row,
   return mesh;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

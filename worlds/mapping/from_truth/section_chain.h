@@ -7,7 +7,7 @@
 #include "engine/api/mesh.h"
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Across the row at s: half widths to both sides at levels between base and top.
 struct CanopyCut {
@@ -39,4 +39,4 @@ void keep_open(SectionChain& chain);
 TriangleMesh make_chain_hull(const SectionChain& chain, const RowCurve& row,
                              const GroundHeight& ground);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -11,7 +11,7 @@
 #include "worlds/mapping/grid/rasterise.h"
 #include "worlds/mapping/model/row_map.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -117,4 +117,4 @@ double free_share(const OccupancyGrid& grid) {
   return static_cast<double>(free) / static_cast<double>(grid.cells.size());
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -16,7 +16,7 @@
 #include "engine/api/messages/grid.h"
 #include "worlds/mapping/grid/virtual_walls.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct OccupancyOptions {
   double cell_m = 0.05;  ///< > 0
@@ -56,4 +56,4 @@ double cell_that_fits_m(const std::vector<Eigen::Vector2d>& boundary_W, double c
 /// Share of cells that are free.
 double free_share(const OccupancyGrid& grid);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 /// Cells are touched this far outside too, in cells: rounding must not open a line.
@@ -91,4 +91,4 @@ void mark_segment(OccupancyGrid& grid, const Eigen::Vector2d& a_W, const Eigen::
   }
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -9,7 +9,7 @@
 
 #include "engine/api/messages/grid.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// A grid over a box and one more cell on every side. Its lines lie on whole multiples of the cell,
 /// so that boxes that differ by little give cells in the same places.
@@ -30,4 +30,4 @@ void fill_polygon(OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& polyg
 void mark_segment(OccupancyGrid& grid, const Eigen::Vector2d& a_W, const Eigen::Vector2d& b_W,
                   std::uint8_t value);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

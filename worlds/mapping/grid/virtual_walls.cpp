@@ -8,7 +8,7 @@
 #include "engine/api/map.h"
 #include "engine/math/planar.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 using Eigen::Vector2d;
 
@@ -78,4 +78,4 @@ std::vector<VirtualWall> make_virtual_walls(const RowMap& map, RowEnd first_wall
   return walls;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -11,7 +11,7 @@
 
 #include "engine/api/forward.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Which end of a row: its line's first or last point.
 enum class RowEnd { kFirst, kLast };
@@ -64,4 +64,4 @@ std::vector<VirtualWall> make_virtual_walls(const RowMap& map, RowEnd first_wall
 std::vector<TurningArea> make_turning_areas(const RowMap& map,
                                             const std::vector<VirtualWall>& walls);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -7,7 +7,7 @@
 #include "engine/api/map.h"
 #include "worlds/mapping/grid/virtual_walls.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -145,4 +145,4 @@ std::vector<TurningArea> make_turning_areas(const RowMap& map,
   return areas;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -10,7 +10,7 @@
 #include "engine/core/constants.h"
 #include "engine/math/planar.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -301,4 +301,4 @@ Result<Polygon> smallest_enclosing_polygon(const Polygon& points, int corners) {
   return !best.empty() && signed_area_m2(best) < fast_m2 ? best : fast;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -22,11 +22,11 @@
 #include "engine/core/result.h"
 #include "engine/math/polygon.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// The least area there is. Cost: n points sorted; of h hull corners at most O(h^3 corners), of
 /// which what cannot beat a greedy choice of sides is left out: 0.03 ms for 20 hull corners and 8,
 /// 0.3 ms for 60, 2 ms for 120.
 Result<Polygon> smallest_enclosing_polygon(const Polygon& points, int corners);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

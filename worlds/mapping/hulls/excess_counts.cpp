@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 void ExcessCounts::add(const ExcessCounts& other) {
   for (int i = 0; i < kSteps; ++i) all[i] += other.all[i];
@@ -48,4 +48,4 @@ double ExcessCounts::middle_m(int k) const {
   return sum / weight;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// How far the points of a row lie outside their hull's sections: max over k of n_k . (y, z) - h_k,
 /// m, negative inside.
@@ -27,4 +27,4 @@ struct ExcessCounts {
   std::int64_t count(int k) const;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 HullDirections::HullDirections(std::vector<double> angles_rad)
     : angles_rad_(std::move(angles_rad)) {
@@ -134,4 +134,4 @@ std::int64_t ply_bytes(int corners, int sections) {
   return n < 2 ? 0 : 12 * c * n + 13 * (2 * c * (n - 1) + 2 * (c - 2));
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

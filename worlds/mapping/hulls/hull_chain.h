@@ -13,7 +13,7 @@
 #include "engine/api/mesh.h"
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Unit vectors (y, z) counter-clockwise (y left, z up), neighbours less than pi apart. Made by
 /// angles, with the numbers that every section needs.
@@ -76,4 +76,4 @@ TriangleMesh make_chain_mesh(const HullChain& chain, const RowCurve& row,
 /// Bytes of vertices and faces in binary PLY.
 std::int64_t ply_bytes(int corners, int sections);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

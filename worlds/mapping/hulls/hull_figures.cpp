@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kStep_m = 0.05;  // of the table that finds the interval of an s
@@ -203,4 +203,4 @@ SectionMeans mean_sections(const std::vector<HullChain>& chains) {
   return means;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -7,7 +7,7 @@
 
 #include "worlds/mapping/hulls/hull_chain.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Tells which points lie inside of hulls or at most a distance outside of them: exactly, with the
 /// distance to the nearest point of the surface.
@@ -53,4 +53,4 @@ struct SectionMeans {
 };
 SectionMeans mean_sections(const std::vector<HullChain>& chains);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

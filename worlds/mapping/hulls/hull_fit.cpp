@@ -9,7 +9,7 @@
 #include "engine/core/check.h"
 #include "worlds/mapping/hulls/section_directions.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kLeastSide_m = 0.005;
@@ -83,7 +83,7 @@ HullFit::HullFit(const RowStretch& stretch, const HullDirections& directions)
 }
 
 double HullFit::volume_m3() const {
-  return worlds::volume_m3(chain());
+  return mapping::volume_m3(chain());
 }
 
 double HullFit::side_area_m2(int k) const {
@@ -434,4 +434,4 @@ HullChain HullFit::chain() const {
   return result;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

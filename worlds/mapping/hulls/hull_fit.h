@@ -14,7 +14,7 @@
 #include "worlds/mapping/hulls/hull_chain.h"
 #include "worlds/mapping/hulls/row_sections.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Leaving out of one section.
 struct Removal {
@@ -94,4 +94,4 @@ class HullFit {
   std::vector<double> breaks_;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

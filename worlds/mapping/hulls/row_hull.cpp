@@ -16,7 +16,7 @@
 #include "worlds/mapping/hulls/row_sections.h"
 #include "worlds/mapping/hulls/section_directions.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kSweepReach_m[] = {0.03, 0.02, 0.015, 0.01, 0.01, 0.01};  // of the sweeps
@@ -400,4 +400,4 @@ std::vector<RowHulls> make_row_hulls(std::span<const RowCanopy> rows, const Grou
   return result;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -20,7 +20,7 @@
 #include "worlds/mapping/model/cloud_map.h"
 #include "worlds/mapping/rows/row_canopy.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct RowHullOptions {
   int corners = 8;        ///< of each section, 5 to 16
@@ -65,4 +65,4 @@ struct RowHulls {
 std::vector<RowHulls> make_row_hulls(std::span<const RowCanopy> rows, const GroundHeight& ground,
                                      const RowHullOptions& options = {});
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

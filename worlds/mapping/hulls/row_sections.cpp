@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 // Farther out nothing belongs to a plant row; so a wild point costs no memory.
@@ -297,4 +297,4 @@ RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options) {
   return result;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

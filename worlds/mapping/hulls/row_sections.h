@@ -8,7 +8,7 @@
 
 #include "worlds/mapping/rows/row_canopy.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct RowSliceOptions {
   double slice_m = 0.14;
@@ -45,4 +45,4 @@ struct RowStretches {
 /// than 60 points on average.
 RowStretches slice_row(const RowCanopy& row, const RowSliceOptions& options);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

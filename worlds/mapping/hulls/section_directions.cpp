@@ -9,7 +9,7 @@
 #include "engine/math/polygon.h"
 #include "worlds/mapping/hulls/enclosing_polygon.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 /// @param supports  of each slice in each direction of `fine`
@@ -110,4 +110,4 @@ HullDirections choose_directions(const std::vector<RowStretch>& stretches, int c
   return directions;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 #include "worlds/mapping/hulls/hull_chain.h"
 #include "worlds/mapping/hulls/row_sections.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// The level that one value in a hundred is above: where a side lies when no stray may push it out.
 /// @param values  not empty; left in another order
@@ -20,4 +20,4 @@ float upper_level(std::vector<float>& values);
 HullDirections choose_directions(const std::vector<RowStretch>& stretches, int corners,
                                  double* excess = nullptr);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -18,7 +18,7 @@
 #include "worlds/mapping/pipeline/make_cloud_map.h"
 #include "worlds/mapping/reading/cloud_source.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 CloudMapJobParams read_cloud_map_job(const ParameterSet& parameters) {
@@ -147,4 +147,4 @@ void register_cloud_map_job(Registry& registry) {
   });
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -4,10 +4,10 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Takes `cloud`, gives a map: its folder (docs/guides/mapping.md) with what each point is (map_points.h),
 /// and what a vehicle with `map: {type: cloud_map, folder: ...}` would be told of it.
 void register_cloud_map_job(Registry& registry);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -4,7 +4,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 const ParameterTable<CloudMapJobParams>& cloud_map_job_table() {
   using P = CloudMapJobParams;
@@ -56,4 +56,4 @@ const ParameterTable<CloudMapJobParams>& cloud_map_job_table() {
   return table;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

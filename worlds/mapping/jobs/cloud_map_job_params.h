@@ -5,7 +5,7 @@
 #include "worlds/mapping/pipeline/make_cloud_map.h"
 #include "worlds/mapping/reading/read_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct CloudMapJobParams {
   CloudMapOptions options;   ///< without the boundary
@@ -17,4 +17,4 @@ struct CloudMapJobParams {
 /// What must fit together, check_options(CloudMapOptions) checks after reading.
 const ParameterTable<CloudMapJobParams>& cloud_map_job_table();
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

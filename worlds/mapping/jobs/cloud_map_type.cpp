@@ -17,7 +17,7 @@
 #include "worlds/mapping/folder/map_numbering.h"
 #include "worlds/mapping/grid/occupancy.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kElsewhere_m = 50.0;  ///< a map so far beside the world's rows is of others
@@ -175,4 +175,4 @@ void register_cloud_map(Registry& registry) {
   registry.add_map(std::move(spec), make_map_of_folder);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

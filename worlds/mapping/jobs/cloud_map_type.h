@@ -6,7 +6,7 @@
 #include "engine/api/registry.h"
 #include "worlds/mapping/model/cloud_map.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// A loaded map as a vehicle of the world is told it, where nothing more is asked for: in the
 /// world's frame, and numbered like the world's rows where `like_world`.
@@ -25,4 +25,4 @@ std::unique_ptr<RowMap> make_map_of_folder(const ParameterSet& parameters,
 
 void register_cloud_map(Registry& registry);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

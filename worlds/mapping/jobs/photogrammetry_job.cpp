@@ -10,7 +10,7 @@
 #include "worlds/mapping/photogrammetry/hidden_rows.h"
 #include "worlds/mapping/photogrammetry/write_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 PhotogrammetryJobParams read_photogrammetry_job(const ParameterSet& parameters,
@@ -98,4 +98,4 @@ void register_photogrammetry_job(Registry& registry) {
   });
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

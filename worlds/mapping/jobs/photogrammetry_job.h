@@ -4,9 +4,9 @@
 
 #include "engine/api/registry.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Takes `pictures`, gives a cloud: <folder>/cloud.las with cloud.truth.json beside it.
 void register_photogrammetry_job(Registry& registry);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -2,7 +2,7 @@
 
 #include "engine/api/parameter_table.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 const ParameterTable<PhotogrammetryJobParams>& photogrammetry_job_table() {
   using P = PhotogrammetryJobParams;
@@ -39,4 +39,4 @@ const ParameterTable<PhotogrammetryJobParams>& photogrammetry_job_table() {
   return table;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -7,7 +7,7 @@
 #include "worlds/mapping/photogrammetry/cloud_file.h"
 #include "worlds/mapping/photogrammetry/photogrammetry.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct PhotogrammetryJobParams {
   PhotogrammetryOptions options;  ///< all but the seed
@@ -18,4 +18,4 @@ struct PhotogrammetryJobParams {
 
 const ParameterTable<PhotogrammetryJobParams>& photogrammetry_job_table();
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

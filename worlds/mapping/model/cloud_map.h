@@ -13,7 +13,7 @@
 #include "engine/api/map.h"
 #include "engine/math/geo_origin.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Of one row. Lengths in m along the row's line.
 struct MappedRowFigures {
@@ -75,4 +75,4 @@ struct CloudMap {
   std::vector<CloudMap> blocks;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 OccupancyGrid place_grid(const MapPlacement& placement, const OccupancyGrid& old) {
@@ -85,4 +85,4 @@ void place_rows(const MapPlacement& placement, RowMap& map) {
   if (!map.occupancy.empty()) map.occupancy = place_grid(placement, map.occupancy);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

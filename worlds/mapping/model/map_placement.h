@@ -5,7 +5,7 @@
 
 #include "engine/api/map.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// p -> middle + shift + scale * R(turn about the vertical) * (p - middle).
 struct MapPlacement {
@@ -29,4 +29,4 @@ void place_meshes(const MapPlacement& placement, std::vector<RowMesh>& meshes);
 /// square is.
 void place_rows(const MapPlacement& placement, RowMap& map);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

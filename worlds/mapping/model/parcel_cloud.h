@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// What a point belongs to, by the codes of LAS.
 enum class PointClass : std::uint8_t {
@@ -32,4 +32,4 @@ struct ParcelCloud {
   Eigen::Vector3d point_W(std::size_t k) const { return origin_W + points[k].cast<double>(); }
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 Pose frame_through(const Eigen::Vector3d& origin, const Eigen::Vector3d& along) {
@@ -87,4 +87,4 @@ Pose row_frame(const RowCurve& row, const GroundHeight& ground, double s_m) {
   return {stretch.q, Eigen::Vector3d(p.x(), p.y(), ground(p.x(), p.y()))};
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

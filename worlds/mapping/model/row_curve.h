@@ -7,7 +7,7 @@
 
 #include "engine/math/pose.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Height of the ground at (x, y) in W, m.
 using GroundHeight = std::function<double(double x, double y)>;
@@ -45,4 +45,4 @@ Pose row_frame(const RowCurve& row, const GroundHeight& ground, double s_m);
 /// The same for a stretch: origin on the ground at its start, x towards the ground at its end.
 Pose stretch_frame(const RowCurve& row, const GroundHeight& ground, double start_m, double end_m);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

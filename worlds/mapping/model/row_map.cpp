@@ -7,7 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/math/planar.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 Eigen::Vector2d chord(const RowCurve& row) {
@@ -107,4 +107,4 @@ RowMap make_row_map(const std::vector<RowCurve>& rows, const GroundHeight& groun
   return map;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

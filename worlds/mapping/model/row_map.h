@@ -8,7 +8,7 @@
 #include "engine/api/forward.h"
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Puts surveyed lines in order: all run the same way as the first, sorted across the block. The
 /// line that comes first in the file stays on the side it is on: the order is turned if it would
@@ -37,4 +37,4 @@ struct CanopySize {
 RowMap make_row_map(const std::vector<RowCurve>& rows, const GroundHeight& ground,
                     const CanopySize& canopy, std::vector<Eigen::Vector2d> boundary_W);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -13,7 +13,7 @@
 #include "engine/core/check.h"
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -168,4 +168,4 @@ double enclosed_volume_m3(const std::vector<CanopyTriangle>& triangles, const Ve
   return inside_m * grid_m * grid_m;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

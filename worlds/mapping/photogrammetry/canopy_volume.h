@@ -7,7 +7,7 @@
 
 #include "engine/api/forward.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 using CanopyTriangle = std::array<Eigen::Vector3d, 3>;  ///< in W, counter-clockwise from outside
 
@@ -26,4 +26,4 @@ std::vector<std::vector<CanopyTriangle>> canopy_by_row(const WorldModel& world,
 double enclosed_volume_m3(const std::vector<CanopyTriangle>& triangles,
                           const Eigen::Vector2d& along_W, double grid_m);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 SurveyArea::SurveyArea(Polygon polygon_W, double margin_m)
     : polygon_(std::move(polygon_W)), margin_m_(margin_m) {
@@ -45,4 +45,4 @@ Eigen::AlignedBox2d SurveyArea::box_W() const {
   return {Eigen::Vector2d(box.min() - margin), Eigen::Vector2d(box.max() + margin)};
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

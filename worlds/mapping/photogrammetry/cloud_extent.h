@@ -5,7 +5,7 @@
 
 #include "engine/math/polygon.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// A polygon and all that is at most `margin_m` outside of it.
 class SurveyArea {
@@ -25,4 +25,4 @@ class SurveyArea {
   double margin_m_;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -5,7 +5,7 @@
 
 #include "engine/io/clouds/point_cloud_crs.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 /// Points this near to each other go to a CRS by one straight map, see LocalToCrs::Nearby.
@@ -63,4 +63,4 @@ std::uint64_t CloudFile::finish() {
   return std::filesystem::file_size(file_);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

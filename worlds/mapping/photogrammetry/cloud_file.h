@@ -12,7 +12,7 @@
 #include "engine/io/geo/local_to_crs.h"
 #include "worlds/mapping/photogrammetry/sampled_point.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct CloudFileOptions {
   std::string crs;             ///< "EPSG:25832", or "": coordinates of W
@@ -45,4 +45,4 @@ class CloudFile {
   bool finished_ = false;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -9,7 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 CloudTiles::CloudTiles(const SurveyArea& area, double further_m, double density_per_m2) {
   constexpr double kMostPerM2 = 1e6, kWidest_m = 6.0;
@@ -49,4 +49,4 @@ void stream_points(
   }
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

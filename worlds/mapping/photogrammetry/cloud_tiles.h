@@ -9,7 +9,7 @@
 #include "worlds/mapping/photogrammetry/cloud_extent.h"
 #include "worlds/mapping/photogrammetry/sampled_point.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 class CloudTiles {
  public:
@@ -44,4 +44,4 @@ void stream_points(
     const std::function<void(std::int64_t k, std::vector<SampledPoint>& points)>& make,
     const std::function<void(std::int64_t k)>& done, const CloudSink& sink);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

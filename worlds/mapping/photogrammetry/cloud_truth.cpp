@@ -11,7 +11,7 @@
 #include "worlds/mapping/model/row_curve.h"
 #include "worlds/mapping/photogrammetry/canopy_volume.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -210,4 +210,4 @@ std::filesystem::path truth_file_of(std::filesystem::path cloud) {
   return cloud.replace_extension(".truth.json");
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -14,7 +14,7 @@
 #include "engine/math/geo_origin.h"
 #include "engine/math/polygon.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Of one row. Lengths in m; the same words as MappedRowFigures.
 struct RowTruth {
@@ -77,4 +77,4 @@ CloudTruth read_cloud_truth(const std::filesystem::path& file);
 /// "parcel.truth.json" beside "parcel.las".
 std::filesystem::path truth_file_of(std::filesystem::path cloud);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -11,7 +11,7 @@
 #include "engine/math/angles.h"
 #include "worlds/mapping/photogrammetry/cloud_truth.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -162,4 +162,4 @@ CloudTruth read_cloud_truth(const std::filesystem::path& file) {
   return truth;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

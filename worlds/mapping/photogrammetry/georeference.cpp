@@ -9,7 +9,7 @@
 #include "engine/api/parameter_table.h"
 #include "engine/core/random.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -176,4 +176,4 @@ Result<Georeference> georeference(const GeoreferenceRequest& request,
   return found;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

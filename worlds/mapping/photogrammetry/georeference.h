@@ -37,7 +37,7 @@
 #include "engine/api/parameter_table_fwd.h"
 #include "engine/core/result.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct GeoreferenceOptions {
   enum class Method { kDirect, kPpk, kControlPoints, kTruth } method = Method::kDirect;
@@ -92,4 +92,4 @@ std::vector<Eigen::Vector2d> control_places(const Eigen::AlignedBox2d& box, int 
 Result<Georeference> georeference(const GeoreferenceRequest& request,
                                   const GeoreferenceOptions& options);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

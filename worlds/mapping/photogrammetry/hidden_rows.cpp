@@ -9,7 +9,7 @@
 #include "engine/api/world_model.h"
 #include "engine/core/error.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 void check_row(const WorldModel& world, int row) {
@@ -48,4 +48,4 @@ bool HiddenRows::hide(const Eigen::Vector3d& p_W, PointClass truth) const {
   return hides;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

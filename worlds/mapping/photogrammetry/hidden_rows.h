@@ -9,7 +9,7 @@
 #include "worlds/mapping/model/parcel_cloud.h"
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 class HiddenRows {
  public:
@@ -25,4 +25,4 @@ class HiddenRows {
   std::vector<bool> hidden_;     ///< of each line
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

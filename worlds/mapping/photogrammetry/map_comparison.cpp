@@ -7,7 +7,7 @@
 #include "worlds/mapping/folder/map_frame.h"
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -112,4 +112,4 @@ MapComparison compare_with_truth(const CloudMap& given, const CloudTruth& truth)
   return comparison;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 #include "worlds/mapping/model/cloud_map.h"
 #include "worlds/mapping/photogrammetry/cloud_truth.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// A true row and the map's row that lies on it. Errors are the map's figure less the true one.
 struct RowComparison {
@@ -33,4 +33,4 @@ struct MapComparison {
 /// @param map  moved to the truth's origin where it has one of its own
 MapComparison compare_with_truth(const CloudMap& map, const CloudTruth& truth);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -14,7 +14,7 @@
 #include "worlds/mapping/photogrammetry/tile_views.h"
 #include "worlds/mapping/photogrammetry/triangulation.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -305,4 +305,4 @@ PhotogrammetryReport sample_photogrammetry(const SceneQuery& scene, const WorldM
   return report;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -37,7 +37,7 @@
 #include "worlds/mapping/photogrammetry/georeference.h"
 #include "worlds/mapping/photogrammetry/sampled_point.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct PhotogrammetryOptions {
   std::optional<double> density_per_m2;           ///< wanted on the ground; absent: 1 / GSD^2
@@ -90,4 +90,4 @@ PhotogrammetryReport sample_photogrammetry(const SceneQuery& scene, const WorldM
                                            const CloudSink& sink,
                                            const Georeference& reference = {});
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 #include "engine/api/mesh.h"
 #include "engine/api/world_model.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 const Eigen::Vector3f kGrass(0.075f, 0.12f, 0.03f);
@@ -95,4 +95,4 @@ std::array<std::uint8_t, 3> PointColour::of_weed(double grain) const {
   return lit(kWeed, Eigen::Vector3d::UnitZ(), grain);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -13,7 +13,7 @@
 #include "engine/api/forward.h"
 #include "engine/api/scene_query.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 class PointColour {
  public:
@@ -35,4 +35,4 @@ class PointColour {
   std::vector<std::uint8_t> encoded_;  ///< sRGB of linear values k / (size - 1)
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -10,7 +10,7 @@
 #include "engine/api/surface.h"
 #include "worlds/mapping/model/parcel_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct SampledPoint {
   Eigen::Vector3d p_W = {0, 0, 0};               ///< with its error
@@ -38,4 +38,4 @@ constexpr PointClass class_of(SurfaceClass surface) {
   return PointClass::kOther;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 SurveyView::SurveyView(const SurveyCamera& camera, const Pose& X_WS)
     : R_SW_(X_WS.q.toRotationMatrix().transpose()),
@@ -50,4 +50,4 @@ Eigen::Matrix<double, 2, 3> SurveyView::jacobian(const Eigen::Vector3d& p_W) con
   return J;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -10,7 +10,7 @@
 #include "engine/api/survey_camera.h"
 #include "engine/math/pose.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 class SurveyView {
  public:
@@ -39,4 +39,4 @@ class SurveyView {
   double tan_across_, tan_along_;  ///< of half the angles of view
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

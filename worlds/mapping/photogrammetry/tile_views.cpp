@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vector3d& centre_W,
                           double radius_m, double least_angle_rad, int most) {
@@ -34,4 +34,4 @@ TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vec
   return tile;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 
 #include "worlds/mapping/photogrammetry/survey_view.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct TileViews {
   std::vector<int> shown_in;  ///< indices of views that may show the tile, ascending
@@ -23,4 +23,4 @@ struct TileViews {
 TileViews find_tile_views(const std::vector<SurveyView>& views, const Eigen::Vector3d& centre_W,
                           double radius_m, double least_angle_rad, int most);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

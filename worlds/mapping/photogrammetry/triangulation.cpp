@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 void Triangulation::add(const SurveyView& view, const Eigen::Vector3d& p_W) {
   const Eigen::Matrix<double, 2, 3> J = view.jacobian(p_W);
@@ -21,4 +21,4 @@ Eigen::Vector3d Triangulation::error_m(double match_px, const Eigen::Vector3d& n
   return match_px * root.matrixU().solve(normals);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

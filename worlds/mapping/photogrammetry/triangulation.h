@@ -11,7 +11,7 @@
 
 #include "worlds/mapping/photogrammetry/survey_view.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 class Triangulation {
  public:
@@ -28,4 +28,4 @@ class Triangulation {
   int views_ = 0;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -12,7 +12,7 @@
 #include "worlds/mapping/photogrammetry/cloud_tiles.h"
 #include "worlds/mapping/photogrammetry/point_colour.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -179,4 +179,4 @@ CloudTally sample_uniformly(const WorldModel& world, const SurveyArea& area,
   return all;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

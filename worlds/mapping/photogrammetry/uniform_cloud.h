@@ -12,7 +12,7 @@
 #include "worlds/mapping/photogrammetry/photogrammetry.h"
 #include "worlds/mapping/photogrammetry/weeds.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct UniformCloudOptions {
   double density_per_m2 = 200.0;  ///< of surface
@@ -29,4 +29,4 @@ struct UniformCloudOptions {
 CloudTally sample_uniformly(const WorldModel& world, const SurveyArea& area,
                             const UniformCloudOptions& options, const CloudSink& sink);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

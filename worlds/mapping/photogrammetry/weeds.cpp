@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -87,4 +87,4 @@ double Weeds::height_m(const Vector2d& p_W) const {
   return highest_m;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

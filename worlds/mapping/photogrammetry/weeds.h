@@ -9,7 +9,7 @@
 #include "engine/core/random.h"
 #include "worlds/mapping/photogrammetry/cloud_extent.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct WeedsOptions {
   double height_m = 0.0;  ///< of the tallest; 0: no weeds
@@ -45,4 +45,4 @@ class Weeds {
   int columns_ = 0, rows_ = 0;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

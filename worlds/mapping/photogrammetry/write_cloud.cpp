@@ -7,7 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 /// Somewhere on the ground of the area.
@@ -159,4 +159,4 @@ Result<WrittenCloud> write_uniform_cloud(const SceneQuery& scene, const WorldMod
       });
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -14,7 +14,7 @@
 #include "worlds/mapping/photogrammetry/photogrammetry.h"
 #include "worlds/mapping/photogrammetry/uniform_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct CloudTarget {
   std::filesystem::path file;  ///< in a folder that is there
@@ -48,4 +48,4 @@ Result<WrittenCloud> write_uniform_cloud(const SceneQuery& scene, const WorldMod
                                          const SurveyArea& area, const UniformCloudOptions& options,
                                          const CloudTarget& target);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -20,7 +20,7 @@
 #include "worlds/mapping/rows/row_points.h"
 #include "worlds/mapping/rows/row_tracking.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kRasterCell_m = 0.1;
@@ -489,4 +489,4 @@ CloudMap make_cloud_map(ParcelCloud& cloud, const CloudMapOptions& options,
   return whole;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

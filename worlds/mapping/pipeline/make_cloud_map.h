@@ -15,7 +15,7 @@
 #include "worlds/mapping/model/cloud_map.h"
 #include "worlds/mapping/model/parcel_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct CloudMapOptions {
   double terrain_cell_m = 1.0;    ///< of the map's ground
@@ -44,4 +44,4 @@ void check_options(const CloudMapOptions& options);
 CloudMap make_cloud_map(ParcelCloud& cloud, const CloudMapOptions& options,
                         const std::function<void(const std::string&)>& on_phase = {});
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

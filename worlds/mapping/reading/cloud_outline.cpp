@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "worlds/mapping/reading/cloud_sample.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kMargin_m = 100.0;  // no point so near to the bulk is far away
@@ -135,4 +135,4 @@ void find_parcel(const std::filesystem::path& file, double largest_extent_m,
   check_footprint(file, outline);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

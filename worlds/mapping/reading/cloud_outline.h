@@ -9,7 +9,7 @@
 
 #include "engine/io/clouds/point_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Of the first reading. In the file's frame and unit, but for what ends on _m.
 struct CloudOutline {
@@ -35,4 +35,4 @@ CloudOutline outline_cloud(const std::filesystem::path& file);
 /// line
 void find_parcel(const std::filesystem::path& file, double largest_extent_m, CloudOutline& outline);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -7,7 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/math/decomposition.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 /// The values below and above which a share of `trim` lies. @param values  changed
@@ -96,4 +96,4 @@ std::size_t densest_square_centimetre(const std::vector<Eigen::Vector3d>& points
   return most;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

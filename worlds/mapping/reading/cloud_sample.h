@@ -8,7 +8,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Keeps one point of each window of 1, 2, 4, ... points in their order: the windows double when
 /// there are more than kMost. Which one of a window is random, so that a raster's columns are
@@ -46,4 +46,4 @@ Footprint footprint_of(const std::vector<Eigen::Vector3d>& points_m);
 /// The most points that lie in one square centimetre of the ground, of a grid.
 std::size_t densest_square_centimetre(const std::vector<Eigen::Vector3d>& points_m);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -1,6 +1,6 @@
 #include "worlds/mapping/reading/cloud_source.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 void add_source(const CloudReadReport& read, CloudMap& map) {
   CloudMapReport& report = map.report;
@@ -18,4 +18,4 @@ void add_source(const CloudReadReport& read, CloudMap& map) {
   for (CloudMap& block : map.blocks) add_source(read, block);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

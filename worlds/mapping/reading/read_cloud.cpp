@@ -17,7 +17,7 @@
 #include "worlds/mapping/reading/cloud_sample.h"
 #include "worlds/mapping/reading/repeated_places.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Path = std::filesystem::path;
@@ -50,7 +50,7 @@ Eigen::Vector3d unit_at(const io::CloudFrame& frame, const Eigen::Vector3d& plac
 /// @param anywhere  a frame at no matter what origin
 GeoOrigin origin_at(const io::CloudFrame& anywhere, const GeoOrigin& origin_of_it,
                     const Eigen::Vector3d& middle) {
-  const io::Geodetic place = io::LocalFrame(origin_of_it).to_geodetic(anywhere.to_local(middle));
+  const Geodetic place = LocalFrame(origin_of_it).to_geodetic(anywhere.to_local(middle));
   const auto rounded = [](double angle_rad) {
     return rad_from_deg(std::round(deg_from_rad(angle_rad) * 1e5) / 1e5);
   };
@@ -260,4 +260,4 @@ ParcelCloud read_parcel_cloud(const std::filesystem::path& file, const CloudRead
   return cloud;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

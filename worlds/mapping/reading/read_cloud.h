@@ -11,7 +11,7 @@
 #include "engine/math/geo_origin.h"
 #include "worlds/mapping/model/parcel_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct CloudReadOptions {
   /// Of the file's numbers, like "EPSG:25832". "": the one that the file names; where it names
@@ -71,4 +71,4 @@ struct CloudReadReport {
 ParcelCloud read_parcel_cloud(const std::filesystem::path& file, const CloudReadOptions& options,
                               CloudReadReport& report);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr std::size_t kSlots = 2 * RepeatedPlaces::kMost;
@@ -38,4 +38,4 @@ std::uint64_t RepeatedPlaces::count() const {
   return repeated * (skipped_ + 1);
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

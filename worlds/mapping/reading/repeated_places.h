@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Counts points whose three numbers equal those of an earlier point. Up to kMost places are all
 /// remembered; beyond, those alone whose 64-bit hash ends on one, two, ... zero bits. Equal points
@@ -52,4 +52,4 @@ class RepeatedPlaces {
   std::uint64_t skipped_ = 0;  // bits that must be 0 in a hash to be remembered
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

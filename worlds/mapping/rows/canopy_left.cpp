@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 std::vector<CanopyLeft> find_canopy_left(const CanopyRaster& raster, const RowLocator& rows,
                                          double least_m2) {
@@ -62,4 +62,4 @@ std::vector<CanopyLeft> find_canopy_left(const CanopyRaster& raster, const RowLo
   return pieces;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -6,7 +6,7 @@
 #include "worlds/mapping/rows/canopy_raster.h"
 #include "worlds/mapping/rows/row_locator.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// One piece, as it hangs together over squares of 2 m.
 struct CanopyLeft {
@@ -20,4 +20,4 @@ struct CanopyLeft {
 std::vector<CanopyLeft> find_canopy_left(const CanopyRaster& raster, const RowLocator& rows,
                                          double least_m2);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -10,7 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 CanopyRaster make_canopy_raster(const ParcelCloud& cloud, const HeightAbove& height_above,
                                 double cell_m, double low_m, double high_m) {
@@ -89,4 +89,4 @@ CanopyRaster coarsen(const CanopyRaster& raster, int factor) {
   return coarse;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

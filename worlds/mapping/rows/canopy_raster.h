@@ -6,7 +6,7 @@
 
 #include "worlds/mapping/rows/cloud_terrain.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// Square (i, j) covers cell_m x cell_m from corner + cell_m (i, j), from the cloud's origin.
 struct CanopyRaster {
@@ -40,4 +40,4 @@ double body_height_m(const ParcelCloud& cloud, const HeightAbove& height_above, 
 /// The same with squares `factor` times as large: means.
 CanopyRaster coarsen(const CanopyRaster& raster, int factor);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

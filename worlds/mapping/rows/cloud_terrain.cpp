@@ -13,7 +13,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector3f;
@@ -384,4 +384,4 @@ CloudTerrain fit_terrain(const ParcelCloud& cloud, double cell_m) {
   return terrain;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -4,7 +4,7 @@
 #include "engine/api/height_field.h"
 #include "worlds/mapping/model/parcel_cloud.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct CloudTerrain {
   HeightField field;        ///< in W; a sample for every cell that the cloud's bounds touch
@@ -35,4 +35,4 @@ class HeightAbove {
   double origin_z_;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -10,7 +10,7 @@
 #include "engine/math/planar.h"
 #include "worlds/mapping/rows/row_lines.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -138,4 +138,4 @@ RowBlocks split_blocks(const std::vector<RowCurve>& lines, const std::vector<dou
   return split;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -5,7 +5,7 @@
 
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// A block's rows, in the order and direction of order_block().
 struct RowBlock {
@@ -27,4 +27,4 @@ struct RowBlocks {
 /// @param spacing_m  of each line, as its windows tell it
 RowBlocks split_blocks(const std::vector<RowCurve>& lines, const std::vector<double>& spacing_m);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

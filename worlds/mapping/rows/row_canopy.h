@@ -6,7 +6,7 @@
 
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// One row as the detection hands it to the meshing.
 struct RowCanopy {
@@ -17,4 +17,4 @@ struct RowCanopy {
   std::vector<Eigen::Vector3f> points;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

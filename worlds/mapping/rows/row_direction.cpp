@@ -7,7 +7,7 @@
 
 #include "engine/core/parallel.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kProfileBin_m = 0.1;
@@ -321,4 +321,4 @@ std::vector<std::vector<RowPatch>> other_patches(const std::vector<RowPatch>& pa
   return groups;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

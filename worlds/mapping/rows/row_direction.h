@@ -6,7 +6,7 @@
 
 #include "worlds/mapping/rows/canopy_raster.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// What one round window on the canopy shows.
 struct RowPatch {
@@ -49,4 +49,4 @@ std::vector<std::vector<RowPatch>> other_patches(const std::vector<RowPatch>& pa
 /// @pre not empty
 double median_spacing_m(const std::vector<RowPatch>& patches);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -8,7 +8,7 @@
 #include "engine/math/planar.h"
 #include "worlds/mapping/model/row_map.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -397,4 +397,4 @@ std::vector<RowCurve> order_block(std::vector<RowCurve> rows) {
   return order_rows(std::move(rows));
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -7,7 +7,7 @@
 #include "worlds/mapping/rows/row_tracking.h"
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct RowLineOptions {
   double spacing_m = 2.5;
@@ -27,4 +27,4 @@ std::vector<RowCurve> fit_row_lines(const CanopyRaster& raster, const std::vecto
 /// Rows of one block by order_rows(), the longest one from south to north. @pre not empty
 std::vector<RowCurve> order_block(std::vector<RowCurve> rows);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -7,7 +7,7 @@
 
 #include "engine/core/check.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr double kSquare_m = 0.5;
@@ -113,4 +113,4 @@ RowPlace RowLocator::locate(double x, double y) const {
   return best <= line.reach_m * line.reach_m ? place : RowPlace{};
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

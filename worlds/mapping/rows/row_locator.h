@@ -7,7 +7,7 @@
 
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 /// A place seen from a row.
 struct RowPlace {
@@ -44,4 +44,4 @@ class RowLocator {
   int columns_ = 0, rows_ = 0;
 };
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -7,7 +7,7 @@
 #include "engine/core/parallel.h"
 #include "worlds/mapping/rows/row_locator.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 constexpr float kHighestLeaf_m = 6.0f;  // above the ground; what is higher is a bird or a mast
@@ -219,4 +219,4 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
   return canopies;
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

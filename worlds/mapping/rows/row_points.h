@@ -6,7 +6,7 @@
 #include "worlds/mapping/rows/cloud_terrain.h"
 #include "worlds/mapping/rows/row_canopy.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct RowPointOptions {
   double spacing_m = 2.5;            ///< between rows: half of it is how far a canopy may reach
@@ -33,4 +33,4 @@ std::vector<RowCanopy> gather_row_canopies(ParcelCloud& cloud, const HeightField
                                            const std::vector<RowCurve>& lines,
                                            const RowPointOptions& options);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -7,7 +7,7 @@
 
 #include "engine/math/planar.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 namespace {
 
 using Eigen::Vector2d;
@@ -275,4 +275,4 @@ void take_rows(const CanopyRaster& raster, const std::vector<RowCurve>& rows, do
   }
 }
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -7,7 +7,7 @@
 #include "worlds/mapping/rows/row_direction.h"
 #include "worlds/mapping/model/row_curve.h"
 
-namespace vinerow::worlds {
+namespace vinerow::mapping {
 
 struct RowTrackingOptions {
   double spacing_m = 2.5;        ///< between rows, about
@@ -35,4 +35,4 @@ std::vector<RowTrack> track_rows(const CanopyRaster& raster, const std::vector<R
 void take_rows(const CanopyRaster& raster, const std::vector<RowCurve>& rows, double spacing_m,
                TakenSquares& taken);
 
-}  // namespace vinerow::worlds
+}  // namespace vinerow::mapping

@@ -16,7 +16,7 @@
 namespace vinerow::test::error_state_consistency_test {
 namespace {
 
-using I = ErrorIndex;
+using I = controllers::ErrorIndex;
 using Eigen::Vector3d;
 
 constexpr std::int64_t kPeriod_ns = 10'000'000;
@@ -27,7 +27,7 @@ constexpr int kLooks = 6;  // at 10, 20 ... 60 s
 
 struct Unit {
   std::string name;
-  ImuNoise noise;
+  controllers::ImuNoise noise;
   double gyro_bias_radps, accel_bias_mps2;
 };
 
@@ -46,16 +46,16 @@ Unit mti10() {
           3e-3 * 9.80665};
 }
 
-ErrorCovariance start_of(const Unit& unit) {
-  ErrorVector std;
+controllers::ErrorCovariance start_of(const Unit& unit) {
+  controllers::ErrorVector std;
   std << Vector3d::Constant(0.5), Vector3d::Constant(0.1), Vector3d(0.02, 0.02, 0.035),
       Vector3d::Constant(unit.gyro_bias_radps), Vector3d::Constant(unit.accel_bias_mps2);
   return std.cwiseAbs2().asDiagonal();
 }
 
 struct Look {
-  ErrorVector error;
-  ErrorCovariance covariance;
+  controllers::ErrorVector error;
+  controllers::ErrorCovariance covariance;
 };
 struct Flight {
   std::array<Look, kLooks> looks;
@@ -73,12 +73,12 @@ Flight run_once(const Unit& unit, int seed, double told_factor = 1.0, NoiseShare
   const ImuCourse course = lively_course();
   RandomStream random(seed, "test", unit.name);
   const Vector3d arm_B(0.3, -0.2, 0.4);
-  ErrorStateKalmanParams params;
+  controllers::ErrorStateKalmanParams params;
   params.imu = unit.noise;
-  ErrorStateKalman filter(params);
-  const ErrorCovariance P = start_of(unit);
-  NavState truth = course.at(0.0).state;
-  ErrorVector dx;
+  controllers::ErrorStateKalman filter(params);
+  const controllers::ErrorCovariance P = start_of(unit);
+  controllers::NavState truth = course.at(0.0).state;
+  controllers::ErrorVector dx;
   for (int i = 0; i < I::kCount; ++i) dx[i] = std::sqrt(P(i, i)) * random.normal();
   // The filter begins with biases of zero; the truth has them.
   Vector3d gyro_bias = dx.segment<3>(I::kGyroBias), accel_bias = dx.segment<3>(I::kAccelBias);
@@ -101,11 +101,11 @@ Flight run_once(const Unit& unit, int seed, double told_factor = 1.0, NoiseShare
     truth.accel_bias_B = accel_bias;
     if (i % 20 == 0 && i > 0) {
       const Vector3d arm_W = truth.q_WB * arm_B;
-      const VectorMeasurement place = place_measurement(
+      const controllers::VectorMeasurement place = controllers::place_measurement(
           filter.past(now), arm_B, truth.p_WI + arm_W + share.fixes * 0.3 * normal3(random));
-      const Correction taken = filter.correct_vector(place.innovation, place.H,
-                                                     Vector3d::Constant(told_factor * 0.09), 10);
-      const VectorMeasurement velocity = velocity_measurement(
+      const controllers::Correction taken = filter.correct_vector(
+          place.innovation, place.H, Vector3d::Constant(told_factor * 0.09), 10);
+      const controllers::VectorMeasurement velocity = controllers::velocity_measurement(
           filter.past(now), arm_B,
           truth.v_WI + truth.q_WB * point.w_B.cross(arm_B) + share.fixes * 0.1 * normal3(random));
       filter.correct_vector(velocity.innovation, velocity.H, Vector3d::Constant(told_factor * 0.01),

@@ -293,9 +293,9 @@ TEST(ErrorStateEstimator, HoldsItsHeightByTheBarometer) {
 
 TEST(NavigationStart, KnowsTheStandardAtmosphere) {
   // US Standard Atmosphere 1976, table: 1000 m 89 874.6 Pa, 5000 m 54 019.9 Pa (geopotential).
-  EXPECT_NEAR(standard_height_m(101'325.0), 0.0, 1e-9);
-  EXPECT_NEAR(standard_height_m(89'874.6), 1000.0, 0.1);
-  EXPECT_NEAR(standard_height_m(54'019.9), 5000.0, 0.1);
+  EXPECT_NEAR(controllers::standard_height_m(101'325.0), 0.0, 1e-9);
+  EXPECT_NEAR(controllers::standard_height_m(89'874.6), 1000.0, 0.1);
+  EXPECT_NEAR(controllers::standard_height_m(54'019.9), 5000.0, 0.1);
 }
 
 TEST(ErrorStateEstimator, WheelsHoldARoverThroughAnOutage) {

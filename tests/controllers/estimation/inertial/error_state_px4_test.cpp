@@ -70,9 +70,9 @@ TEST(ErrorStateKalman, FliesPx4sIrisAsPx4sFilterDoes) {
   // Noises as PX4 takes them (parameters EKF2_GYR_NOISE 0.015 rad/s, EKF2_ACC_NOISE 0.35 m/s2 per
   // sample at 200 Hz, GPS 0.5 m and 0.3 m/s, heading 0.3 rad; fixes are 110 ms old,
   // EKF2_GPS_DELAY).
-  ErrorStateKalmanParams params;
+  controllers::ErrorStateKalmanParams params;
   params.imu = {0.015 / std::sqrt(200.0), 0.35 / std::sqrt(200.0), 1e-4, 1e-3};
-  ErrorStateKalman filter(params);
+  controllers::ErrorStateKalman filter(params);
   const Duration late{110'000'000};
   const auto to_body = [](const std::vector<double>& v, int at) {
     return Vector3d(v[at], -v[at + 1], -v[at + 2]);
@@ -102,12 +102,13 @@ TEST(ErrorStateKalman, FliesPx4sIrisAsPx4sFilterDoes) {
       if (!filter.started()) {
         first_fix = {longitude, latitude, row.values[0] * 1e-3};
         const Vector3d f_B = force_sum / forces;
-        NavState state;
-        state.q_WB = level_attitude(f_B, heading_from_field(f_B, field_B, north_rad));
-        ErrorVector std;
+        controllers::NavState state;
+        state.q_WB = controllers::level_attitude(
+            f_B, controllers::heading_from_field(f_B, field_B, north_rad));
+        controllers::ErrorVector std;
         std << Vector3d::Constant(0.5), Vector3d::Constant(0.5), Vector3d(0.05, 0.05, 0.3),
             Vector3d::Constant(0.01), Vector3d::Constant(0.2);
-        filter.start(row.time, state, ErrorCovariance(std.cwiseAbs2().asDiagonal()));
+        filter.start(row.time, state, controllers::ErrorCovariance(std.cwiseAbs2().asDiagonal()));
         continue;
       }
       const double east_m =
@@ -119,17 +120,18 @@ TEST(ErrorStateKalman, FliesPx4sIrisAsPx4sFilterDoes) {
       const double age_s = (filter.time() - measured).s();
       if (!filter.remembers(measured)) continue;
       ++fixes;
-      const VectorMeasurement place = place_measurement(filter.past(measured), Vector3d::Zero(), p);
+      const controllers::VectorMeasurement place =
+          controllers::place_measurement(filter.past(measured), Vector3d::Zero(), p);
       fixes_used += filter
                         .correct_vector(place.innovation, filter.at_age(place.H, age_s),
                                         Vector3d::Constant(0.25), 5)
                         .used();
-      const VectorMeasurement speed =
-          velocity_measurement(filter.past(measured), Vector3d::Zero(), v);
+      const controllers::VectorMeasurement speed =
+          controllers::velocity_measurement(filter.past(measured), Vector3d::Zero(), v);
       filter.correct_vector(speed.innovation, filter.at_age(speed.H, age_s),
                             Vector3d::Constant(0.09), 5);
-      const ScalarMeasurement heading =
-          magnetic_measurement(filter.past(filter.time()), field_B, north_rad);
+      const controllers::ScalarMeasurement heading =
+          controllers::magnetic_measurement(filter.past(filter.time()), field_B, north_rad);
       filter.correct_scalar(heading.innovation, heading.H, 0.09, 5);
     }
     while (next != reference.end() && next->first <= row.time.ns) {

@@ -14,7 +14,7 @@ namespace vinerow::test {
 constexpr double kGravity_mps2 = 9.80665;
 
 struct CoursePoint {
-  NavState state;  ///< biases zero
+  controllers::NavState state;  ///< biases zero
   Eigen::Vector3d w_B, f_B;
 };
 

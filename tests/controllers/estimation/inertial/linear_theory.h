@@ -20,10 +20,11 @@ class LinearTheory {
   struct Share {
     double fixes = 1.0, velocity = 1.0;
   };
-  explicit LinearTheory(Share share, InertialReading reading = InertialReading::kVelocity) {
+  explicit LinearTheory(
+      Share share, controllers::InertialReading reading = controllers::InertialReading::kVelocity) {
     const LabSetup setup;
-    const PositionKalmanParams params = kalman_params_of(reading);
-    const bool is_velocity = reading == InertialReading::kVelocity;
+    const controllers::PositionKalmanParams params = controllers::kalman_params_of(reading);
+    const bool is_velocity = reading == controllers::InertialReading::kVelocity;
     const double dt = 0.01, keep = std::exp(-dt / setup.velocity_time_s);
     const double stated = setup.velocity_std_mps * setup.velocity_std_mps,
                  told = is_velocity ? stated : 0.0, met = share.velocity * share.velocity * stated;
@@ -50,7 +51,8 @@ class LinearTheory {
         S = B * S * B.transpose() + factor * factor * R * K * K.transpose();
         A = B * A;
       };
-      if (reading == InertialReading::kPositionFix) correct(setup.inertial_std_m.x(), 1.0);
+      if (reading == controllers::InertialReading::kPositionFix)
+        correct(setup.inertial_std_m.x(), 1.0);
       if (k % setup.fix_every == 0) correct(setup.fix_std_m.x(), share.fixes);
       steps_.push_back(A);
       told_.push_back(P(0, 0));

@@ -161,13 +161,13 @@ TEST(HeadingSource, CourseTakesOutTheGyrosBias) {
 
 TEST(OdometryFilter, DeadReckonsExactlyOverArcs) {
   Bench bench({"odometry_filter", {{"heading", Text("truth")}, {"gain", Text("fixed")}}});
-  Pose2 pose;
+  controllers::Pose2 pose;
   bench.write_truth({0, 0, 0});
   bench.write_fix({0, 0, 0}, bench.now);
   bench.command.write(bench.now, {1.5, 0.6});
   bench.tick();
   for (int i = 0; i < 200; ++i) {
-    pose = advance(pose, 1.5 * 0.025, 0.6 * 0.025);
+    pose = controllers::advance(pose, 1.5 * 0.025, 0.6 * 0.025);
     bench.write_truth({0, 0, 0}, {0, 0, pose.yaw_rad});
     bench.tick();
   }
@@ -246,10 +246,10 @@ TEST(OdometryFilter, RefusesWheelsWhereThereAreNone) {
 TEST(OdometryKalman, SettlesAtTheRiccatiGain) {
   // Without scale each axis is a scalar random walk: P = P q / ... has the fixed point p with
   // p^2 / (p + r) = q, p before the fix; gain p / (p + r).
-  OdometryKalmanParams params;
+  controllers::OdometryKalmanParams params;
   params.scale_std = params.scale_drift_per_sqrt_m = 0.0;
   params.drift_m_per_sqrt_m = 0.01;
-  OdometryKalman filter(params);
+  controllers::OdometryKalman filter(params);
   const Eigen::Vector2d std_m(0.05, 0.05), d(0.04, 0.0);
   filter.start({0, 0}, std_m);
   for (int i = 0; i < 2000; ++i) {
@@ -272,16 +272,16 @@ TEST(OdometryKalman, LearnsTheScaleAndItsErrorIsWhatItSays) {
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
     RandomStream random(run + 1, "test", "kalman");
-    OdometryKalmanParams params;
+    controllers::OdometryKalmanParams params;
     params.scale_drift_per_sqrt_m = 0.0;
     params.drift_m_per_sqrt_m = 0.005;
     const double scale = 1.0 + params.scale_std * random.normal();
     const Eigen::Vector2d std_m(0.02, 0.02);
-    OdometryKalman filter(params);
+    controllers::OdometryKalman filter(params);
     Eigen::Vector2d p(0, 0);
     filter.start(p + Eigen::Vector2d(0.02 * random.normal(), 0.02 * random.normal()), std_m);
     for (int i = 0; i < 400; ++i) {
-      const Eigen::Vector2d d = 0.05 * direction(0.005 * i);
+      const Eigen::Vector2d d = 0.05 * controllers::direction(0.005 * i);
       const double drift = params.drift_m_per_sqrt_m * std::sqrt(0.05);
       p += scale * d + Eigen::Vector2d(drift * random.normal(), drift * random.normal());
       filter.predict(d);

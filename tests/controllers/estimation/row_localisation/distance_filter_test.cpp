@@ -32,8 +32,8 @@ const LocalisationWorld& vines() {
 }
 
 /// Four sensors at X.
-std::vector<RangeSensorModel> make_sensors() {
-  std::vector<RangeSensorModel> sensors(4);
+std::vector<controllers::RangeSensorModel> make_sensors() {
+  std::vector<controllers::RangeSensorModel> sensors(4);
   for (int i = 0; i < 4; ++i) {
     sensors[i].name = "range" + std::to_string(i);
     sensors[i].X_BS.q = quaternion_from_rpy({0, 0, (0.25 + 0.5 * i) * 3.14159265358979});
@@ -44,7 +44,7 @@ std::vector<RangeSensorModel> make_sensors() {
 
 /// A flight along the alley without errors but those a test puts in.
 struct Flight {
-  explicit Flight(const DistanceFilterParams& params = {})
+  explicit Flight(const controllers::DistanceFilterParams& params = {})
       : sensors(make_sensors()),
         law(params, vines().map().accuracy, &vines().map_index(), sensors) {
     law.start(Time{}, p_W() + vines().place(0.1, -0.1, 0), 0.04 * Matrix3d::Identity());
@@ -61,7 +61,7 @@ struct Flight {
     law.predict(now(), (p_W() - before) / 0.01, q_WB(), 0.0035);
   }
   void tell_ranges() {
-    std::array<RangeReading, 4> readings;
+    std::array<controllers::RangeReading, 4> readings;
     for (int i = 0; i < 4; ++i) readings[i] = {i, range(i), 4.0};
     law.take_ranges(now(), readings);
   }
@@ -81,16 +81,17 @@ struct Flight {
   }
 
   std::int64_t tick = 0;
-  std::vector<RangeSensorModel> sensors;
-  DistanceFilterLaw law;
+  std::vector<controllers::RangeSensorModel> sensors;
+  controllers::DistanceFilterLaw law;
 };
 
 TEST(DistanceFilterLaw, CountsNumbersThatAreNotFiniteAndGoesOn) {
   Flight flight;
   flight.fly(200);
   const auto x = flight.law.kalman().x();
-  const std::array<RangeReading, 3> bad = {RangeReading{0, kNaN, 4.0}, RangeReading{1, -1.0, 4.0},
-                                           RangeReading{2, kInf, 4.0}};
+  const std::array<controllers::RangeReading, 3> bad = {controllers::RangeReading{0, kNaN, 4.0},
+                                                        controllers::RangeReading{1, -1.0, 4.0},
+                                                        controllers::RangeReading{2, kInf, 4.0}};
   flight.predict();
   const auto predicted = flight.law.kalman().x();
   flight.law.take_ranges(flight.now(), bad);
@@ -118,7 +119,7 @@ TEST(DistanceFilterLaw, RefusesTimeThatGoesBackwards) {
   // The same reading again, one from before it, a fix from before the memory (256 ticks).
   flight.tell_ranges();
   EXPECT_EQ(flight.law.counters().backwards, 5);
-  const RangeReading old{0, 1.0, 4.0};
+  const controllers::RangeReading old{0, 1.0, 4.0};
   flight.law.take_ranges(tick_time(390), {&old, 1});
   EXPECT_EQ(flight.law.counters().backwards, 6);
   flight.law.take_fix(tick_time(100), flight.p_W(), {1, 1, 1}, Vector3d::Zero());
@@ -132,7 +133,7 @@ TEST(DistanceFilterLaw, LateDataAreComparedWithWhereTheVehicleWas) {
   // 0.5 s late at 1.5 m/s; then the estimate may not be drawn back by what the fix was behind.
   Flight flight;
   flight.fly(300);
-  DistanceFilterParams params;
+  controllers::DistanceFilterParams params;
   Flight bare(params);
   for (int i = 0; i < 100; ++i) bare.predict();
   const double before = (bare.law.kalman().p_W() - bare.p_W()).norm();
@@ -154,7 +155,7 @@ TEST(DistanceFilterLaw, RefusesContradictoryRangesAndRecovers) {
   for (int i = 0; i < 40; ++i) {
     flight.predict();
     if (flight.tick % 5 != 0) continue;
-    std::array<RangeReading, 4> readings;
+    std::array<controllers::RangeReading, 4> readings;
     for (int k = 0; k < 4; ++k) readings[k] = {k, 0.3, 4.0};
     flight.law.take_ranges(flight.now(), readings);
   }
@@ -165,7 +166,7 @@ TEST(DistanceFilterLaw, RefusesContradictoryRangesAndRecovers) {
   for (int i = 0; i < 600; ++i) {
     flight.predict();
     if (flight.tick % 5 != 0) continue;
-    std::array<RangeReading, 4> readings;
+    std::array<controllers::RangeReading, 4> readings;
     for (int k = 0; k < 4; ++k) readings[k] = {k, 0.1, 4.0};
     flight.law.take_ranges(flight.now(), readings);
   }
@@ -194,7 +195,7 @@ TEST(DistanceFilterLaw, FliesOnBeyondTheMapAndPicksItUpAgain) {
   Flight flight;
   flight.fly(300);
   flight.tick = 0;
-  DistanceFilterLaw& law = flight.law;
+  controllers::DistanceFilterLaw& law = flight.law;
   // The rows end at s = 100 m: from there on there is no echo, and no harm.
   const auto place = [](int i) { return vines().place(95.0 + 0.015 * i, 0.1, 1.25); };
   law.start(tick_time(0), place(0), 0.01 * Matrix3d::Identity());
@@ -202,8 +203,8 @@ TEST(DistanceFilterLaw, FliesOnBeyondTheMapAndPicksItUpAgain) {
     law.predict(tick_time(i), (place(i) - place(i - 1)) / 0.01, flight.q_WB(), 0.0035);
     if (i % 20 == 0) law.take_fix(tick_time(i), place(i), {1, 1, 1.5}, Vector3d::Zero());
     if (i % 5 != 0) continue;
-    const RangeReading nothing{0, kInf, 4.0}, ghost{1, 1.2, 4.0};
-    const std::array<RangeReading, 2> both = {nothing, ghost};
+    const controllers::RangeReading nothing{0, kInf, 4.0}, ghost{1, 1.2, 4.0};
+    const std::array<controllers::RangeReading, 2> both = {nothing, ghost};
     if (i > 600) law.take_ranges(tick_time(i), both);
   }
   EXPECT_GT(law.counters().echoes_unmatched, 0);
@@ -212,15 +213,15 @@ TEST(DistanceFilterLaw, FliesOnBeyondTheMapAndPicksItUpAgain) {
 }
 
 TEST(DistanceFilterLaw, ASliceOfTheMapReachesAsFarAsItsSensor) {
-  DistanceFilterParams params;
-  params.fusion = DistanceFusion::kJoint;
-  params.association = EchoAssociation::kClosestSegment;
+  controllers::DistanceFilterParams params;
+  params.fusion = controllers::DistanceFusion::kJoint;
+  params.association = controllers::EchoAssociation::kClosestSegment;
   Flight flight(params);
   flight.fly(300);
   const auto before = flight.law.counters();
   flight.predict();
   // No row within 0.5 m; those of the same moment that look farther see theirs.
-  std::array<RangeReading, 4> readings;
+  std::array<controllers::RangeReading, 4> readings;
   for (int i = 0; i < 4; ++i) readings[i] = {i, flight.range(i), 4.0};
   readings[0] = {0, 0.4, 0.5};
   flight.law.take_ranges(flight.now(), readings);
@@ -229,8 +230,8 @@ TEST(DistanceFilterLaw, ASliceOfTheMapReachesAsFarAsItsSensor) {
 }
 
 TEST(DistanceFilterLaw, CountsAPrintedEllipseThatIsNoCovariance) {
-  DistanceFilterParams params;
-  params.fusion = DistanceFusion::kReplace;
+  controllers::DistanceFilterParams params;
+  params.fusion = controllers::DistanceFusion::kReplace;
   params.printed_square_root = true;
   Flight flight(params);
   flight.fly(1000);
@@ -240,11 +241,13 @@ TEST(DistanceFilterLaw, CountsAPrintedEllipseThatIsNoCovariance) {
 
 TEST(DistanceFilterLaw, NeitherAllocatesNorFailsInAnyMode) {
   for (const auto fusion :
-       {DistanceFusion::kRangeEkf, DistanceFusion::kJoint, DistanceFusion::kJointEach,
-        DistanceFusion::kReplace, DistanceFusion::kIncrement, DistanceFusion::kIncrementMatrix,
-        DistanceFusion::kScalar, DistanceFusion::kTruncated}) {
-    for (const auto association : {EchoAssociation::kRayCast, EchoAssociation::kClosestSegment}) {
-      DistanceFilterParams params;
+       {controllers::DistanceFusion::kRangeEkf, controllers::DistanceFusion::kJoint,
+        controllers::DistanceFusion::kJointEach, controllers::DistanceFusion::kReplace,
+        controllers::DistanceFusion::kIncrement, controllers::DistanceFusion::kIncrementMatrix,
+        controllers::DistanceFusion::kScalar, controllers::DistanceFusion::kTruncated}) {
+    for (const auto association :
+         {controllers::EchoAssociation::kRayCast, controllers::EchoAssociation::kClosestSegment}) {
+      controllers::DistanceFilterParams params;
       params.fusion = fusion;
       params.association = association;
       Flight flight(params);
@@ -270,7 +273,7 @@ struct Bench {
     truth = world.write<Odometry>("truth");
     ins = world.write<Odometry>("ins");
     gps = world.write<GnssFix>("gps");
-    for (const RangeSensorModel& sensor : make_sensors()) {
+    for (const controllers::RangeSensorModel& sensor : make_sensors()) {
       ranges.push_back(world.write<RangeSample>(sensor.name));
       context.sensors.push_back({sensor.name, "ultrasound", sensor.X_BS});
     }

@@ -69,9 +69,12 @@ void check_containment(int cases) {
     const Case<N> x = draw<N>(random);
     Eigen::Matrix<double, N, 1> c = x.c;
     Eigen::Matrix<double, N, N> P = x.P;
-    const ParallelCut cut = cut_ellipsoid<N>(c, P, x.a, x.lower(), x.upper());
-    if (cut.status == CutStatus::kDegenerate) continue;  // a slab of no width: nothing was changed
-    ASSERT_TRUE(cut.cuts() || cut.status == CutStatus::kNoUpdate) << to_string(cut.status);
+    const controllers::ParallelCut cut =
+        controllers::cut_ellipsoid<N>(c, P, x.a, x.lower(), x.upper());
+    if (cut.status == controllers::CutStatus::kDegenerate)
+      continue;  // a slab of no width: nothing was changed
+    ASSERT_TRUE(cut.cuts() || cut.status == controllers::CutStatus::kNoUpdate)
+        << controllers::to_string(cut.status);
     ASSERT_EQ(P, P.transpose());
     const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(P);
     ASSERT_EQ(factor.info(), Eigen::Success);
@@ -132,13 +135,13 @@ TEST(ParallelCut, HasTheLeastVolumeOfAllCovers) {
   for (int i = 0; i < 20000; ++i) {
     const int n = 2 + i % 5;
     const double from = random.uniform(-1.2, 1.0), to = random.uniform(std::max(-1.0, from), 1.2);
-    const ParallelCut cut = parallel_cut(n, -to, from);
+    const controllers::ParallelCut cut = controllers::parallel_cut(n, -to, from);
     const double least = least_log_volume(n, cut.alpha, cut.alpha_hat);
-    if (cut.status == CutStatus::kNoUpdate) {
+    if (cut.status == controllers::CutStatus::kNoUpdate) {
       EXPECT_NEAR(least, 0.0, 1e-9);
       continue;
     }
-    ASSERT_TRUE(cut.cuts()) << to_string(cut.status);
+    ASSERT_TRUE(cut.cuts()) << controllers::to_string(cut.status);
     ++cut_count;
     const double own = 0.5 * (n * std::log(cut.delta) + std::log(cut.rest));
     ASSERT_NEAR(own, least, 1e-9) << n << ' ' << cut.alpha << ' ' << cut.alpha_hat;
@@ -151,8 +154,8 @@ TEST(ParallelCut, BecomesTheKnownFormulasAtTheLimits) {
     // Deep and shallow cuts by one plane (Bland, Goldfarb, Todd 1981).
     for (const double alpha : {-0.9 / n, -0.1, 0.0, 0.3, 0.9}) {
       if (alpha <= -1.0 / n) continue;
-      const ParallelCut cut = parallel_cut(n, alpha, -7.0);
-      EXPECT_EQ(cut.status, CutStatus::kSingleCut);
+      const controllers::ParallelCut cut = controllers::parallel_cut(n, alpha, -7.0);
+      EXPECT_EQ(cut.status, controllers::CutStatus::kSingleCut);
       EXPECT_NEAR(cut.sigma, 2.0 * (1.0 + n * alpha) / ((n + 1.0) * (1.0 + alpha)), 1e-14);
       EXPECT_NEAR(cut.tau, (1.0 + n * alpha) / (n + 1.0), 1e-14);
       EXPECT_NEAR(cut.delta, n * n * (1.0 - alpha * alpha) / (n * n - 1.0), 1e-14);
@@ -160,8 +163,8 @@ TEST(ParallelCut, BecomesTheKnownFormulasAtTheLimits) {
     // A slab about the centre: half axis sqrt(n) w along a, n/(n-1) (1 - w^2) across.
     for (const double w : {0.01, 0.3, 0.5}) {
       if (w * w >= 1.0 / n) continue;
-      const ParallelCut cut = parallel_cut(n, -w, -w);
-      EXPECT_EQ(cut.status, CutStatus::kCut);
+      const controllers::ParallelCut cut = controllers::parallel_cut(n, -w, -w);
+      EXPECT_EQ(cut.status, controllers::CutStatus::kCut);
       EXPECT_EQ(cut.tau, 0.0);
       EXPECT_NEAR(cut.delta, n / (n - 1.0) * (1.0 - w * w), 1e-14);
       EXPECT_NEAR(cut.delta * (1.0 - cut.sigma), n * w * w, 1e-14);
@@ -170,23 +173,30 @@ TEST(ParallelCut, BecomesTheKnownFormulasAtTheLimits) {
 }
 
 TEST(ParallelCut, GivesEveryCaseItsName) {
-  EXPECT_EQ(parallel_cut(2, 0.3, -0.2).status, CutStatus::kInverted);
-  EXPECT_EQ(parallel_cut(2, 1.1, -1.5).status, CutStatus::kEmpty);
-  EXPECT_EQ(parallel_cut(2, -1.5, 1.1).status, CutStatus::kEmpty);
-  EXPECT_EQ(parallel_cut(2, -0.9, -0.85).status, CutStatus::kNoUpdate);  // sigma would be -2.2
-  EXPECT_EQ(parallel_cut(2, -2.0, -2.5).status, CutStatus::kNoUpdate);   // delta would be -2.5
-  EXPECT_EQ(parallel_cut(2, -kInf, -kInf).status, CutStatus::kNoUpdate);
-  EXPECT_EQ(parallel_cut(2, -0.6, -1.0).status, CutStatus::kNoUpdate);  // shallower than -1/n
-  EXPECT_EQ(parallel_cut(2, -0.4, -kInf).status, CutStatus::kSingleCut);
-  EXPECT_EQ(parallel_cut(2, 0.2, -0.2).status, CutStatus::kDegenerate);  // no width
-  EXPECT_EQ(parallel_cut(2, 1.0, -1.0).status, CutStatus::kDegenerate);  // a point
-  EXPECT_EQ(parallel_cut(2, 1.0, -3.0).status, CutStatus::kDegenerate);  // touches
-  EXPECT_EQ(parallel_cut(2, kNaN, -1.0).status, CutStatus::kDegenerate);
-  EXPECT_EQ(parallel_cut(1, 0.2, -0.6).status, CutStatus::kInterval);
-  EXPECT_EQ(parallel_cut(1, -3.0, -2.0).status, CutStatus::kNoUpdate);
-  EXPECT_EQ(parallel_cut(1, 0.2, -0.2).status, CutStatus::kDegenerate);
-  for (const auto& cut : {parallel_cut(2, 0.2, -0.2), parallel_cut(2, 1.1, -1.5),
-                          parallel_cut(2, 0.3, -0.2), parallel_cut(2, -0.9, -0.85)}) {
+  EXPECT_EQ(controllers::parallel_cut(2, 0.3, -0.2).status, controllers::CutStatus::kInverted);
+  EXPECT_EQ(controllers::parallel_cut(2, 1.1, -1.5).status, controllers::CutStatus::kEmpty);
+  EXPECT_EQ(controllers::parallel_cut(2, -1.5, 1.1).status, controllers::CutStatus::kEmpty);
+  EXPECT_EQ(controllers::parallel_cut(2, -0.9, -0.85).status,
+            controllers::CutStatus::kNoUpdate);  // sigma would be -2.2
+  EXPECT_EQ(controllers::parallel_cut(2, -2.0, -2.5).status,
+            controllers::CutStatus::kNoUpdate);  // delta would be -2.5
+  EXPECT_EQ(controllers::parallel_cut(2, -kInf, -kInf).status, controllers::CutStatus::kNoUpdate);
+  EXPECT_EQ(controllers::parallel_cut(2, -0.6, -1.0).status,
+            controllers::CutStatus::kNoUpdate);  // shallower than -1/n
+  EXPECT_EQ(controllers::parallel_cut(2, -0.4, -kInf).status, controllers::CutStatus::kSingleCut);
+  EXPECT_EQ(controllers::parallel_cut(2, 0.2, -0.2).status,
+            controllers::CutStatus::kDegenerate);  // no width
+  EXPECT_EQ(controllers::parallel_cut(2, 1.0, -1.0).status,
+            controllers::CutStatus::kDegenerate);  // a point
+  EXPECT_EQ(controllers::parallel_cut(2, 1.0, -3.0).status,
+            controllers::CutStatus::kDegenerate);  // touches
+  EXPECT_EQ(controllers::parallel_cut(2, kNaN, -1.0).status, controllers::CutStatus::kDegenerate);
+  EXPECT_EQ(controllers::parallel_cut(1, 0.2, -0.6).status, controllers::CutStatus::kInterval);
+  EXPECT_EQ(controllers::parallel_cut(1, -3.0, -2.0).status, controllers::CutStatus::kNoUpdate);
+  EXPECT_EQ(controllers::parallel_cut(1, 0.2, -0.2).status, controllers::CutStatus::kDegenerate);
+  for (const auto& cut :
+       {controllers::parallel_cut(2, 0.2, -0.2), controllers::parallel_cut(2, 1.1, -1.5),
+        controllers::parallel_cut(2, 0.3, -0.2), controllers::parallel_cut(2, -0.9, -0.85)}) {
     EXPECT_FALSE(cut.cuts());
     EXPECT_EQ(cut.sigma, 0.0);
     EXPECT_EQ(cut.tau, 0.0);
@@ -201,29 +211,32 @@ TEST(ParallelCut, LeavesTheEllipsoidWhereNothingIsCut) {
                        const Eigen::Matrix2d& P_in) {
     Eigen::Vector2d c = c0;
     Eigen::Matrix2d P = P_in;
-    const CutStatus status = cut_ellipsoid<2>(c, P, a, lower, upper).status;
+    const controllers::CutStatus status =
+        controllers::cut_ellipsoid<2>(c, P, a, lower, upper).status;
     EXPECT_EQ(c, c0);
     EXPECT_EQ(P, P_in);
     return status;
   };
   const Eigen::Vector2d x(1, 0);
-  EXPECT_EQ(cut(x, 4, 5, P0), CutStatus::kEmpty);
-  EXPECT_EQ(cut(x, 1.5, 1.2, P0), CutStatus::kInverted);
-  EXPECT_EQ(cut(x, -2, 5, P0), CutStatus::kNoUpdate);
-  EXPECT_EQ(cut({0, 0}, 0, 1, P0), CutStatus::kDegenerate);
-  EXPECT_EQ(cut({kInf, 0}, 0, 1, P0), CutStatus::kDegenerate);
-  EXPECT_EQ(cut(x, kNaN, 1, P0), CutStatus::kDegenerate);
-  EXPECT_EQ(cut(x, 0, 1, -P0), CutStatus::kDegenerate);
+  EXPECT_EQ(cut(x, 4, 5, P0), controllers::CutStatus::kEmpty);
+  EXPECT_EQ(cut(x, 1.5, 1.2, P0), controllers::CutStatus::kInverted);
+  EXPECT_EQ(cut(x, -2, 5, P0), controllers::CutStatus::kNoUpdate);
+  EXPECT_EQ(cut({0, 0}, 0, 1, P0), controllers::CutStatus::kDegenerate);
+  EXPECT_EQ(cut({kInf, 0}, 0, 1, P0), controllers::CutStatus::kDegenerate);
+  EXPECT_EQ(cut(x, kNaN, 1, P0), controllers::CutStatus::kDegenerate);
+  EXPECT_EQ(cut(x, 0, 1, -P0), controllers::CutStatus::kDegenerate);
 }
 
 TEST(ParallelCut, IsAnIntervalInOneDimension) {
   using Vector1 = Eigen::Matrix<double, 1, 1>;
   Vector1 c(5.0), a(-2.0);
   Vector1 P(9.0);  // [2, 8]; -2 x in [-14, -6]: x in [3, 7]
-  EXPECT_EQ(cut_ellipsoid<1>(c, P, a, -14.0, -6.0).status, CutStatus::kInterval);
+  EXPECT_EQ(controllers::cut_ellipsoid<1>(c, P, a, -14.0, -6.0).status,
+            controllers::CutStatus::kInterval);
   EXPECT_NEAR(c[0], 5.0, 1e-14);
   EXPECT_NEAR(std::sqrt(P(0, 0)), 2.0, 1e-14);
-  EXPECT_EQ(cut_ellipsoid<1>(c, P, a, -20.0, -9.0).status, CutStatus::kInterval);  // x >= 4.5
+  EXPECT_EQ(controllers::cut_ellipsoid<1>(c, P, a, -20.0, -9.0).status,
+            controllers::CutStatus::kInterval);  // x >= 4.5
   EXPECT_NEAR(c[0] - std::sqrt(P(0, 0)), 4.5, 1e-14);
   EXPECT_NEAR(c[0] + std::sqrt(P(0, 0)), 7.0, 1e-14);
 }
@@ -237,10 +250,10 @@ TEST(ParallelCut, PrintedSquareRootLosesTheSetOrItsDefiniteness) {
     const Case<2> x = draw<2>(random);
     Eigen::Vector2d c = x.c, right_c = x.c;
     Eigen::Matrix2d P = x.P, right_P = x.P;
-    CutOptions printed;
+    controllers::CutOptions printed;
     printed.printed_square_root = true;
-    if (!cut_ellipsoid<2>(c, P, x.a, x.lower(), x.upper(), printed).cuts()) continue;
-    cut_ellipsoid<2>(right_c, right_P, x.a, x.lower(), x.upper());
+    if (!controllers::cut_ellipsoid<2>(c, P, x.a, x.lower(), x.upper(), printed).cuts()) continue;
+    controllers::cut_ellipsoid<2>(right_c, right_P, x.a, x.lower(), x.upper());
     ++cuts;
     const Eigen::LLT<Eigen::Matrix2d> factor(P);
     if (factor.info() != Eigen::Success) {
@@ -275,8 +288,10 @@ TEST(PseudoMeasurement, HoldsJustWhatTheCutAddsAlongItsNormal) {
     const Case<3> x = draw<3>(random);
     Eigen::Vector3d c = x.c;
     Eigen::Matrix3d P = x.P;
-    const ParallelCut cut = cut_ellipsoid<3>(c, P, x.a, x.lower(), x.upper());
-    const PseudoMeasurement told = pseudo_measurement(cut, x.a.dot(x.c), x.s, k);
+    const controllers::ParallelCut cut =
+        controllers::cut_ellipsoid<3>(c, P, x.a, x.lower(), x.upper());
+    const controllers::PseudoMeasurement told =
+        controllers::pseudo_measurement(cut, x.a.dot(x.c), x.s, k);
     ASSERT_EQ(told.valid, cut.cuts() && cut.gain() >= 1e-9);
     if (!told.valid) continue;
     ASSERT_GT(cut.gain(), 0.0);
@@ -293,7 +308,7 @@ TEST(PseudoMeasurement, GainIsPositiveForEveryCut) {
   RandomStream random(11, "test", "gain");
   for (int i = 0; i < 1'000'000; ++i) {
     const double from = random.uniform(-1.2, 1.0), to = random.uniform(std::max(-1.0, from), 1.2);
-    const ParallelCut cut = parallel_cut(2 + i % 2, -to, from);
+    const controllers::ParallelCut cut = controllers::parallel_cut(2 + i % 2, -to, from);
     if (cut.cuts()) {
       ASSERT_GT(cut.gain(), 0.0) << from << ' ' << to;
     }

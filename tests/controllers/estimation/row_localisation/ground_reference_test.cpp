@@ -24,11 +24,11 @@ using Text = std::string;
 
 const WallBlock kSlope{.rows = 3, .to_m = 80.0, .grade_along = 0.18, .grade_across = 0.1};
 
-std::vector<RangeSensorModel> make_sensors() {
-  std::vector<RangeSensorModel> sensors = {make_range_sensor("left", 0.5 * kPi),
-                                           make_range_sensor("right", -0.5 * kPi)};
+std::vector<controllers::RangeSensorModel> make_sensors() {
+  std::vector<controllers::RangeSensorModel> sensors = {make_range_sensor("left", 0.5 * kPi),
+                                                        make_range_sensor("right", -0.5 * kPi)};
   // Looks along -z of B, 0.1 m ahead of its origin.
-  RangeSensorModel down = make_range_sensor("down", 0.0);
+  controllers::RangeSensorModel down = make_range_sensor("down", 0.0);
   down.X_BS = {Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitY())), {0.1, 0, 0}};
   sensors.push_back(down);
   return sensors;
@@ -240,7 +240,7 @@ TEST(GroundReference, IsLessSureOffTheRows) {
   rover.height_above_ground_m = 0.4;
   EstimatorContext context;
   context.vehicle_description = &rover;
-  GroundReference ground(GroundParams{}, context, &map, "test");
+  controllers::GroundReference ground(controllers::GroundParams{}, context, &map, "test");
   const auto between = ground.read(Time{}, Eigen::Quaterniond::Identity(), {40, 1, 7});
   ASSERT_TRUE(between);
   EXPECT_NEAR((between->normal_W - wall_ground_normal(kSlope)).norm(), 0.0, 1e-9);

@@ -34,14 +34,14 @@ RowMap make_leaning_map() {
 /// @returns estimate less truth
 Eigen::Vector3d drive(bool walls_tell_height) {
   const RowMap map = make_leaning_map();
-  const RowMeshIndex index(map);
-  MapLocalisationParams params;
+  const controllers::RowMeshIndex index(map);
+  controllers::MapLocalisationParams params;
   params.walls_tell_height = walls_tell_height;
   params.fix_slow_share = 0.5;
-  const std::vector<RangeSensorModel> sensors = {
+  const std::vector<controllers::RangeSensorModel> sensors = {
       {"left", {quaternion_from_rpy({0, 0, 0.5 * std::numbers::pi}), {0, 0, 0}}, 0.0, 1, 0.003},
       {"right", {quaternion_from_rpy({0, 0, -0.5 * std::numbers::pi}), {0, 0, 0}}, 0.0, 1, 0.003}};
-  MapLocalisationLaw law(params, map, index, sensors);
+  controllers::MapLocalisationLaw law(params, map, index, sensors);
   Eigen::Vector3d p_W(0.0, 1.25, kHeight_m);
   law.start(Time{}, p_W, 1e-4 * Eigen::Matrix3d::Identity());
   // The map is drawn in by kLean_m at 2 m, so by half of it at 1 m.
@@ -75,12 +75,12 @@ TEST(LeaningWalls, HeightIsLeftToWhatTellsItWhereAsked) {
 /// 1 / r = 1 / P_after - 1 / P_before.
 double echo_variance_m2(double height_variance_m2) {
   const RowMap map = make_leaning_map();
-  const RowMeshIndex index(map);
-  MapLocalisationParams params;
+  const controllers::RowMeshIndex index(map);
+  controllers::MapLocalisationParams params;
   params.walls_tell_height = false;
-  const std::vector<RangeSensorModel> sensors = {
+  const std::vector<controllers::RangeSensorModel> sensors = {
       {"left", {quaternion_from_rpy({0, 0, 0.5 * std::numbers::pi}), {0, 0, 0}}, 0.0, 1, 0.003}};
-  MapLocalisationLaw law(params, map, index, sensors);
+  controllers::MapLocalisationLaw law(params, map, index, sensors);
   const Eigen::Vector3d p_W(0.0, 1.25, kHeight_m);
   constexpr double kLateral_m2 = 0.04;
   law.start(Time{}, p_W,

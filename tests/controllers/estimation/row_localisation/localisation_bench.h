@@ -25,13 +25,13 @@ struct LocalisationBench {
 
   /// @param type  of the estimator  @param sensors  mounted as ultrasounds
   LocalisationBench(const std::string& type, const Values& values, const RowMap* map,
-                    const std::vector<RangeSensorModel>& sensors,
+                    const std::vector<controllers::RangeSensorModel>& sensors,
                     const VehicleDescription* vehicle = nullptr, std::uint64_t seed = 1) {
     Ports world(bus, "robot", "test");
     truth_out = world.write<Odometry>("truth");
     ins_out = world.write<Odometry>("ins");
     gps_out = world.write<GnssFix>("gps");
-    for (const RangeSensorModel& sensor : sensors) {
+    for (const controllers::RangeSensorModel& sensor : sensors) {
       ranges_out.push_back(world.write<RangeSample>(sensor.name));
       context.sensors.push_back({sensor.name, "ultrasound", sensor.X_BS});
     }
@@ -112,8 +112,8 @@ struct LocalisationBench {
 };
 
 /// Looking at an angle to the left of x of B, from its origin.
-inline RangeSensorModel make_range_sensor(const std::string& name, double angle_rad) {
-  RangeSensorModel sensor;
+inline controllers::RangeSensorModel make_range_sensor(const std::string& name, double angle_rad) {
+  controllers::RangeSensorModel sensor;
   sensor.name = name;
   sensor.X_BS.q = Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ());
   return sensor;

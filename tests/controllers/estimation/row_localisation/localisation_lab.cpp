@@ -106,10 +106,10 @@ double read_range(const LabSetup& setup, const LocalisationWorld& world, const P
   return std::max(0.0, range + error);
 }
 
-std::vector<RangeSensorModel> make_sensors(const LabSetup& setup) {
-  std::vector<RangeSensorModel> sensors;
+std::vector<controllers::RangeSensorModel> make_sensors(const LabSetup& setup) {
+  std::vector<controllers::RangeSensorModel> sensors;
   for (const double angle : setup.sensor_angles_rad) {
-    RangeSensorModel sensor;
+    controllers::RangeSensorModel sensor;
     sensor.name = "range" + std::to_string(sensors.size());
     sensor.X_BS.q = quaternion_from_rpy({0, 0, angle});
     sensor.half_angle_rad = setup.filter_fan_rays > 1 ? setup.cone_rad : 0.0;
@@ -146,7 +146,7 @@ LabSample judge(const LabFilter& filter, const LocalisationWorld& world, const T
 LabRun fly(const LabSetup& setup, std::uint64_t seed, const LabFilterMaker& make) {
   const LocalisationWorld world(setup.world, seed);
   const std::vector<TrueState> flight = draw_flight(setup, world, seed);
-  const std::vector<RangeSensorModel> sensors = make_sensors(setup);
+  const std::vector<controllers::RangeSensorModel> sensors = make_sensors(setup);
   const auto filter = make(LabContext{world.map(), world.map_index(), sensors, setup});
   RandomStream start(seed, "lab", "start"), inertial(seed, "lab", "inertial"),
       satellites(seed, "lab", "satellites"), echoes(seed, "lab", "echoes"),
@@ -157,7 +157,7 @@ LabRun fly(const LabSetup& setup, std::uint64_t seed, const LabFilterMaker& make
   // By the tick of measurement.
   std::vector<Vector3d> fixes(flight.size());
   std::vector<double> heights(flight.size());
-  std::vector<std::vector<RangeReading>> ranges(flight.size());
+  std::vector<std::vector<controllers::RangeReading>> ranges(flight.size());
 
   LabRun run;
   const double up_std =
@@ -253,8 +253,8 @@ namespace {
 
 class DistanceFilterUnderTest final : public LabFilter {
  public:
-  DistanceFilterUnderTest(const DistanceFilterParams& params, const LabContext& context,
-                          bool has_map)
+  DistanceFilterUnderTest(const controllers::DistanceFilterParams& params,
+                          const LabContext& context, bool has_map)
       : law_(params, context.map.accuracy, has_map ? &context.index : nullptr, context.sensors),
         heading_std_rad_(context.setup.heading_std_rad) {}
 
@@ -272,7 +272,7 @@ class DistanceFilterUnderTest final : public LabFilter {
   void height(Time measured, double z_m, double std_m) override {
     law_.take_height(measured, z_m, std_m);
   }
-  void ranges(Time measured, std::span<const RangeReading> readings) override {
+  void ranges(Time measured, std::span<const controllers::RangeReading> readings) override {
     law_.take_ranges(measured, readings);
   }
   Vector3d p_W() const override { return law_.kalman().p_W(); }
@@ -280,22 +280,22 @@ class DistanceFilterUnderTest final : public LabFilter {
   bool contains(const Vector3d& p_W) const override { return law_.set().contains(p_W); }
 
  private:
-  DistanceFilterLaw law_;
+  controllers::DistanceFilterLaw law_;
   double heading_std_rad_;
 };
 
 }  // namespace
 
-LabFilterMaker distance_filter(const DistanceFilterParams& params, bool has_map) {
+LabFilterMaker distance_filter(const controllers::DistanceFilterParams& params, bool has_map) {
   return [params, has_map](const LabContext& context) {
     return std::make_unique<DistanceFilterUnderTest>(params, context, has_map);
   };
 }
 
-DistanceFilterParams reading_params(InertialReading reading) {
-  DistanceFilterParams params;
+controllers::DistanceFilterParams reading_params(controllers::InertialReading reading) {
+  controllers::DistanceFilterParams params;
   params.reading = reading;
-  params.kalman = kalman_params_of(reading);
+  params.kalman = controllers::kalman_params_of(reading);
   return params;
 }
 

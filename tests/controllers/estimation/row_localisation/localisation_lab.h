@@ -65,7 +65,7 @@ class LabFilter {
                         const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m) = 0;
   virtual void fix(Time measured, const Eigen::Vector3d& p_W, const Eigen::Vector3d& std_m) = 0;
   virtual void height(Time /*measured*/, double /*z_m*/, double /*std_m*/) {}
-  virtual void ranges(Time measured, std::span<const RangeReading> readings) = 0;
+  virtual void ranges(Time measured, std::span<const controllers::RangeReading> readings) = 0;
   virtual Eigen::Vector3d p_W() const = 0;
   virtual Eigen::Matrix3d covariance() const = 0;
   /// Whether its set, if it has one, contains a point.
@@ -75,8 +75,8 @@ class LabFilter {
 /// The map it may use; nullptr: no map.
 struct LabContext {
   const RowMap& map;
-  const RowMeshIndex& index;
-  std::vector<RangeSensorModel> sensors;
+  const controllers::RowMeshIndex& index;
+  std::vector<controllers::RangeSensorModel> sensors;
   const LabSetup& setup;
 };
 using LabFilterMaker = std::function<std::unique_ptr<LabFilter>(const LabContext&)>;
@@ -112,9 +112,10 @@ LabScore study(const LabSetup& setup, int count, const LabFilterMaker& make,
                const std::function<bool(const LabSample&)>& counts = {});
 
 /// The distance filter. `has_map` false: satellite fixes and inertial unit only.
-LabFilterMaker distance_filter(const DistanceFilterParams& params, bool has_map = true);
+LabFilterMaker distance_filter(const controllers::DistanceFilterParams& params,
+                               bool has_map = true);
 
 /// Parameters of the three readings (docs/papers/localisation.md).
-DistanceFilterParams reading_params(InertialReading reading);
+controllers::DistanceFilterParams reading_params(controllers::InertialReading reading);
 
 }  // namespace vinerow::test

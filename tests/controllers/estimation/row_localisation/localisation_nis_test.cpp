@@ -26,22 +26,22 @@ const Vector3d kFixStd_m(1.0, 1.0, 1.5);
 TEST(LocalisationNis, OfADistanceFilterIsThatOfTheLastDatumTaken) {
   const WallBlock block;
   const RowMap map = make_wall_map(block);
-  const RowMeshIndex index(map);
-  RangeSensorModel left = make_range_sensor("left", 0.5 * kPi);
+  const controllers::RowMeshIndex index(map);
+  controllers::RangeSensorModel left = make_range_sensor("left", 0.5 * kPi);
   left.bound_m = 0.03;
-  DistanceFilterLaw law({}, map.accuracy, &index, {left});
+  controllers::DistanceFilterLaw law({}, map.accuracy, &index, {left});
   const Vector3d p_W(10, 1.25, 1);
   law.start(Time{}, p_W, 0.04 * Matrix3d::Identity());
   law.predict(Time{}, Vector3d::Zero(), Eigen::Quaterniond::Identity(), 0.0);
   EXPECT_EQ(law.range_nis(), 0.0);
   EXPECT_EQ(law.fix_nis(), 0.0);
   // A wall 1 m to the left, read as 1.1 m; R = 0.03^2 / 3.
-  const RangeReading reading{0, 1.1, 4.0};
+  const controllers::RangeReading reading{0, 1.1, 4.0};
   law.take_ranges(Time{}, {&reading, 1});
   EXPECT_NEAR(law.range_nis(), 0.01 / (0.04 + 0.0003), 1e-6);
   const double range_nis = law.range_nis();
   // A refused one leaves it.
-  const RangeReading refused{0, 3.0, 4.0};
+  const controllers::RangeReading refused{0, 3.0, 4.0};
   law.predict(Time{10'000'000}, Vector3d::Zero(), Eigen::Quaterniond::Identity(), 0.0);
   law.take_ranges(Time{10'000'000}, {&refused, 1});
   EXPECT_EQ(law.counters().echoes_gated, 1);
@@ -58,12 +58,12 @@ TEST(LocalisationNis, OfADistanceFilterIsThatOfTheLastDatumTaken) {
 TEST(LocalisationNis, OfABankIsThatOfTheLikeliestFiltersLastDatum) {
   const WallBlock block;
   const RowMap map = make_wall_map(block);
-  const RowMeshIndex index(map);
-  RangeSensorModel left = make_range_sensor("left", 0.5 * kPi);
+  const controllers::RowMeshIndex index(map);
+  controllers::RangeSensorModel left = make_range_sensor("left", 0.5 * kPi);
   left.bound_m = 0.03;
-  MapLocalisationParams params;
+  controllers::MapLocalisationParams params;
   params.noise.fix_horizontal_m.std = params.noise.fix_vertical_m.std = 0.0;
-  MapLocalisationLaw law(params, map, index, {left});
+  controllers::MapLocalisationLaw law(params, map, index, {left});
   const Vector3d p_W(10, 1.25, 1);
   law.start(Time{}, p_W, 0.04 * Matrix3d::Identity());
   law.predict(Time{}, Vector3d::Zero(), Eigen::Quaterniond::Identity());

@@ -12,7 +12,7 @@ namespace vinerow::test {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
-using Params = DistanceFilterParams;
+using Params = controllers::DistanceFilterParams;
 
 int seeds = 60;
 
@@ -30,20 +30,21 @@ void run(const std::string& name, const LabSetup& setup, const Params& params, b
   print(name, study(setup, seeds, distance_filter(params, has_map), counts));
 }
 
-Params with(InertialReading reading, DistanceFusion fusion, double k = 3.0) {
+Params with(controllers::InertialReading reading, controllers::DistanceFusion fusion,
+            double k = 3.0) {
   Params params = reading_params(reading);
   params.fusion = fusion;
   params.set_scale = k;
   return params;
 }
 
-constexpr auto kR1 = InertialReading::kPositionFix;
-constexpr auto kR2 = InertialReading::kRandomWalk;
-constexpr auto kR3 = InertialReading::kVelocity;
+constexpr auto kR1 = controllers::InertialReading::kPositionFix;
+constexpr auto kR2 = controllers::InertialReading::kRandomWalk;
+constexpr auto kR3 = controllers::InertialReading::kVelocity;
 
 /// What the reference does not tell of its world, and how much hangs on it.
 void assumptions() {
-  const Params ekf = with(kR3, DistanceFusion::kRangeEkf);
+  const Params ekf = with(kR3, controllers::DistanceFusion::kRangeEkf);
   run("as it is", {}, ekf);
   LabSetup setup;
   setup.height_std_m = 0.0;
@@ -61,46 +62,46 @@ void assumptions() {
 /// Section 2 of the reference: four sensors, R3.
 void modes() {
   const LabSetup setup;
-  run("no map", setup, with(kR3, DistanceFusion::kRangeEkf), false);
+  run("no map", setup, with(kR3, controllers::DistanceFusion::kRangeEkf), false);
   for (const double k : {1.0, 3.0}) {
-    run(fmt::format("replace k={}", k), setup, with(kR3, DistanceFusion::kReplace, k));
+    run(fmt::format("replace k={}", k), setup, with(kR3, controllers::DistanceFusion::kReplace, k));
   }
   for (const double k : {1.0, 3.0}) {
-    run(fmt::format("joint k={}", k), setup, with(kR3, DistanceFusion::kJoint, k));
+    run(fmt::format("joint k={}", k), setup, with(kR3, controllers::DistanceFusion::kJoint, k));
   }
   for (const double k : {1.0, 3.0}) {
-    Params params = with(kR3, DistanceFusion::kJoint, k);
+    Params params = with(kR3, controllers::DistanceFusion::kJoint, k);
     params.printed_square_root = true;
     run(fmt::format("joint, printed root k={}", k), setup, params);
   }
-  run("increment_matrix k=3", setup, with(kR3, DistanceFusion::kIncrementMatrix));
-  run("increment k=3", setup, with(kR3, DistanceFusion::kIncrement));
-  run("scalar", setup, with(kR3, DistanceFusion::kScalar));
-  run("truncated", setup, with(kR3, DistanceFusion::kTruncated));
-  run("range_ekf", setup, with(kR3, DistanceFusion::kRangeEkf));
-  Params white = with(kR3, DistanceFusion::kRangeEkf);
+  run("increment_matrix k=3", setup, with(kR3, controllers::DistanceFusion::kIncrementMatrix));
+  run("increment k=3", setup, with(kR3, controllers::DistanceFusion::kIncrement));
+  run("scalar", setup, with(kR3, controllers::DistanceFusion::kScalar));
+  run("truncated", setup, with(kR3, controllers::DistanceFusion::kTruncated));
+  run("range_ekf", setup, with(kR3, controllers::DistanceFusion::kRangeEkf));
+  Params white = with(kR3, controllers::DistanceFusion::kRangeEkf);
   white.inflation = 1.0;
   run("range_ekf r=1", setup, white);
 }
 
 void readings() {
   const LabSetup setup;
-  run("no map R1", setup, with(kR1, DistanceFusion::kRangeEkf), false);
-  run("no map R2", setup, with(kR2, DistanceFusion::kRangeEkf), false);
-  run("no map R3", setup, with(kR3, DistanceFusion::kRangeEkf), false);
-  run("R1 range_ekf", setup, with(kR1, DistanceFusion::kRangeEkf));
+  run("no map R1", setup, with(kR1, controllers::DistanceFusion::kRangeEkf), false);
+  run("no map R2", setup, with(kR2, controllers::DistanceFusion::kRangeEkf), false);
+  run("no map R3", setup, with(kR3, controllers::DistanceFusion::kRangeEkf), false);
+  run("R1 range_ekf", setup, with(kR1, controllers::DistanceFusion::kRangeEkf));
   for (const double k : {3.0, 1.0}) {
-    run(fmt::format("R1 joint k={}", k), setup, with(kR1, DistanceFusion::kJoint, k));
+    run(fmt::format("R1 joint k={}", k), setup, with(kR1, controllers::DistanceFusion::kJoint, k));
   }
-  run("R1 replace k=3", setup, with(kR1, DistanceFusion::kReplace));
-  run("R1 increment k=3", setup, with(kR1, DistanceFusion::kIncrement));
+  run("R1 replace k=3", setup, with(kR1, controllers::DistanceFusion::kReplace));
+  run("R1 increment k=3", setup, with(kR1, controllers::DistanceFusion::kIncrement));
   for (const double k : {1.0, 3.0}) {
-    Params params = with(kR1, DistanceFusion::kJoint, k);
+    Params params = with(kR1, controllers::DistanceFusion::kJoint, k);
     params.printed_square_root = true;
     run(fmt::format("R1 joint, printed root k={}", k), setup, params);
   }
-  Params closest = with(kR1, DistanceFusion::kJoint);
-  closest.association = EchoAssociation::kClosestSegment;
+  Params closest = with(kR1, controllers::DistanceFusion::kJoint);
+  closest.association = controllers::EchoAssociation::kClosestSegment;
   run("R1 joint k=3, closest segment", setup, closest);
 }
 
@@ -125,15 +126,15 @@ void sensors() {
   for (const double k : {1.0, 2.0, 3.0}) {
     for (const auto& [name, angles] : kLayouts) {
       run(fmt::format("R1 fit, joint_each k={}, {}", k, name), with_layout(fit, angles),
-          with(kR1, DistanceFusion::kJointEach, k));
+          with(kR1, controllers::DistanceFusion::kJointEach, k));
     }
   }
-  run("R1 fit, no map", fit, with(kR1, DistanceFusion::kRangeEkf), false);
-  run("R1 fit, range_ekf, 4 at X", fit, with(kR1, DistanceFusion::kRangeEkf));
-  run("R3 fit, range_ekf, 4 at X", fit, with(kR3, DistanceFusion::kRangeEkf));
+  run("R1 fit, no map", fit, with(kR1, controllers::DistanceFusion::kRangeEkf), false);
+  run("R1 fit, range_ekf, 4 at X", fit, with(kR1, controllers::DistanceFusion::kRangeEkf));
+  run("R3 fit, range_ekf, 4 at X", fit, with(kR3, controllers::DistanceFusion::kRangeEkf));
   for (const auto& [name, angles] : kLayouts) {
     run("R3 nominal, range_ekf, " + name, with_layout({}, angles),
-        with(kR3, DistanceFusion::kRangeEkf));
+        with(kR3, controllers::DistanceFusion::kRangeEkf));
   }
 }
 
@@ -141,29 +142,30 @@ void world() {
   for (const double wall : {0.0, 0.07, 0.15}) {
     LabSetup setup;
     setup.world.wall_std_m = wall;
-    run(fmt::format("sigma_v {}", wall), setup, with(kR3, DistanceFusion::kRangeEkf));
+    run(fmt::format("sigma_v {}", wall), setup, with(kR3, controllers::DistanceFusion::kRangeEkf));
   }
   for (const double surface : {0.01, 0.03, 0.05, 0.10}) {
     LabSetup setup;
     setup.world.surface_std_m = surface;
-    run(fmt::format("sigma_m {}", surface), setup, with(kR3, DistanceFusion::kRangeEkf));
+    run(fmt::format("sigma_m {}", surface), setup,
+        with(kR3, controllers::DistanceFusion::kRangeEkf));
   }
   LabSetup unknown;
   unknown.world.surface_std_m = 0.10;
   unknown.world.stated_surface_std_m = 0.03;
-  run("sigma_m 0.1, stated 0.03", unknown, with(kR3, DistanceFusion::kRangeEkf));
+  run("sigma_m 0.1, stated 0.03", unknown, with(kR3, controllers::DistanceFusion::kRangeEkf));
   for (const double speed : {0.75, 1.5, 3.0, 10.0}) {
     LabSetup setup;
     setup.speed_mps = speed;
     setup.world.length_m = 20.0 + 60.0 * speed + 10.0;
-    run(fmt::format("speed {}", speed), setup, with(kR3, DistanceFusion::kRangeEkf));
+    run(fmt::format("speed {}", speed), setup, with(kR3, controllers::DistanceFusion::kRangeEkf));
   }
 }
 
 void echoes() {
-  const Params ekf = with(kR3, DistanceFusion::kRangeEkf);
+  const Params ekf = with(kR3, controllers::DistanceFusion::kRangeEkf);
   Params closest = ekf;
-  closest.association = EchoAssociation::kClosestSegment;
+  closest.association = controllers::EchoAssociation::kClosestSegment;
   run("closest segment", {}, closest);
   LabSetup cone;
   cone.cone_rad = 15 * kDeg;
@@ -184,7 +186,8 @@ void echoes() {
     run(fmt::format("false {}, gate", share), setup, ekf);
     run(fmt::format("false {}, gate + Huber", share), setup, huber);
     run(fmt::format("false {}, no gate", share), setup, open);
-    run(fmt::format("false {}, joint k=3", share), setup, with(kR3, DistanceFusion::kJoint));
+    run(fmt::format("false {}, joint k=3", share), setup,
+        with(kR3, controllers::DistanceFusion::kJoint));
   }
   LabSetup yaw;
   yaw.heading_std_rad = 2 * kDeg;
@@ -206,7 +209,7 @@ void echoes() {
 }
 
 void latency() {
-  const Params ekf = with(kR3, DistanceFusion::kRangeEkf);
+  const Params ekf = with(kR3, controllers::DistanceFusion::kRangeEkf);
   for (const bool told : {false, true}) {
     const std::string how = told ? "told" : "not told";
     for (const int age : {3, 5}) {
@@ -255,9 +258,9 @@ bool is_near_gap(const LabSample& sample) {
 }
 
 void robustness() {
-  const Params ekf = with(kR3, DistanceFusion::kRangeEkf);
-  const Params increment = with(kR3, DistanceFusion::kIncrement);
-  const Params joint = with(kR3, DistanceFusion::kJoint);
+  const Params ekf = with(kR3, controllers::DistanceFusion::kRangeEkf);
+  const Params increment = with(kR3, controllers::DistanceFusion::kIncrement);
+  const Params joint = with(kR3, controllers::DistanceFusion::kJoint);
   Params open = ekf;
   open.gate_sigma = 0.0;
   LabSetup outage;
@@ -294,7 +297,7 @@ void robustness() {
 /// The filter of ours on the same flights.
 void better() {
   const auto tell = [](const std::string& name, const LabSetup& setup,
-                       const MapLocalisationParams& params = {}, bool on_map = false,
+                       const controllers::MapLocalisationParams& params = {}, bool on_map = false,
                        const std::function<bool(const LabSample&)>& counts = {}) {
     print(name, study(setup, seeds, map_localisation(params, on_map), counts));
   };
@@ -327,7 +330,7 @@ void better() {
   }
   setup = {};
   setup.world.map_offset_W = {0.025, 0.0433013, 0};
-  MapLocalisationParams shifted;
+  controllers::MapLocalisationParams shifted;
   shifted.map_shift_std_m = 0.05;
   tell("map bias 5 cm, its shift a state", setup, shifted);
   tell("the same, place on the map", setup, shifted, true);

@@ -14,18 +14,19 @@ namespace {
 
 constexpr double kDeg = 0.017453292519943295;
 constexpr int kSeeds = 10;
-constexpr auto kR1 = InertialReading::kPositionFix;
-constexpr auto kR3 = InertialReading::kVelocity;
+constexpr auto kR1 = controllers::InertialReading::kPositionFix;
+constexpr auto kR3 = controllers::InertialReading::kVelocity;
 
-DistanceFilterParams with(InertialReading reading, DistanceFusion fusion, double k = 3.0) {
-  DistanceFilterParams params = reading_params(reading);
+controllers::DistanceFilterParams with(controllers::InertialReading reading,
+                                       controllers::DistanceFusion fusion, double k = 3.0) {
+  controllers::DistanceFilterParams params = reading_params(reading);
   params.fusion = fusion;
   params.set_scale = k;
   return params;
 }
 
-LabScore run(const LabSetup& setup, const DistanceFilterParams& params, bool has_map = true,
-             const std::function<bool(const LabSample&)>& counts = {}) {
+LabScore run(const LabSetup& setup, const controllers::DistanceFilterParams& params,
+             bool has_map = true, const std::function<bool(const LabSample&)>& counts = {}) {
   return study(setup, kSeeds, distance_filter(params, has_map), counts);
 }
 
@@ -49,7 +50,7 @@ TEST(Localisation, WithoutTheMapReadingR1GivesPaperCsTable3) {
   const double margin_m2 = share * theory.mean_square_std_m2();
   EXPECT_NEAR(0.2623 * 0.2623, theory.mean_square_m2(), margin_m2);  // table 3
   EXPECT_NEAR(0.2616 * 0.2616, theory.mean_square_m2(), margin_m2);
-  const LabScore score = run({}, with(kR1, DistanceFusion::kRangeEkf), false);
+  const LabScore score = run({}, with(kR1, controllers::DistanceFusion::kRangeEkf), false);
   EXPECT_NEAR(score.lateral_m * score.lateral_m, theory.mean_square_m2(), margin_m2);
   EXPECT_NEAR(score.longitudinal_m * score.longitudinal_m, theory.mean_square_m2(), margin_m2);
   // R3, the velocity as process model, is consistent: the reference's 0.2125 / 0.2022, NEES 1.9.
@@ -76,12 +77,12 @@ TEST(Localisation, Table3WithTheMapComesOutOfReadingR1) {
   LabSetup fit;
   fit.world.wall_std_m = 0.15;
   fit.world.surface_std_m = 0.01;
-  const LabScore score = run(fit, with(kR1, DistanceFusion::kJointEach, 2.0));
+  const LabScore score = run(fit, with(kR1, controllers::DistanceFusion::kJointEach, 2.0));
   EXPECT_NEAR(score.lateral_m, 0.0632, 0.0632 / 6);
   EXPECT_NEAR(score.longitudinal_m, 0.1529, 0.1529 / 6);
   // But a filter that counts nothing twice does as well in that reading, and one that takes the
   // velocity for a velocity several times better.
-  const LabScore honest = run(fit, with(kR1, DistanceFusion::kRangeEkf));
+  const LabScore honest = run(fit, with(kR1, controllers::DistanceFusion::kRangeEkf));
   EXPECT_LT(honest.lateral_m, 1.05 * score.lateral_m);
   EXPECT_LT(honest.longitudinal_m, 1.05 * score.longitudinal_m);
   const LabScore velocity = run(fit, {});
@@ -91,13 +92,14 @@ TEST(Localisation, Table3WithTheMapComesOutOfReadingR1) {
 
 TEST(Localisation, FusingTheCutEllipseWithItsOwnPriorCountsItTwice) {
   for (const double k : {1.0, 3.0}) {
-    const LabScore joint = run({}, with(kR3, DistanceFusion::kJoint, k));
+    const LabScore joint = run({}, with(kR3, controllers::DistanceFusion::kJoint, k));
     EXPECT_GT(joint.nees, 40.0);
     EXPECT_LT(joint.coverage, 0.3);
     EXPECT_GT(joint.longitudinal_m, 0.25);  // no better than without a map: 0.2
   }
-  EXPECT_GT(run({}, with(kR3, DistanceFusion::kReplace, 1.0)).nees, 4.0);
-  for (const auto fusion : {DistanceFusion::kIncrement, DistanceFusion::kIncrementMatrix}) {
+  EXPECT_GT(run({}, with(kR3, controllers::DistanceFusion::kReplace, 1.0)).nees, 4.0);
+  for (const auto fusion :
+       {controllers::DistanceFusion::kIncrement, controllers::DistanceFusion::kIncrementMatrix}) {
     const LabScore increment = run({}, with(kR3, fusion));
     EXPECT_LT(increment.nees, 2.0);
     EXPECT_GT(increment.coverage, 0.95);
@@ -105,7 +107,7 @@ TEST(Localisation, FusingTheCutEllipseWithItsOwnPriorCountsItTwice) {
     EXPECT_LT(increment.longitudinal_m, 0.14);
   }
   // A map error that stays along the row is not white.
-  DistanceFilterParams white;
+  controllers::DistanceFilterParams white;
   white.inflation = 1.0;
   EXPECT_GT(run({}, white).nees, 4.0);
 }
@@ -147,7 +149,7 @@ TEST(Localisation, MissedAndFalseEchoesAreBorne) {
   EXPECT_LE(run(setup, {}).lateral_m, 0.02);
   setup.missed_share = 0.0;
   setup.false_share = 0.2;
-  DistanceFilterParams huber, open;
+  controllers::DistanceFilterParams huber, open;
   huber.huber_sigma = 1.5;
   open.gate_sigma = 0.0;
   const LabScore gated = run(setup, {}), wary = run(setup, huber), trusting = run(setup, open);
@@ -199,7 +201,7 @@ TEST(Localisation, MissingVinesAndABiasedMap) {
     }
     return false;
   };
-  DistanceFilterParams open;
+  controllers::DistanceFilterParams open;
   open.gate_sigma = 0.0;
   LabSetup setup;
   setup.world.true_gaps = gaps;

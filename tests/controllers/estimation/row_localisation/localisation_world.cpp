@@ -32,8 +32,8 @@ LocalisationWorld::LocalisationWorld(const LocalisationWorldSetup& setup, std::u
   }
   map_ = make_map(setup_.map_gaps, setup_.map_offset_W);
   truth_ = make_map(setup_.true_gaps, Eigen::Vector3d::Zero());
-  map_index_ = std::make_unique<RowMeshIndex>(map_);
-  truth_index_ = std::make_unique<RowMeshIndex>(truth_);
+  map_index_ = std::make_unique<controllers::RowMeshIndex>(map_);
+  truth_index_ = std::make_unique<controllers::RowMeshIndex>(truth_);
 }
 
 Eigen::Vector3d LocalisationWorld::place(double s, double t, double h) const {

@@ -44,7 +44,7 @@ class LocalisationWorld {
 
   const LocalisationWorldSetup& setup() const { return setup_; }
   const RowMap& map() const { return map_; }
-  const RowMeshIndex& map_index() const { return *map_index_; }
+  const controllers::RowMeshIndex& map_index() const { return *map_index_; }
   /// True first return along a ray, +infinity beyond max_range_m. @param dir_W  unit
   double true_range(const Eigen::Vector3d& p_W, const Eigen::Vector3d& dir_W,
                     double max_range_m) const;
@@ -75,7 +75,7 @@ class LocalisationWorld {
   std::vector<std::vector<Section>> sections_;
   std::vector<std::vector<double>> errors_;  // by row and side, every kErrorStep_m
   RowMap map_, truth_;
-  std::unique_ptr<RowMeshIndex> map_index_, truth_index_;
+  std::unique_ptr<controllers::RowMeshIndex> map_index_, truth_index_;
 };
 
 }  // namespace vinerow::test

@@ -11,7 +11,7 @@ namespace vinerow::test {
 class MapLocalisationFilter final : public LabFilter {
  public:
   /// @param on_map  judged by its place beside the map's walls instead of that in W
-  MapLocalisationFilter(const MapLocalisationParams& params, const LabContext& context,
+  MapLocalisationFilter(const controllers::MapLocalisationParams& params, const LabContext& context,
                         bool on_map = false)
       : law_(params, context.map, context.index, context.sensors),
         on_map_(on_map),
@@ -30,8 +30,8 @@ class MapLocalisationFilter final : public LabFilter {
   void height(Time measured, double z_m, double std_m) override {
     law_.correct_plane(measured, Eigen::Vector3d::UnitZ(), z_m, std_m);
   }
-  void ranges(Time measured, std::span<const RangeReading> readings) override {
-    for (const RangeReading& reading : readings) {
+  void ranges(Time measured, std::span<const controllers::RangeReading> readings) override {
+    for (const controllers::RangeReading& reading : readings) {
       if (std::isfinite(reading.range_m)) {
         law_.correct_range(measured, reading.sensor, reading.range_m, period_s_);
       }
@@ -43,15 +43,15 @@ class MapLocalisationFilter final : public LabFilter {
   Eigen::Matrix3d covariance() const override {
     return on_map_ ? law_.position_on_map_covariance() : law_.position_covariance();
   }
-  const MapLocalisationLaw& law() const { return law_; }
+  const controllers::MapLocalisationLaw& law() const { return law_; }
 
  private:
-  MapLocalisationLaw law_;
+  controllers::MapLocalisationLaw law_;
   bool on_map_;
   double period_s_;
 };
 
-inline LabFilterMaker map_localisation(const MapLocalisationParams& params = {},
+inline LabFilterMaker map_localisation(const controllers::MapLocalisationParams& params = {},
                                        bool on_map = false) {
   return [params, on_map](const LabContext& context) {
     return std::make_unique<MapLocalisationFilter>(params, context, on_map);

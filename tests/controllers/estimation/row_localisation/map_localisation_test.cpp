@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSeeds = 20;
 
-LabScore run(const LabSetup& setup, const MapLocalisationParams& params = {},
+LabScore run(const LabSetup& setup, const controllers::MapLocalisationParams& params = {},
              const std::function<bool(const LabSample&)>& counts = {}) {
   return study(setup, kSeeds, map_localisation(params), counts);
 }
@@ -77,7 +77,7 @@ TEST(MapLocalisation, MissingVinesInTruthOrMap) {
     EXPECT_EQ(score.lost, 0);
   }
   // What closes a run of plants must not be believed: with it the gaps in the map mislead.
-  MapLocalisationParams believing;
+  controllers::MapLocalisationParams believing;
   believing.most_along = 1.1;
   EXPECT_GT(run(map, believing).nees, 4.0);
 }
@@ -86,7 +86,7 @@ TEST(MapLocalisation, AMapOffByFiveCentimetresIsConsistentWhereItsShiftIsAState)
   LabSetup setup;
   setup.world.map_offset_W = {0.025, 0.0433, 0.0};  // across the rows
   EXPECT_GT(run(setup).nees, 5.0);
-  MapLocalisationParams params;
+  controllers::MapLocalisationParams params;
   params.map_shift_std_m = 0.05;
   const LabScore score = run(setup, params);
   EXPECT_LE(score.nees, 2.4);
@@ -96,7 +96,7 @@ TEST(MapLocalisation, AMapOffByFiveCentimetresIsConsistentWhereItsShiftIsAState)
 TEST(MapLocalisation, BesideTheMapsWallsItIsAsGoodWhereverTheMapLies) {
   LabSetup setup;
   setup.world.map_offset_W = {0.025, 0.0433, 0.0};
-  MapLocalisationParams params;
+  controllers::MapLocalisationParams params;
   params.map_shift_std_m = 0.05;
   double sum_m = 0.0, squares_m2 = 0.0, nees = 0.0;
   int count = 0;
@@ -159,7 +159,7 @@ struct Standing {
     const Eigen::Vector3d p_W = world.place(20.0, 0.0, 1.25);
     sensors = {{"left", {quaternion_from_rpy({0, 0, 0.785}), {0, 0, 0}}, 0.0, 1, 0.003},
                {"right", {quaternion_from_rpy({0, 0, -0.785}), {0, 0, 0}}, 0.0, 1, 0.003}};
-    law.emplace(MapLocalisationParams{}, world.map(), world.map_index(), sensors);
+    law.emplace(controllers::MapLocalisationParams{}, world.map(), world.map_index(), sensors);
     law->start(Time{0}, p_W, 0.01 * Eigen::Matrix3d::Identity());
     q_WB = quaternion_from_rpy({0, 0, world.setup().azimuth_rad});
     true_p_W = p_W;
@@ -176,8 +176,8 @@ struct Standing {
     }
   }
   LocalisationWorld world;
-  std::vector<RangeSensorModel> sensors;
-  std::optional<MapLocalisationLaw> law;
+  std::vector<controllers::RangeSensorModel> sensors;
+  std::optional<controllers::MapLocalisationLaw> law;
   Eigen::Quaterniond q_WB;
   Eigen::Vector3d true_p_W;
   Time now;
@@ -186,7 +186,7 @@ struct Standing {
 TEST(MapLocalisationLaw, RefusesAndCountsBadDataAndGoesOn) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Standing standing;
-  MapLocalisationLaw& law = *standing.law;
+  controllers::MapLocalisationLaw& law = *standing.law;
   standing.tick();
   standing.look();
   const Eigen::Vector3d before = law.state().p_W();
@@ -229,7 +229,7 @@ TEST(MapLocalisationLaw, AnOldFixWithoutErrorIsComparedWithWhereTheAntennaWas) {
   const Duration tick{10'000'000};
   const Eigen::Vector3d p_BA(0.4, -0.1, 0.3);
   Standing standing;
-  MapLocalisationLaw& law = *standing.law;
+  controllers::MapLocalisationLaw& law = *standing.law;
   const Eigen::Vector3d v_W = kSpeedMps * standing.world.along_W();
   const auto place_W = [&](double t_s) { return Eigen::Vector3d(standing.true_p_W + t_s * v_W); };
   const auto turned = [&](double t_s) {
@@ -253,7 +253,7 @@ TEST(MapLocalisationLaw, AnOldFixWithoutErrorIsComparedWithWhereTheAntennaWas) {
 
 TEST(MapLocalisationLaw, BeginningAnewKeepsTheOldPlaceInQuestion) {
   Standing standing;
-  MapLocalisationLaw& law = *standing.law;
+  controllers::MapLocalisationLaw& law = *standing.law;
   standing.tick();
   // The last fix is 1.5 m off along the rows: a bank about it alone would be, too.
   law.correct_fix(standing.now, standing.true_p_W + 1.5 * standing.world.along_W(), {1, 1, 1},

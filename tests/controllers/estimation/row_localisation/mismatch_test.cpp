@@ -38,7 +38,7 @@ class Misinformed final : public LabFilter {
   void height(Time measured, double z_m, double std_m) override {
     filter_->height(measured, z_m, std_m);
   }
-  void ranges(Time measured, std::span<const RangeReading> readings) override {
+  void ranges(Time measured, std::span<const controllers::RangeReading> readings) override {
     filter_->ranges(measured, readings);
   }
   Eigen::Vector3d p_W() const override { return filter_->p_W(); }
@@ -91,7 +91,7 @@ struct TheoryCase {
 
 TEST(MismatchOfALinearFilter, IsWhatTheRiccatiRecursionWithTheTrueNoiseSays) {
   constexpr int kFlights = 20;
-  DistanceFilterParams open;  // a gate is not linear
+  controllers::DistanceFilterParams open;  // a gate is not linear
   open.fix_gate_sigma = 0.0;
   const LabFilterMaker make = distance_filter(open, false);
   for (const TheoryCase& one : {TheoryCase{Noise::kAll, 1.0, {1.0, 1.0}},

@@ -30,9 +30,9 @@ Matrix3d diagonal(double x, double y, double z) {
 
 TEST(PositionKalman, AgreesWithTheTextbookMatrices) {
   // Eq. 19-22 of paper C with full 6 x 6 matrices, vectors instead of scalars.
-  PositionKalmanParams params;
+  controllers::PositionKalmanParams params;
   params.walk_m2_per_s = 0.02;
-  PositionKalman filter(params);
+  controllers::PositionKalman filter(params);
   RandomStream random(1, "test", "kalman");
   Vector3d p(1, 2, 3);
   Eigen::Matrix<double, 6, 1> x;
@@ -61,7 +61,8 @@ TEST(PositionKalman, AgreesWithTheTextbookMatrices) {
       const Matrix3d S = H * P * H.transpose() + R;
       const Eigen::Matrix<double, 6, 3> K = P * H.transpose() * S.inverse();
       const Vector3d innovation = z - H * x;
-      EXPECT_EQ(filter.correct_position(innovation, R.diagonal(), age, 0.0), DatumStatus::kTaken);
+      EXPECT_EQ(filter.correct_position(innovation, R.diagonal(), age, 0.0),
+                controllers::DatumStatus::kTaken);
       EXPECT_NEAR(filter.last_nis(), innovation.dot(S.inverse() * innovation) / 3.0, 1e-9);
       x += K * innovation;
       P = (Eigen::Matrix<double, 6, 6>::Identity() - K * H) * P;
@@ -73,9 +74,9 @@ TEST(PositionKalman, AgreesWithTheTextbookMatrices) {
 
 TEST(PositionKalman, PredictsTheErrorOfItsVelocityInput) {
   // Variance of the way under a Gauss-Markov velocity error: 2 s^2 tau^2 (t/tau - 1 + exp(-t/tau)).
-  PositionKalmanParams params;
+  controllers::PositionKalmanParams params;
   params.walk_m2_per_s = 0.0;
-  PositionKalman filter(params);
+  controllers::PositionKalman filter(params);
   filter.start(Time{}, Vector3d::Zero(), diagonal(1e-6, 1e-6, 1e-6));
   for (int i = 1; i <= 2000; ++i) filter.predict(at_ms(10 * i), {1, 0, 0});
   const double ratio = 20.0 / 5.0;
@@ -85,7 +86,7 @@ TEST(PositionKalman, PredictsTheErrorOfItsVelocityInput) {
 }
 
 TEST(PositionKalman, ReplacingByItselfChangesNothingAndCarriesTheRestAlong) {
-  PositionKalman filter{PositionKalmanParams{}};
+  controllers::PositionKalman filter{controllers::PositionKalmanParams{}};
   Matrix3d P = diagonal(0.3, 0.2, 0.4);
   P(0, 2) = P(2, 0) = 0.15;
   filter.start(Time{}, {1, 2, 3}, P);
@@ -100,46 +101,49 @@ TEST(PositionKalman, ReplacingByItselfChangesNothingAndCarriesTheRestAlong) {
 }
 
 TEST(PositionKalman, RefusesWhatItCannotUseAndStaysAsItWas) {
-  PositionKalman filter{PositionKalmanParams{}};
+  controllers::PositionKalman filter{controllers::PositionKalmanParams{}};
   EXPECT_FALSE(filter.start(Time{}, {kNaN, 0, 0}, diagonal(1, 1, 1)));
   EXPECT_FALSE(filter.start(Time{}, {0, 0, 0}, diagonal(1, -1, 1)));
   ASSERT_TRUE(filter.start(at_ms(100), {0, 0, 0}, diagonal(1, 1, 1)));
   const auto x = filter.x();
   const auto P = filter.covariance();
-  EXPECT_EQ(filter.predict(at_ms(50), {1, 0, 0}), DatumStatus::kBackwards);
-  EXPECT_EQ(filter.predict(at_ms(110), {1, kNaN, 0}), DatumStatus::kBadNumber);
-  PositionKalman::Scalar datum;
-  datum.gradient = PositionKalman::gradient_of({1, 0, 0}, 0.0);
+  EXPECT_EQ(filter.predict(at_ms(50), {1, 0, 0}), controllers::DatumStatus::kBackwards);
+  EXPECT_EQ(filter.predict(at_ms(110), {1, kNaN, 0}), controllers::DatumStatus::kBadNumber);
+  controllers::PositionKalman::Scalar datum;
+  datum.gradient = controllers::PositionKalman::gradient_of({1, 0, 0}, 0.0);
   datum.innovation = kNaN;
-  EXPECT_EQ(filter.correct(datum), DatumStatus::kBadNumber);
+  EXPECT_EQ(filter.correct(datum), controllers::DatumStatus::kBadNumber);
   datum.innovation = 0.5;
   datum.variance = 0.0;
-  EXPECT_EQ(filter.correct(datum), DatumStatus::kBadNumber);
+  EXPECT_EQ(filter.correct(datum), controllers::DatumStatus::kBadNumber);
   datum.variance = 1.0;
   datum.innovation = 6.0;  // 6 / sqrt(2) = 4.2 sigma
   datum.gate_sigma = 4.0;
-  EXPECT_EQ(filter.correct(datum), DatumStatus::kGated);
-  EXPECT_EQ(filter.correct_position({1, 2, kNaN}, {1, 1, 1}, 0.0, 0.0), DatumStatus::kBadNumber);
-  EXPECT_EQ(filter.correct_position({1, 2, 3}, {1, -1, 1}, 0.0, 0.0), DatumStatus::kBadNumber);
+  EXPECT_EQ(filter.correct(datum), controllers::DatumStatus::kGated);
+  EXPECT_EQ(filter.correct_position({1, 2, kNaN}, {1, 1, 1}, 0.0, 0.0),
+            controllers::DatumStatus::kBadNumber);
+  EXPECT_EQ(filter.correct_position({1, 2, 3}, {1, -1, 1}, 0.0, 0.0),
+            controllers::DatumStatus::kBadNumber);
   Matrix2d indefinite;
   indefinite << 1, 2, 2, 1;
-  EXPECT_EQ(filter.correct_horizontal({0, 0}, indefinite), DatumStatus::kNotPositive);
-  EXPECT_EQ(filter.replace_horizontal({0, 0}, indefinite), DatumStatus::kNotPositive);
-  EXPECT_EQ(filter.replace_horizontal({0, kNaN}, Matrix2d::Identity()), DatumStatus::kBadNumber);
+  EXPECT_EQ(filter.correct_horizontal({0, 0}, indefinite), controllers::DatumStatus::kNotPositive);
+  EXPECT_EQ(filter.replace_horizontal({0, 0}, indefinite), controllers::DatumStatus::kNotPositive);
+  EXPECT_EQ(filter.replace_horizontal({0, kNaN}, Matrix2d::Identity()),
+            controllers::DatumStatus::kBadNumber);
   EXPECT_EQ(filter.x(), x);
   EXPECT_EQ(filter.covariance(), P);
   datum.gate_sigma = 5.0;
-  EXPECT_EQ(filter.correct(datum), DatumStatus::kTaken);
+  EXPECT_EQ(filter.correct(datum), controllers::DatumStatus::kTaken);
 }
 
 TEST(PositionKalman, StaysPositiveOverExtremeData) {
   RandomStream random(2, "test", "extreme");
-  PositionKalman filter{PositionKalmanParams{}};
+  controllers::PositionKalman filter{controllers::PositionKalmanParams{}};
   filter.start(Time{}, Vector3d::Zero(), diagonal(1e4, 1e4, 1e4));
   for (int i = 1; i <= 20000; ++i) {
     if (i % 10 == 0) filter.predict(at_ms(i), {1, 0, 0});
-    PositionKalman::Scalar datum;
-    datum.gradient = PositionKalman::gradient_of(
+    controllers::PositionKalman::Scalar datum;
+    datum.gradient = controllers::PositionKalman::gradient_of(
         Vector3d(random.normal(), random.normal(), random.normal()).normalized(), 0.0);
     datum.innovation = 0.01 * random.normal();
     datum.variance = std::pow(10.0, random.uniform(-14.0, 6.0));
@@ -154,10 +158,10 @@ TEST(PositionKalman, HuberWeighsAnOutlierLikeOneAtTheBound) {
   // Far beyond the bound the pull is that of an innovation of huber sigma, whatever it is.
   double pulls[2];
   for (int i = 0; i < 2; ++i) {
-    PositionKalman filter{PositionKalmanParams{}};
+    controllers::PositionKalman filter{controllers::PositionKalmanParams{}};
     filter.start(Time{}, Vector3d::Zero(), diagonal(1, 1, 1));
-    PositionKalman::Scalar datum;
-    datum.gradient = PositionKalman::gradient_of({1, 0, 0}, 0.0);
+    controllers::PositionKalman::Scalar datum;
+    datum.gradient = controllers::PositionKalman::gradient_of({1, 0, 0}, 0.0);
     datum.variance = 3.0;  // innovation's deviation: 2
     datum.huber_sigma = 1.5;
     datum.innovation = i == 0 ? 10.0 : 1000.0;
@@ -170,13 +174,13 @@ TEST(PositionKalman, HuberWeighsAnOutlierLikeOneAtTheBound) {
 
 /// What a sensor reads of a wall, and how an estimate with another position and heading sees it.
 struct Echo {
-  RangePrediction told;
+  controllers::RangePrediction told;
   Vector3d p_W, p_told_W;
   double range_m = 0.0;
 };
 
 /// @returns nothing where the wall is not in sight
-std::optional<Echo> draw_echo(RandomStream& random, const EchoBounds& bounds) {
+std::optional<Echo> draw_echo(RandomStream& random, const controllers::EchoBounds& bounds) {
   Echo echo;
   const double azimuth = random.uniform(-3.14159, 3.14159), rise = random.uniform(-0.3, 0.3);
   const Vector3d N(std::cos(azimuth) * std::cos(rise), std::sin(azimuth) * std::cos(rise),
@@ -211,20 +215,22 @@ std::optional<Echo> draw_echo(RandomStream& random, const EchoBounds& bounds) {
 
 TEST(EchoSlab, ContainsTheTruthUnderBoundedErrors) {
   RandomStream random(4, "test", "slab");
-  const EchoBounds bounds{0.003, 0.09, 3.0 * 0.0035};
+  const controllers::EchoBounds bounds{0.003, 0.09, 3.0 * 0.0035};
   int count = 0, tight = 0;
   for (int i = 0; i < 200'000; ++i) {
     const auto echo = draw_echo(random, bounds);
     if (!echo) continue;
     ++count;
-    const EchoSlab slab = echo_slab(echo->told, echo->p_told_W, echo->range_m, bounds);
+    const controllers::EchoSlab slab =
+        controllers::echo_slab(echo->told, echo->p_told_W, echo->range_m, bounds);
     const double at = slab.normal_W.dot(echo->p_W);
     ASSERT_GE(at, slab.lower_m - 1e-12);
     ASSERT_LE(at, slab.upper_m + 1e-12);
     tight += std::abs(at - 0.5 * (slab.lower_m + slab.upper_m)) > 0.9 * slab.half_width_m();
     // In the plane, with the height known to 5 cm.
     const double height_error = random.uniform(-0.05, 0.05);
-    const EchoSlab2 flat = horizontal_slab(slab, echo->p_W.z() + height_error, 0.05);
+    const controllers::EchoSlab2 flat =
+        controllers::horizontal_slab(slab, echo->p_W.z() + height_error, 0.05);
     ASSERT_GE(flat.a.dot(echo->p_W.head<2>()), flat.lower_m - 1e-12);
     ASSERT_LE(flat.a.dot(echo->p_W.head<2>()), flat.upper_m + 1e-12);
   }
@@ -236,14 +242,15 @@ TEST(EchoSlab, TheOtherSideOfTheWallMissesTheTruth) {
   // Paper C's eq. 10-12 take the side from an arctan, which loses it: the offset to the other side
   // of the line puts the slab 2 d |N'u| away.
   RandomStream random(6, "test", "side");
-  const EchoBounds bounds{0.003, 0.09, 0.0};
+  const controllers::EchoBounds bounds{0.003, 0.09, 0.0};
   int count = 0;
   for (int i = 0; i < 10'000; ++i) {
     auto echo = draw_echo(random, bounds);
     if (!echo || echo->range_m * std::abs(echo->told.slope()) < 0.3) continue;
     ++count;
     echo->told.dir_W = -echo->told.dir_W;
-    const EchoSlab slab = echo_slab(echo->told, echo->p_told_W, echo->range_m, bounds);
+    const controllers::EchoSlab slab =
+        controllers::echo_slab(echo->told, echo->p_told_W, echo->range_m, bounds);
     const double at = slab.normal_W.dot(echo->p_W);
     ASSERT_TRUE(at < slab.lower_m || at > slab.upper_m);
   }
@@ -253,7 +260,7 @@ TEST(EchoSlab, TheOtherSideOfTheWallMissesTheTruth) {
 TEST(IntegritySet, GrowsByWhatItMayHaveMovedAndIsCutByEchoes) {
   // A vehicle that moves by at most `growth` off its reckoned way each step stays inside.
   RandomStream random(8, "test", "set");
-  IntegritySet set;
+  controllers::IntegritySet set;
   EXPECT_FALSE(set.has_started());
   set.start(Vector3d::Zero(), diagonal(0.5, 0.5, 0.5));
   Vector3d p(0.2, -0.3, 0.1);
@@ -265,18 +272,19 @@ TEST(IntegritySet, GrowsByWhatItMayHaveMovedAndIsCutByEchoes) {
     ASSERT_TRUE(set.contains(p)) << i;
     const Vector3d N = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
     const double error = random.uniform(-0.1, 0.1);
-    const CutStatus status = set.cut({N, N.dot(p) + error - 0.1, N.dot(p) + error + 0.1});
-    ASSERT_NE(status, CutStatus::kEmpty);
+    const controllers::CutStatus status =
+        set.cut({N, N.dot(p) + error - 0.1, N.dot(p) + error + 0.1});
+    ASSERT_NE(status, controllers::CutStatus::kEmpty);
     ASSERT_TRUE(set.contains(p)) << i;
   }
   EXPECT_LT(set.shape_m2().trace(), 0.5);
   const Vector3d centre = set.centre_W();
-  EXPECT_EQ(set.cut({Vector3d::UnitX(), 900.0, 901.0}), CutStatus::kEmpty);
+  EXPECT_EQ(set.cut({Vector3d::UnitX(), 900.0, 901.0}), controllers::CutStatus::kEmpty);
   EXPECT_EQ(set.centre_W(), centre);
 }
 
 TEST(PositionKalman, AllocatesNothing) {
-  PositionKalman filter{PositionKalmanParams{}};
+  controllers::PositionKalman filter{controllers::PositionKalmanParams{}};
   filter.start(Time{}, Vector3d::Zero(), diagonal(1, 1, 1));
   std::size_t allocations = 0;
   {

@@ -48,7 +48,7 @@ struct Outcome {
   double error_m = 0.0;
 };
 
-Outcome judge(const MapLocalisationLaw& law) {
+Outcome judge(const controllers::MapLocalisationLaw& law) {
   const Eigen::Vector2d e = law.state().p_W().head<2>();
   const Eigen::Matrix2d P = law.position_covariance().topLeftCorner<2, 2>();
   return {e.dot(P.inverse() * e), e.norm()};
@@ -56,13 +56,13 @@ Outcome judge(const MapLocalisationLaw& law) {
 
 /// Standing at W's origin on fixes and a drifting velocity alone: 20 s fixed, 20 s float, 20 s
 /// fixed. @returns how it is at the end of each
-std::array<Outcome, 3> stand(const MapLocalisationParams& params, std::uint64_t seed) {
+std::array<Outcome, 3> stand(const controllers::MapLocalisationParams& params, std::uint64_t seed) {
   const RowMap map = make_wall_map({});
-  const RowMeshIndex index(map);
-  MapLocalisationLaw law(params, map, index, {});
+  const controllers::RowMeshIndex index(map);
+  controllers::MapLocalisationLaw law(params, map, index, {});
   RandomStream random(seed, "rover", "receiver");
   Receiver fixed(0.01, random), floating(0.3, random);
-  const SlowError& drift = params.noise.velocity_mps;
+  const controllers::SlowError& drift = params.noise.velocity_mps;
   const double kept = std::exp(-kTick_s / drift.time_s);
   Eigen::Vector3d velocity_error = Eigen::Vector3d::Zero(), start = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {
@@ -92,8 +92,8 @@ std::array<Outcome, 3> stand(const MapLocalisationParams& params, std::uint64_t 
   return outcomes;
 }
 
-MapLocalisationParams stating() {
-  MapLocalisationParams params;
+controllers::MapLocalisationParams stating() {
+  controllers::MapLocalisationParams params;
   params.fix_slow_share = kShare;
   params.noise.velocity_density_m_rts = 1e-6;
   params.noise.fix_horizontal_m.time_s = params.noise.fix_vertical_m.time_s = kWalkTime_s;
@@ -108,7 +108,7 @@ TEST(ReceiverModes, CentimetresAreTakenDecimetresAreNotBelieved) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const auto outcomes = stand(stating(), static_cast<std::uint64_t>(seed));
     // A receiver of 0.7 m of slow error, as without.
-    MapLocalisationParams plain = stating();
+    controllers::MapLocalisationParams plain = stating();
     plain.fix_slow_share = 0.0;
     const auto others = stand(plain, static_cast<std::uint64_t>(seed));
     for (int i = 0; i < 3; ++i) {
@@ -133,17 +133,18 @@ TEST(ReceiverModes, CentimetresAreTakenDecimetresAreNotBelieved) {
 }
 
 TEST(ReceiverModes, TheSlowErrorGrowsWithTheDilution) {
-  LocalisationState state;
-  LocalisationNoise noise;
+  controllers::LocalisationState state;
+  controllers::LocalisationNoise noise;
   noise.fix_horizontal_m = {0.01, 60.0};
   noise.fix_vertical_m = {0.02, 60.0};
   state.start(noise, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
-  LocalisationState::Vector h = LocalisationState::Vector::Zero();
-  h[LocalisationState::kPosition] = h[LocalisationState::kFix] = 1.0;
+  controllers::LocalisationState::Vector h = controllers::LocalisationState::Vector::Zero();
+  h[controllers::LocalisationState::kPosition] = h[controllers::LocalisationState::kFix] = 1.0;
   ASSERT_TRUE(state.correct(h, 0.02, 1e-4));
   const auto before = state;
   state.set_fix_error({0.03, 60.0}, {0.02, 60.0}, false);
-  constexpr int kPosition = LocalisationState::kPosition, kFix = LocalisationState::kFix;
+  constexpr int kPosition = controllers::LocalisationState::kPosition,
+                kFix = controllers::LocalisationState::kFix;
   EXPECT_NEAR(state.x()[kFix], 3.0 * before.x()[kFix], 1e-15);
   EXPECT_NEAR(state.covariance()(kFix, kFix), 9.0 * before.covariance()(kFix, kFix), 1e-15);
   EXPECT_NEAR(state.covariance()(kFix, kPosition), 3.0 * before.covariance()(kFix, kPosition),

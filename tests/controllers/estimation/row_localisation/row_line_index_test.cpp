@@ -18,10 +18,10 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Row after row.
-RowLineIndex::NearestRows search_all(const RowMap& map, const Vector3d& p_W) {
-  LinePoint first, second;
+controllers::RowLineIndex::NearestRows search_all(const RowMap& map, const Vector3d& p_W) {
+  controllers::LinePoint first, second;
   for (const PlantRow& row : map.rows) {
-    const LinePoint point = nearest_on(row.line_W, p_W);
+    const controllers::LinePoint point = controllers::nearest_on(row.line_W, p_W);
     if (point.distance_m < first.distance_m) {
       second = first;
       first = point;
@@ -32,13 +32,14 @@ RowLineIndex::NearestRows search_all(const RowMap& map, const Vector3d& p_W) {
   return {first, second};
 }
 
-void expect_same(const LinePoint& found, const LinePoint& expected) {
+void expect_same(const controllers::LinePoint& found, const controllers::LinePoint& expected) {
   EXPECT_EQ(found.distance_m, expected.distance_m);
   EXPECT_EQ(found.p_W, expected.p_W);
   EXPECT_EQ(found.edge_W, expected.edge_W);
 }
 
-void expect_as_search_of_all(const RowMap& map, const RowLineIndex& index, const Vector3d& p_W) {
+void expect_as_search_of_all(const RowMap& map, const controllers::RowLineIndex& index,
+                             const Vector3d& p_W) {
   SCOPED_TRACE(::testing::Message() << "at " << p_W.transpose());
   const auto found = index.nearest_rows(p_W), expected = search_all(map, p_W);
   expect_same(found.first, expected.first);
@@ -70,7 +71,7 @@ TEST(RowLineIndex, FindsWhatASearchOfAllRowsFinds) {
   RandomStream random(1, "", "rows");
   for (const double azimuth_rad : {0.0, 0.5, 0.785, 2.0}) {
     const RowMap map = bent_rows(12, azimuth_rad, random);
-    const RowLineIndex index(map);
+    const controllers::RowLineIndex index(map);
     for (int i = 0; i < 3000; ++i) {
       const double reach_m = i % 10 == 0 ? 2000.0 : 80.0;
       expect_as_search_of_all(map, index,
@@ -89,7 +90,7 @@ TEST(RowLineIndex, OfEqualsTakesTheFirst) {
     for (int i = 0; i <= 20; ++i) line_W.emplace_back(2 * i, 2 * k, i % 2 + 10 * map.rows.size());
     map.rows.push_back(row_along(std::move(line_W)));
   }
-  const RowLineIndex index(map);
+  const controllers::RowLineIndex index(map);
   for (int x = -2; x <= 42; ++x) {
     for (int y = -2; y <= 10; ++y) expect_as_search_of_all(map, index, Vector3d(x, y, 1.0));
   }
@@ -101,7 +102,7 @@ TEST(RowLineIndex, OfEqualsTakesTheFirst) {
 
 TEST(RowLineIndex, TakesRowsOfOnePiece) {
   const RowMap map = make_row_mesh_map({.rows = 16, .length_m = 118.0}, RandomStream(1, "", "map"));
-  const RowLineIndex index(map);
+  const controllers::RowLineIndex index(map);
   RandomStream random(2, "", "places");
   for (int i = 0; i < 1000; ++i) {
     expect_as_search_of_all(map, index,
@@ -115,7 +116,7 @@ TEST(RowLineIndex, LeavesOutWhatHasNoPlace) {
               row_along({{kNan, 0, 0}, {1, 1, 0}, {9, 1, 0}}),  // its second piece is one
               row_along({}), row_along({{3, 3, 3}}),
               row_along({{0, 4, 0}, {8, 4, 0}, {kInfinity, 4, 0}})};
-  const RowLineIndex index(map);
+  const controllers::RowLineIndex index(map);
   for (const Vector3d& p_W : {Vector3d(4, 2, 0), Vector3d(0, 0, 0), Vector3d(30, 5, kNan),
                               Vector3d(kNan, 0, 0), Vector3d(0, kInfinity, 0)}) {
     expect_as_search_of_all(map, index, p_W);
@@ -123,7 +124,8 @@ TEST(RowLineIndex, LeavesOutWhatHasNoPlace) {
   const auto [first, second] = index.nearest_rows({4, 2, 0});
   EXPECT_EQ(first.p_W, Vector3d(4, 1, 0));
   EXPECT_EQ(second.p_W, Vector3d(4, 4, 0));
-  EXPECT_TRUE(std::isinf(RowLineIndex(RowMap{}).nearest_rows({0, 0, 0}).first.distance_m));
+  EXPECT_TRUE(
+      std::isinf(controllers::RowLineIndex(RowMap{}).nearest_rows({0, 0, 0}).first.distance_m));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ BruteHit cast_brute(const RowMap& map, const Vector3d& p, const Vector3d& u) {
 
 void expect_like_brute_force(const RowMap& map, RandomStream random, const Vector3d& middle,
                              const Vector3d& half, int rays, double cell_m) {
-  const RowMeshIndex index(map, cell_m);
+  const controllers::RowMeshIndex index(map, cell_m);
   double worst_m = 0.0;
   int hits = 0;
   for (int k = 0; k < rays; ++k) {
@@ -132,7 +132,7 @@ TEST(RowMeshIndex, SeesWhatEmbreeSees) {
   block.rows = 4;
   block.length_m = 40.0;
   const RowMap map = make_row_mesh_map(block, RandomStream(5, "", "block"));
-  const RowMeshIndex index(map);
+  const controllers::RowMeshIndex index(map);
   WorldModel world;
   for (const RowMesh& mesh : map.meshes) {
     MeshInstance instance;
@@ -178,7 +178,7 @@ TEST(RowMeshIndex, NoRaySlipsThroughBetweenFacets) {
   block.section_std_m = block.centre_std_m = 0.02;  // no hollows, so that insides are inside
   const RowMap map = make_row_mesh_map(block, RandomStream(7, "", "block"));
   const TriangleMesh& mesh = map.meshes[0].mesh_W;
-  const RowMeshIndex index(map);
+  const controllers::RowMeshIndex index(map);
   RandomStream random(8, "", "rays");
   const std::size_t sides = mesh.triangles.size() - 12;  // without the ends
   for (int k = 0; k < 50'000; ++k) {
@@ -199,8 +199,8 @@ TEST(RowMeshIndex, NoRaySlipsThroughBetweenFacets) {
 }
 
 /// Rays in the plane against the segments of a cut, only those that face the ray.
-double cast_in_plane(const std::vector<RowMeshIndex::Segment>& segments, const Vector3d& p,
-                     const Vector3d& u, const Vector3d& n) {
+double cast_in_plane(const std::vector<controllers::RowMeshIndex::Segment>& segments,
+                     const Vector3d& p, const Vector3d& u, const Vector3d& n) {
   const Vector3d v = n.cross(u);
   double best = 1e300;
   for (const auto& segment : segments) {
@@ -218,9 +218,9 @@ TEST(RowMeshIndex, PlaneCutAndRaysInThePlaneEqualRaysInSpace) {
   // As the reference says of paper C's eq. 5-6: 481 rays, to 4e-13 m.
   const RowMeshBlock block;
   const RowMap map = make_row_mesh_map(block, RandomStream(9, "", "block"));
-  const RowMeshIndex index(map);
+  const controllers::RowMeshIndex index(map);
   RandomStream random(10, "", "poses");
-  std::vector<RowMeshIndex::Segment> segments;
+  std::vector<controllers::RowMeshIndex::Segment> segments;
   int compared = 0;
   double worst_m = 0.0;
   for (int k = 0; k < 500; ++k) {
@@ -254,8 +254,8 @@ TEST(RowMeshIndex, ACutIsClosedAndEveryFacetCountsOnce) {
   const RowMap map = make_row_mesh_map(block, RandomStream(11, "", "block"));
   const Vector3d p = row_mesh_ground(block, 10.0, 1.25) + Vector3d(0, 0, 1.1);
   const Vector3d n = Vector3d(-0.1, 0.05, 1.0).normalized();
-  const RowMeshIndex index(map, 0.3);
-  std::vector<RowMeshIndex::Segment> segments;
+  const controllers::RowMeshIndex index(map, 0.3);
+  std::vector<controllers::RowMeshIndex::Segment> segments;
   index.cut(p, n, 100.0, segments);
 
   // By hand: all facets with corners on both sides.
@@ -285,7 +285,7 @@ TEST(RowMeshIndex, ACutIsClosedAndEveryFacetCountsOnce) {
   EXPECT_LT(area_m2, 3 * 20.0 * 0.9);
 
   // A small radius keeps just the segments that come so near.
-  std::vector<RowMeshIndex::Segment> near;
+  std::vector<controllers::RowMeshIndex::Segment> near;
   index.cut(p, n, 2.0, near);
   int expected_near = 0;
   for (const auto& segment : segments) {
@@ -303,7 +303,7 @@ TEST(RowMeshIndex, ACutIsClosedAndEveryFacetCountsOnce) {
 TEST(RowMeshIndex, ARayInsideThePlantsSeesTheNextRow) {
   RowMeshBlock block{.rows = 2, .section_std_m = 0.0, .centre_std_m = 0.0};
   block.azimuth_rad = block.grade_along = block.grade_across = 0.0;
-  const RowMeshIndex index(make_row_mesh_map(block, RandomStream(12, "", "block")));
+  const controllers::RowMeshIndex index(make_row_mesh_map(block, RandomStream(12, "", "block")));
   // At 1 m the half width is 0.31 m: from the middle of row 0 to the near side of row 1.
   const auto hit = index.cast_ray({50.0, 0.0, 1.0}, Vector3d::UnitY(), 4.0);
   ASSERT_TRUE(hit);
@@ -315,20 +315,21 @@ TEST(RowMeshIndex, ARayInsideThePlantsSeesTheNextRow) {
 }
 
 TEST(RowMeshIndex, RaysThatAreNotFiniteSeeNothing) {
-  const RowMeshIndex index(make_row_mesh_map({.rows = 2}, RandomStream(13, "", "block")));
+  const controllers::RowMeshIndex index(
+      make_row_mesh_map({.rows = 2}, RandomStream(13, "", "block")));
   const double nan = std::nan("");
   EXPECT_FALSE(index.cast_ray({nan, 0, 0}, Vector3d::UnitX(), 4.0));
   EXPECT_FALSE(index.cast_ray({0, 0, 1}, {nan, 0, 0}, 4.0));
   EXPECT_FALSE(index.cast_ray({0, 0, 1}, Vector3d::UnitY(), nan));
   EXPECT_FALSE(index.cast_ray({1e300, 0, 1}, -Vector3d::UnitX(), 4.0));
-  std::vector<RowMeshIndex::Segment> segments(3);
+  std::vector<controllers::RowMeshIndex::Segment> segments(3);
   index.cut({nan, 0, 0}, Vector3d::UnitZ(), 4.0, segments);
   EXPECT_TRUE(segments.empty());
 }
 
 std::string error_of(const RowMap& map) {
   try {
-    const RowMeshIndex index(map);
+    const controllers::RowMeshIndex index(map);
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -356,7 +357,7 @@ TEST(RowMeshIndex, FourHectaresFitInFiftyMegabytes) {
   EXPECT_GT(test::triangle_count(map), 160u * 50u * 16u);
   const std::size_t before = test::heap_bytes();
   if (before == 0) GTEST_SKIP() << "the sanitizer's heap does not tell what it holds";
-  const RowMeshIndex index(map);
+  const controllers::RowMeshIndex index(map);
   const double megabytes = 1e-6 * static_cast<double>(test::heap_bytes() - before);
   std::printf("160 rows x 100 m: %zu facets, %.1f MB\n", test::triangle_count(map), megabytes);
   EXPECT_LE(megabytes, 50.0);
@@ -365,10 +366,10 @@ TEST(RowMeshIndex, FourHectaresFitInFiftyMegabytes) {
 }
 
 /// Four sensors at X on a vehicle in the middle of an alley.
-std::vector<RangeSensorModel> four_cones(double half_angle_rad, int rays) {
-  std::vector<RangeSensorModel> sensors;
+std::vector<controllers::RangeSensorModel> four_cones(double half_angle_rad, int rays) {
+  std::vector<controllers::RangeSensorModel> sensors;
   for (const double angle_deg : {45.0, 135.0, -45.0, -135.0}) {
-    RangeSensorModel sensor;
+    controllers::RangeSensorModel sensor;
     const double angle = rad_from_deg(angle_deg);
     sensor.X_BS.q = quaternion_from_rpy({0.0, 0.0, angle});
     sensor.X_BS.p = {0.325 * std::cos(angle), 0.325 * std::sin(angle), 0.02};
@@ -392,12 +393,12 @@ Pose random_pose(const RowMeshBlock& block, RandomStream& random) {
 
 TEST(RangePrediction, IsTheFirstReturnOfItsFan) {
   const RowMeshBlock block;
-  const RowMeshIndex index(make_row_mesh_map(block, RandomStream(15, "", "block")));
+  const controllers::RowMeshIndex index(make_row_mesh_map(block, RandomStream(15, "", "block")));
   RandomStream random(16, "", "poses");
   int seen = 0, off_axis = 0;
   for (int k = 0; k < 1000; ++k) {
     const Pose X_WB = random_pose(block, random);
-    for (const RangeSensorModel& sensor : four_cones(rad_from_deg(15.0), 7)) {
+    for (const controllers::RangeSensorModel& sensor : four_cones(rad_from_deg(15.0), 7)) {
       double least_m = 1e300;
       for (int n = -3; n <= 3; ++n) {
         const double angle = rad_from_deg(5.0 * n);
@@ -406,7 +407,7 @@ TEST(RangePrediction, IsTheFirstReturnOfItsFan) {
         const auto hit = index.cast_ray(X_WB * sensor.X_BS.p, u, 4.0);
         if (hit) least_m = std::min(least_m, hit->distance_m);
       }
-      const auto prediction = predict_range(index, X_WB, sensor, 4.0);
+      const auto prediction = controllers::predict_range(index, X_WB, sensor, 4.0);
       ASSERT_EQ(prediction.has_value(), least_m < 4.0);
       if (!prediction) continue;
       ++seen;
@@ -414,9 +415,9 @@ TEST(RangePrediction, IsTheFirstReturnOfItsFan) {
       EXPECT_EQ(prediction->range_m, prediction->hit.distance_m);
       EXPECT_LT(prediction->slope(), 0.0);
       EXPECT_LT((prediction->origin_W - X_WB * sensor.X_BS.p).norm(), 1e-15);
-      RangeSensorModel single = sensor;
+      controllers::RangeSensorModel single = sensor;
       single.fan_rays = 1;
-      const auto straight = predict_range(index, X_WB, single, 4.0);
+      const auto straight = controllers::predict_range(index, X_WB, single, 4.0);
       if (straight) {
         EXPECT_LE(prediction->range_m, straight->range_m);
         off_axis += prediction->range_m < straight->range_m;
@@ -437,29 +438,30 @@ TEST(SpreadPrediction, IsTheLineThatFitsARoughWallBest) {
                           {-5, 1 + 5 * c, 2},  {0, 1, 2},  {5, 1 + 5 * c, 2}};
   wall.mesh_W.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
   map.meshes.push_back(wall);
-  const RowMeshIndex index(map);
-  const RangeSensorModel ahead;
+  const controllers::RowMeshIndex index(map);
+  const controllers::RangeSensorModel ahead;
   const auto spread_at = [&](double x, double std_m, bool stands) {
     const Pose X_WB{quaternion_from_rpy({0, 0, 0.5 * kPi}), {x, 0.0, 0.1}};
-    const auto middle = predict_range(index, X_WB, ahead, 4.0);
-    return predict_spread(index, X_WB, ahead, 4.0, *middle, Vector3d::UnitX(), std_m, 0.7, stands);
+    const auto middle = controllers::predict_range(index, X_WB, ahead, 4.0);
+    return controllers::predict_spread(index, X_WB, ahead, 4.0, *middle, Vector3d::UnitX(), std_m,
+                                       0.7, stands);
   };
   const double w1 = std::exp(-0.5), w2 = std::exp(-2.0), all = 1.0 + 2.0 * w1 + 2.0 * w2;
   const double mean = c * sigma * (2.0 * w1 + 4.0 * w2) / all;
-  const SpreadPrediction about = spread_at(0.0, sigma, false);
+  const controllers::SpreadPrediction about = spread_at(0.0, sigma, false);
   EXPECT_NEAR(about.slope, 0.0, 1e-9) << "either way the wall stands back";
   EXPECT_NEAR(about.range_m, 1.0 + mean, 1e-9);
   EXPECT_NEAR(about.variance_m2, c * c * sigma * sigma * (2.0 * w1 + 8.0 * w2) / all - mean * mean,
               1e-9);
   // On one side of the bend the wall is plane: the fit is its tangent, nothing is left over.
-  const SpreadPrediction beside = spread_at(2.0, sigma, false);
+  const controllers::SpreadPrediction beside = spread_at(2.0, sigma, false);
   EXPECT_NEAR(beside.slope, c, 1e-9);
   EXPECT_NEAR(beside.range_m, 1.0 + 2.0 * c, 1e-9);
   EXPECT_NEAR(beside.variance_m2, 0.0, 1e-9);
   // A place that is known takes the tangent.
   EXPECT_NEAR(spread_at(0.01, 0.0, false).slope, c, 1e-9);
   // One that stands near the bend believes the smaller slope, and that it may be wrong about it.
-  const SpreadPrediction standing = spread_at(0.1, sigma, true);
+  const controllers::SpreadPrediction standing = spread_at(0.1, sigma, true);
   EXPECT_GE(standing.slope, 0.0);
   EXPECT_LT(standing.slope, 0.5 * c);
   EXPECT_GT(standing.variance_m2, about.variance_m2);
@@ -467,19 +469,19 @@ TEST(SpreadPrediction, IsTheLineThatFitsARoughWallBest) {
 
 TEST(RangePrediction, GradientsAreThoseOfCentralDifferences) {
   const RowMeshBlock block;
-  const RowMeshIndex index(make_row_mesh_map(block, RandomStream(17, "", "block")));
+  const controllers::RowMeshIndex index(make_row_mesh_map(block, RandomStream(17, "", "block")));
   RandomStream random(18, "", "poses");
   constexpr double kStep = 1e-6;
   int compared = 0;
   for (int k = 0; k < 500; ++k) {
     const Pose X_WB = random_pose(block, random);
-    for (const RangeSensorModel& sensor : four_cones(rad_from_deg(15.0), 7)) {
-      const auto at = predict_range(index, X_WB, sensor, 4.0);
+    for (const controllers::RangeSensorModel& sensor : four_cones(rad_from_deg(15.0), 7)) {
+      const auto at = controllers::predict_range(index, X_WB, sensor, 4.0);
       if (!at) continue;
       // Both sides must see the same facet along the same ray: at an edge there is no gradient.
       const auto difference = [&](const Pose& plus, const Pose& minus) -> std::optional<double> {
-        const auto a = predict_range(index, plus, sensor, 4.0);
-        const auto b = predict_range(index, minus, sensor, 4.0);
+        const auto a = controllers::predict_range(index, plus, sensor, 4.0);
+        const auto b = controllers::predict_range(index, minus, sensor, 4.0);
         if (!a || !b || a->hit.facet != at->hit.facet || b->hit.facet != at->hit.facet ||
             (a->dir_W - b->dir_W).norm() > 1e-4) {
           return std::nullopt;
@@ -511,7 +513,7 @@ TEST(RangePrediction, GradientsAreThoseOfCentralDifferences) {
 
 TEST(RangePrediction, VarianceAddsUpMapSensorAndHeading) {
   // A wall across x at 3 m, ray at 60 deg to its normal: N.u = -0.5, range 2 m from x = 2.
-  RangePrediction prediction;
+  controllers::RangePrediction prediction;
   prediction.range_m = 2.0;
   prediction.origin_W = {2.0, 0.0, 1.0};
   prediction.dir_W = {0.5, std::sqrt(0.75), 0.0};
@@ -522,17 +524,19 @@ TEST(RangePrediction, VarianceAddsUpMapSensorAndHeading) {
   // dh/dpsi at the sensor's own place: h tan(60 deg) = d N.(z x u) / (N.u) of the reference.
   const double turn = 2.0 * std::sqrt(3.0);
   EXPECT_NEAR(prediction.gradient_yaw(prediction.origin_W), turn, 1e-14);
-  const double variance = range_variance(prediction, prediction.origin_W, 0.03, 10.0, 0.003, 0.01);
+  const double variance =
+      controllers::range_variance(prediction, prediction.origin_W, 0.03, 10.0, 0.003, 0.01);
   EXPECT_NEAR(variance, 10.0 * 0.0009 / 0.25 + 0.000009 / 3.0 + turn * turn * 1e-4, 1e-15);
 }
 
 TEST(RangePrediction, MapErrorsThatStayAreWeighedDown) {
   // The reference's page: r = 10 at 1.5 m/s, 20 Hz, l = 0.3 m.
-  EXPECT_NEAR(correlation_inflation(0.3, 1.5, 0.05), 10.0, 1e-12);
-  EXPECT_NEAR(correlation_inflation(0.3, -1.5, 0.05), 10.0, 1e-12);
-  EXPECT_EQ(correlation_inflation(0.3, 30.0, 0.05), 1.0);
-  EXPECT_EQ(correlation_inflation(0.0, 0.0, 0.05), 1.0);
-  EXPECT_EQ(correlation_inflation(0.3, 0.0, 0.05), kMaxCorrelationInflation);
+  EXPECT_NEAR(controllers::correlation_inflation(0.3, 1.5, 0.05), 10.0, 1e-12);
+  EXPECT_NEAR(controllers::correlation_inflation(0.3, -1.5, 0.05), 10.0, 1e-12);
+  EXPECT_EQ(controllers::correlation_inflation(0.3, 30.0, 0.05), 1.0);
+  EXPECT_EQ(controllers::correlation_inflation(0.0, 0.0, 0.05), 1.0);
+  EXPECT_EQ(controllers::correlation_inflation(0.3, 0.0, 0.05),
+            controllers::kMaxCorrelationInflation);
 }
 
 TEST(RangePrediction, FourConesTakeMicrosecondsAndNoHeap) {
@@ -548,17 +552,17 @@ TEST(RangePrediction, FourConesTakeMicrosecondsAndNoHeap) {
              Vector3d(0, 0, 1.2);
     poses.push_back(X_WB);
   }
-  const RowMeshIndex index(map);
+  const controllers::RowMeshIndex index(map);
   std::vector<double> times_us;
   times_us.reserve(poses.size());
-  std::vector<RowMeshIndex::Segment> segments;
+  std::vector<controllers::RowMeshIndex::Segment> segments;
   segments.reserve(2000);
   double sum_m = 0.0;
   const AllocationCounter counter;
   for (const Pose& X_WB : poses) {
     const auto start = std::chrono::steady_clock::now();
-    for (const RangeSensorModel& sensor : sensors) {
-      if (const auto prediction = predict_range(index, X_WB, sensor, 4.0)) {
+    for (const controllers::RangeSensorModel& sensor : sensors) {
+      if (const auto prediction = controllers::predict_range(index, X_WB, sensor, 4.0)) {
         sum_m += prediction->range_m;
       }
     }

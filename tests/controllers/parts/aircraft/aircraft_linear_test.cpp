@@ -19,16 +19,17 @@ namespace {
 constexpr double kPeriod_s = 0.05;
 
 struct Linearised {
-  Aircraft aircraft;
-  Trim trim;
-  AircraftLinear linear;
+  controllers::Aircraft aircraft;
+  controllers::Trim trim;
+  controllers::AircraftLinear linear;
 };
 
 Linearised linearise_at(double bank_rad = 0.0) {
   const AircraftNumbers numbers = make_reference_wing();
-  Linearised made{read_aircraft(describe(numbers), numbers.gravity_mps2, "plane"), {}, {}};
-  made.trim = *find_trim(made.aircraft, {12.0, 0.0, bank_rad});
-  made.linear = linearise(made.aircraft, made.trim);
+  Linearised made{
+      controllers::read_aircraft(describe(numbers), numbers.gravity_mps2, "plane"), {}, {}};
+  made.trim = *controllers::find_trim(made.aircraft, {12.0, 0.0, bank_rad});
+  made.linear = controllers::linearise(made.aircraft, made.trim);
   return made;
 }
 
@@ -46,7 +47,8 @@ void expect_printed(const Eigen::MatrixXd& values, const Eigen::MatrixXd& printe
 }
 
 TEST(AircraftLinear, LongitudinalMatricesAreTheReferences) {
-  const SampledAxis axis = discretise(linearise_at().linear.longitudinal, kPeriod_s);
+  const controllers::SampledAxis axis =
+      controllers::discretise(linearise_at().linear.longitudinal, kPeriod_s);
   Eigen::MatrixXd A(5, 5), B(5, 2), E(5, 2);
   // clang-format off
   A << .9739,  .0496, -.0649, -.4818, 0,
@@ -63,7 +65,8 @@ TEST(AircraftLinear, LongitudinalMatricesAreTheReferences) {
 }
 
 TEST(AircraftLinear, LateralMatricesAreTheReferences) {
-  const SampledAxis axis = discretise(linearise_at().linear.lateral, kPeriod_s);
+  const controllers::SampledAxis axis =
+      controllers::discretise(linearise_at().linear.lateral, kPeriod_s);
   Eigen::MatrixXd A(5, 5), B(5, 1), E(5, 1);
   // clang-format off
   A << .9398,  .0756, -.5548,  .4745, 0,
@@ -80,15 +83,15 @@ TEST(AircraftLinear, LateralMatricesAreTheReferences) {
 }
 
 TEST(AircraftLinear, ModesAreTheReferences) {
-  const AircraftLinear linear = linearise_at().linear;
-  const std::vector<FlightMode> lon = calc_modes(linear.longitudinal);
+  const controllers::AircraftLinear linear = linearise_at().linear;
+  const std::vector<controllers::FlightMode> lon = controllers::calc_modes(linear.longitudinal);
   ASSERT_EQ(lon.size(), 3u);  // height, phugoid, short period
   EXPECT_NEAR(lon[0].frequency_radps, 0.0, 1e-9);
   EXPECT_NEAR(lon[1].frequency_radps, 1.04, 0.01);
   EXPECT_NEAR(lon[1].damping, 0.24, 0.005);
   EXPECT_NEAR(lon[2].frequency_radps, 12.0, 0.12);
   EXPECT_NEAR(lon[2].damping, 0.49, 0.005);
-  const std::vector<FlightMode> lat = calc_modes(linear.lateral);
+  const std::vector<controllers::FlightMode> lat = controllers::calc_modes(linear.lateral);
   ASSERT_EQ(lat.size(), 4u);  // heading, spiral, dutch roll, roll
   EXPECT_NEAR(lat[0].frequency_radps, 0.0, 1e-9);
   EXPECT_NEAR(lat[1].root.real(), 0.006, 0.0005);
@@ -99,14 +102,17 @@ TEST(AircraftLinear, ModesAreTheReferences) {
 
 TEST(AircraftLinear, GainsAreTheReferences) {
   const Linearised at = linearise_at();
-  const AircraftLaws laws = make_aircraft_laws(at.aircraft, at.trim, kPeriod_s, {}, "plane");
+  const controllers::AircraftLaws laws =
+      controllers::make_aircraft_laws(at.aircraft, at.trim, kPeriod_s, {}, "plane");
   Eigen::MatrixXd lon(2, 5), lat(1, 5);
   lon << -.1192, -.0085, .0047, -.0048, -.0243, -.0101, -.0418, .0597, .7366, .0246;
   lat << -.0290, -.0429, -.1258, -.5042, -.4278;
   EXPECT_LT((laws.lon.K - lon).cwiseAbs().maxCoeff(), 0.6e-4) << laws.lon.K;
   EXPECT_LT((laws.lat.K - lat).cwiseAbs().maxCoeff(), 0.6e-4) << laws.lat.K;
-  EXPECT_NEAR(spectral_radius(laws.lon.model.A + laws.lon.model.B * laws.lon.K), .9764, 0.6e-4);
-  EXPECT_NEAR(spectral_radius(laws.lat.model.A + laws.lat.model.B * laws.lat.K), .9463, 0.6e-4);
+  EXPECT_NEAR(controllers::spectral_radius(laws.lon.model.A + laws.lon.model.B * laws.lon.K), .9764,
+              0.6e-4);
+  EXPECT_NEAR(controllers::spectral_radius(laws.lat.model.A + laws.lat.model.B * laws.lat.K), .9463,
+              0.6e-4);
 }
 
 TEST(AircraftLinear, PredictsTheNonlinearAircraftForSmallDeviations) {
@@ -114,8 +120,8 @@ TEST(AircraftLinear, PredictsTheNonlinearAircraftForSmallDeviations) {
   // where they are wanted; held input and gust.
   const AircraftNumbers numbers = make_reference_wing();
   const Linearised at = linearise_at();
-  const SampledAxis lon = discretise(at.linear.longitudinal, kPeriod_s);
-  const SampledAxis lat = discretise(at.linear.lateral, kPeriod_s);
+  const controllers::SampledAxis lon = controllers::discretise(at.linear.longitudinal, kPeriod_s);
+  const controllers::SampledAxis lat = controllers::discretise(at.linear.lateral, kPeriod_s);
   const double small = 1e-4;
   Eigen::VectorXd x_lon(5), x_lat(5), d_lon(2), d_lat(1), u_lon(2), u_lat(1);
   x_lon << 2, -3, 4, 1, 5;
@@ -124,7 +130,7 @@ TEST(AircraftLinear, PredictsTheNonlinearAircraftForSmallDeviations) {
   u_lat << 1.5;
   d_lon << 3, -4;
   d_lat << 5;
-  const Trim& t = at.trim;
+  const controllers::Trim& t = at.trim;
   AircraftSim sim(numbers);
   sim.start(
       {0, 0, small * x_lon(4)}, small * x_lat(3), t.pitch_rad + small * x_lon(3), small * x_lat(4),

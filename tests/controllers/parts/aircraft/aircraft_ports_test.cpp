@@ -40,19 +40,20 @@ struct Bench {
     return 0.0;
   }
   VehicleDescription description = describe(make_mh900_like());
-  AircraftLimits limits;
+  controllers::AircraftLimits limits;
   SignalBus bus;
   Ports world{bus, "plane", "test"};
   SignalWriter<Odometry> estimate = world.write<Odometry>("estimate");
   SignalWriter<AirReference> reference = world.write<AirReference>("reference");
-  std::optional<AircraftPorts> ports;
+  std::optional<controllers::AircraftPorts> ports;
   SignalReader<NamedValues> actuators, deviation;
   SignalReader<FollowerState> follower;
 };
 
 /// Steady flight to the north with these deviations, in the signs of aviation.
-Odometry moved_from_trim(const TrimPoint& trim, const AircraftDeviation& x,
-                         const Eigen::Vector3d& wind_W, double psi, double height_m) {
+Odometry moved_from_trim(const controllers::TrimPoint& trim,
+                         const controllers::AircraftDeviation& x, const Eigen::Vector3d& wind_W,
+                         double psi, double height_m) {
   AircraftSim sim(make_mh900_like());
   sim.set_wind([=](double, const Eigen::Vector3d&) { return wind_W; });
   sim.start({10, 20, height_m + x.lon(4)}, trim.roll_rad + x.lat(3), trim.pitch_rad + x.lon(3),
@@ -69,10 +70,10 @@ TEST(AircraftPorts, DeviationIsThatOfAviationInTheWind) {
   wanted.bank_rad = 0.3;
   wanted.climb_angle_rad = 0.05;
   wanted.wind_W = {2.0, -1.5, 0.3};
-  AircraftDeviation x;
+  controllers::AircraftDeviation x;
   x.lon << 0.5, -0.7, 0.2, 0.06, -3.0;
   x.lat << 0.8, -0.4, 0.3, 0.2, 0.15;
-  const TrimPoint trim = bench.ports->trims().cruise().at(0.05, 0.3);
+  const controllers::TrimPoint trim = bench.ports->trims().cruise().at(0.05, 0.3);
   for (const double psi : {0.0, 1.2, 3.1, -2.0}) {
     // A heading clockwise from north is 90 deg less it, from east to the left; whole turns do not
     // matter.
@@ -93,12 +94,13 @@ TEST(AircraftPorts, AnotherAirspeedHasATrimOfItsOwn) {
   Bench bench;
   AirReference wanted = fly_straight(0.5 * kPi, 90.0)(0.0);
   wanted.airspeed_mps = 12.4;
-  const Aircraft aircraft = read_aircraft(bench.description, kStandardGravity_mps2, "test");
-  TrimRequest request;
+  const controllers::Aircraft aircraft =
+      controllers::read_aircraft(bench.description, kStandardGravity_mps2, "test");
+  controllers::TrimRequest request;
   request.airspeed_mps = 12.4;
-  const Result<Trim> trim = find_trim(aircraft, request);
+  const Result<controllers::Trim> trim = controllers::find_trim(aircraft, request);
   ASSERT_TRUE(trim) << trim.reason();
-  TrimPoint point = bench.ports->trims().cruise().at(0.0, 0.0);
+  controllers::TrimPoint point = bench.ports->trims().cruise().at(0.0, 0.0);
   const double cruise_u_mps = point.u_mps;
   point.u_mps = trim->u_mps;
   point.w_mps = trim->w_mps;
@@ -112,9 +114,9 @@ TEST(AircraftPorts, AnotherAirspeedHasATrimOfItsOwn) {
 TEST(AircraftPorts, WritesTrimPlusDeviationWithinTheActuatorsRanges) {
   Bench bench;
   AirReference wanted = fly_straight(0.5 * kPi, 90.0)(0.0);
-  const TrimPoint trim = bench.ports->trims().cruise().at(0.0, 0.0);
+  const controllers::TrimPoint trim = bench.ports->trims().cruise().at(0.0, 0.0);
   bench.tell(moved_from_trim(trim, {}, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);
-  AircraftControls left = bench.ports->write(Time{}, {0.1, 0.05, 0.02});
+  controllers::AircraftControls left = bench.ports->write(Time{}, {0.1, 0.05, 0.02});
   const double de = trim.controls.elevator_rad + 0.05, da = trim.controls.aileron_rad + 0.02;
   const std::vector<double>& values = bench.actuators.value().values;
   EXPECT_NEAR(values[0], trim.controls.throttle + 0.1, 1e-15);
@@ -144,9 +146,9 @@ TEST(AircraftPorts, JudgesEachStateByItsLimit) {
   for (int i = 0; i < 10; ++i) {
     Bench bench;
     const AirReference wanted = fly_straight(0.5 * kPi, 90.0)(0.0);
-    const TrimPoint trim = bench.ports->trims().cruise().at(0.0, 0.0);
+    const controllers::TrimPoint trim = bench.ports->trims().cruise().at(0.0, 0.0);
     for (const double share : {0.999, 1.001}) {
-      AircraftDeviation x;
+      controllers::AircraftDeviation x;
       (i < 5 ? x.lon(i) : x.lat(i - 5)) =
           -share * (i < 5 ? bench.limits.lon(i) : bench.limits.lat(i - 5));
       bench.tell(moved_from_trim(trim, x, Eigen::Vector3d::Zero(), 0.0, 90.0), wanted);

@@ -11,7 +11,8 @@ namespace {
 
 TEST(Aircraft, MixesElevatorAndAileronOntoElevons) {
   // Reference of paper A, section 1: right = d_e - d_a, left = d_e + d_a.
-  const Aircraft aircraft = read_aircraft(describe(make_mh900_like()), 9.81, "plane.controller");
+  const controllers::Aircraft aircraft =
+      controllers::read_aircraft(describe(make_mh900_like()), 9.81, "plane.controller");
   std::vector<double> values(3, -1.0);
   aircraft.mix({0.6, 0.1, 0.03}, values);
   EXPECT_EQ(values, (std::vector<double>{0.6, 0.13, 0.07}));
@@ -20,7 +21,8 @@ TEST(Aircraft, MixesElevatorAndAileronOntoElevons) {
 TEST(Aircraft, FindsItsActuatorsInAnyOrder) {
   VehicleDescription description = describe(make_mh900_like());
   std::swap(description.actuators[0], description.actuators[2]);
-  const Aircraft aircraft = read_aircraft(description, 9.81, "plane.controller");
+  const controllers::Aircraft aircraft =
+      controllers::read_aircraft(description, 9.81, "plane.controller");
   std::vector<double> values(3, -1.0);
   aircraft.mix({0.6, 0.1, 0.03}, values);
   EXPECT_EQ(values, (std::vector<double>{0.07, 0.13, 0.6}));
@@ -29,20 +31,22 @@ TEST(Aircraft, FindsItsActuatorsInAnyOrder) {
 }
 
 TEST(Aircraft, AnElevonAtItsStopTakesFromElevatorAndAileron) {
-  const Aircraft aircraft = read_aircraft(describe(make_mh900_like()), 9.81, "plane.controller");
+  const controllers::Aircraft aircraft =
+      controllers::read_aircraft(describe(make_mh900_like()), 9.81, "plane.controller");
   const double most = aircraft.elevon_max_rad();
-  const AircraftControls left = aircraft.limit({1.2, 0.4, 0.1});
+  const controllers::AircraftControls left = aircraft.limit({1.2, 0.4, 0.1});
   EXPECT_EQ(left.throttle, 1.0);
   EXPECT_NEAR(left.elevator_rad, 0.5 * (most + 0.3), 1e-15);
   EXPECT_NEAR(left.aileron_rad, 0.5 * (most - 0.3), 1e-15);
-  const AircraftControls free = aircraft.limit({0.5, -0.1, 0.2});
+  const controllers::AircraftControls free = aircraft.limit({0.5, -0.1, 0.2});
   EXPECT_NEAR(free.elevator_rad, -0.1, 1e-15);
   EXPECT_NEAR(free.aileron_rad, 0.2, 1e-15);
 }
 
 TEST(Aircraft, RefusesWhatHasNoWingsOrTellsTooLittle) {
   const auto read = [](const VehicleDescription& description) {
-    return complaint([&] { read_aircraft(description, 9.81, "plane.controller (trmpc)"); });
+    return complaint(
+        [&] { controllers::read_aircraft(description, 9.81, "plane.controller (trmpc)"); });
   };
   EXPECT_EQ(read(make_rover_description()),
             "plane.controller (trmpc) needs a vehicle with wings; vehicle type 'test_rover' has "

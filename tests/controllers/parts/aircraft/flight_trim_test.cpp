@@ -13,12 +13,12 @@
 namespace vinerow::test::flight_trim_test {
 namespace {
 
-Aircraft aircraft_of(const AircraftNumbers& numbers) {
-  return read_aircraft(describe(numbers), numbers.gravity_mps2, "plane.controller");
+controllers::Aircraft aircraft_of(const AircraftNumbers& numbers) {
+  return controllers::read_aircraft(describe(numbers), numbers.gravity_mps2, "plane.controller");
 }
 
 /// What the second implementation makes of it: largest acceleration, m/s2 or rad/s2.
-double acceleration_left(const AircraftNumbers& numbers, const Trim& trim) {
+double acceleration_left(const AircraftNumbers& numbers, const controllers::Trim& trim) {
   AircraftSim sim(numbers);
   sim.start({0, 0, 100}, trim.roll_rad, trim.pitch_rad, 0.7, {trim.u_mps, trim.v_mps, trim.w_mps},
             {trim.p_radps, trim.q_radps, trim.r_radps},
@@ -28,7 +28,8 @@ double acceleration_left(const AircraftNumbers& numbers, const Trim& trim) {
 
 TEST(FlightTrim, LevelFlightIsTheReferences) {
   const AircraftNumbers numbers = make_reference_wing();
-  const Result<Trim> trim = find_trim(aircraft_of(numbers), {12.0, 0.0, 0.0});
+  const Result<controllers::Trim> trim =
+      controllers::find_trim(aircraft_of(numbers), {12.0, 0.0, 0.0});
   ASSERT_TRUE(trim) << trim.reason();
   EXPECT_NEAR(deg_from_rad(trim->alpha_rad), 7.35, 0.01);
   EXPECT_NEAR(deg_from_rad(trim->pitch_rad), 7.35, 0.01);
@@ -45,13 +46,14 @@ TEST(FlightTrim, LevelFlightIsTheReferences) {
 
 TEST(FlightTrim, ClimbsAndTurnsHoldInASecondImplementation) {
   const AircraftNumbers numbers = make_mh900_like();
-  const Aircraft aircraft = aircraft_of(numbers);
+  const controllers::Aircraft aircraft = aircraft_of(numbers);
   int found = 0;
   for (const double speed : {10.5, 12.0, 15.0}) {
     for (const double climb_deg : {-6.0, 0.0, 5.0}) {
       for (const double bank_deg : {-40.0, -15.0, 0.0, 30.0}) {
-        const TrimRequest request{speed, rad_from_deg(climb_deg), rad_from_deg(bank_deg)};
-        const Result<Trim> trim = find_trim(aircraft, request);
+        const controllers::TrimRequest request{speed, rad_from_deg(climb_deg),
+                                               rad_from_deg(bank_deg)};
+        const Result<controllers::Trim> trim = controllers::find_trim(aircraft, request);
         if (!trim) continue;
         ++found;
         EXPECT_LT(trim->residual, 1e-9);
@@ -77,9 +79,9 @@ TEST(FlightTrim, ClimbsAndTurnsHoldInASecondImplementation) {
 }
 
 TEST(FlightTrim, LeftAndRightMirrorEachOther) {
-  const Aircraft aircraft = aircraft_of(make_mh900_like());
-  const Result<Trim> right = find_trim(aircraft, {12.0, 0.05, 0.5});
-  const Result<Trim> left = find_trim(aircraft, {12.0, 0.05, -0.5});
+  const controllers::Aircraft aircraft = aircraft_of(make_mh900_like());
+  const Result<controllers::Trim> right = controllers::find_trim(aircraft, {12.0, 0.05, 0.5});
+  const Result<controllers::Trim> left = controllers::find_trim(aircraft, {12.0, 0.05, -0.5});
   ASSERT_TRUE(right && left);
   EXPECT_NEAR(right->controls.aileron_rad, -left->controls.aileron_rad, 1e-10);
   EXPECT_NEAR(right->beta_rad, -left->beta_rad, 1e-10);
@@ -90,8 +92,9 @@ TEST(FlightTrim, LeftAndRightMirrorEachOther) {
 
 TEST(FlightTrim, FullThrottleClimbsByTheThrustLeftOver) {
   const AircraftNumbers numbers = make_mh900_like();
-  const Aircraft aircraft = aircraft_of(numbers);
-  const Result<Trim> climb = find_trim_at_throttle(aircraft, {12.0, 0.0, 0.0}, 1.0);
+  const controllers::Aircraft aircraft = aircraft_of(numbers);
+  const Result<controllers::Trim> climb =
+      controllers::find_trim_at_throttle(aircraft, {12.0, 0.0, 0.0}, 1.0);
   ASSERT_TRUE(climb) << climb.reason();
   EXPECT_LT(acceleration_left(numbers, *climb), 1e-9);
   // By hand, forces along the path: T cos(alpha) - D = m g sin(climb), with the trim's alpha.
@@ -103,21 +106,22 @@ TEST(FlightTrim, FullThrottleClimbsByTheThrustLeftOver) {
   EXPECT_NEAR(std::sin(climb->request.climb_angle_rad),
               (thrust * std::cos(climb->alpha_rad) - drag) / (1.2 * 9.80665), 2e-4);
   // The same flight found from its climb angle.
-  const Result<Trim> again = find_trim(aircraft, {12.0, climb->request.climb_angle_rad - 1e-9, 0});
+  const Result<controllers::Trim> again =
+      controllers::find_trim(aircraft, {12.0, climb->request.climb_angle_rad - 1e-9, 0});
   ASSERT_TRUE(again) << again.reason();
   EXPECT_NEAR(again->controls.throttle, 1.0, 1e-7);
 }
 
 TEST(FlightTrim, SaysWhyTheWingsDoNotCarry) {
   AircraftNumbers numbers = make_mh900_like();
-  const Aircraft aircraft = aircraft_of(numbers);
-  const Result<SpeedRange> range = find_speed_range(aircraft, 0.0, 0.0);
+  const controllers::Aircraft aircraft = aircraft_of(numbers);
+  const Result<controllers::SpeedRange> range = controllers::find_speed_range(aircraft, 0.0, 0.0);
   ASSERT_TRUE(range) << range.reason();
   RecordProperty("slowest_mps", std::to_string(range->slowest_mps));
   RecordProperty("fastest_mps", std::to_string(range->fastest_mps));
-  EXPECT_TRUE(find_trim(aircraft, {range->slowest_mps + 1e-3, 0.0, 0.0}));
-  EXPECT_FALSE(find_trim(aircraft, {range->slowest_mps - 2e-3, 0.0, 0.0}));
-  const Result<Trim> slow = find_trim(aircraft, {6.0, 0.0, 0.0});
+  EXPECT_TRUE(controllers::find_trim(aircraft, {range->slowest_mps + 1e-3, 0.0, 0.0}));
+  EXPECT_FALSE(controllers::find_trim(aircraft, {range->slowest_mps - 2e-3, 0.0, 0.0}));
+  const Result<controllers::Trim> slow = controllers::find_trim(aircraft, {6.0, 0.0, 0.0});
   ASSERT_FALSE(slow);
   EXPECT_EQ(slow.reason(),
             "no steady flight at 6.00 m/s, climb 0.0 deg, bank 0.0 deg: it takes 11.8 N of lift "
@@ -127,26 +131,27 @@ TEST(FlightTrim, SaysWhyTheWingsDoNotCarry) {
 
 TEST(FlightTrim, SaysWhatThrottleAndElevonsWouldBeNeeded) {
   AircraftNumbers numbers = make_mh900_like();
-  Aircraft aircraft = aircraft_of(numbers);
-  const Result<Trim> steep = find_trim(aircraft, {12.0, 0.9, 0.0});
+  controllers::Aircraft aircraft = aircraft_of(numbers);
+  const Result<controllers::Trim> steep = controllers::find_trim(aircraft, {12.0, 0.9, 0.0});
   ASSERT_FALSE(steep);
   EXPECT_EQ(
       steep.reason(),
       "no steady flight at 12.00 m/s, climb 51.6 deg, bank 0.0 deg: it takes throttle 1.034 of at "
       "most 1, full throttle gives a climb of 44.97 deg; it can fly so from 5.25 to 10.27 m/s");
-  const Result<Trim> fast = find_trim(aircraft, {26.0, 0.0, 0.0});
+  const Result<controllers::Trim> fast = controllers::find_trim(aircraft, {26.0, 0.0, 0.0});
   ASSERT_FALSE(fast);
   EXPECT_EQ(
       fast.reason(),
       "no steady flight at 26.00 m/s, climb 0.0 deg, bank 0.0 deg: it takes throttle 1.161 of at "
       "most 1, full throttle gives a climb of -20.73 deg; it can fly so from 8.64 to 22.34 m/s");
-  const Result<Trim> dive = find_trim(aircraft, {12.0, -0.8, 0.0});
+  const Result<controllers::Trim> dive = controllers::find_trim(aircraft, {12.0, -0.8, 0.0});
   ASSERT_FALSE(dive);
   EXPECT_EQ(dive.reason(),
             "no steady flight at 12.00 m/s, climb -45.8 deg, bank 0.0 deg: even the least "
             "throttle, 0, gives a climb of -20.00 deg; it can fly so from 18.73 to 29.26 m/s");
   numbers.Cm0 = -0.15;  // nose-heavy
-  const Result<Trim> heavy = find_trim(aircraft_of(numbers), {12.0, 0.0, 0.0});
+  const Result<controllers::Trim> heavy =
+      controllers::find_trim(aircraft_of(numbers), {12.0, 0.0, 0.0});
   ASSERT_FALSE(heavy);
   EXPECT_EQ(heavy.reason(),
             "no steady flight at 12.00 m/s, climb 0.0 deg, bank 0.0 deg: the elevons, -25.0 to "
@@ -155,7 +160,8 @@ TEST(FlightTrim, SaysWhatThrottleAndElevonsWouldBeNeeded) {
 
 TEST(FlightTrim, TheScaledZagiDoesNotFly) {
   // Reference, section 1: C_L 1.29 at 12 m/s and 1.2 kg on 0.104 m2.
-  const Result<Trim> trim = find_trim(aircraft_of(make_scaled_zagi()), {12.0, 0.0, 0.0});
+  const Result<controllers::Trim> trim =
+      controllers::find_trim(aircraft_of(make_scaled_zagi()), {12.0, 0.0, 0.0});
   ASSERT_FALSE(trim);
   EXPECT_EQ(trim.reason(),
             "no steady flight at 12.00 m/s, climb 0.0 deg, bank 0.0 deg: it takes 11.8 N of lift "

@@ -13,20 +13,20 @@
 namespace vinerow::test::trim_table_test {
 namespace {
 
-Aircraft make_aircraft(const AircraftNumbers& numbers = make_mh900_like()) {
-  return read_aircraft(describe(numbers), numbers.gravity_mps2, "plane.controller");
+controllers::Aircraft make_aircraft(const AircraftNumbers& numbers = make_mh900_like()) {
+  return controllers::read_aircraft(describe(numbers), numbers.gravity_mps2, "plane.controller");
 }
 
 TEST(TrimTable, IsASteadyFlightEverywhere) {
   // Between the table's points too, judged by the second implementation.
   const AircraftNumbers numbers = make_mh900_like();
-  const TrimTable table(make_aircraft(), 12.0, rad_from_deg(45.0), "plane.controller");
+  const controllers::TrimTable table(make_aircraft(), 12.0, rad_from_deg(45.0), "plane.controller");
   RandomStream random(1, "test", "trims");
   double worst = 0.0;
   for (int i = 0; i < 2000; ++i) {
     const double climb = random.uniform(rad_from_deg(-8.0), rad_from_deg(8.0));
     const double bank = random.uniform(rad_from_deg(-45.0), rad_from_deg(45.0));
-    const TrimPoint at = table.at(climb, bank);
+    const controllers::TrimPoint at = table.at(climb, bank);
     EXPECT_NEAR(at.roll_rad, bank, rad_from_deg(2.0));
     AircraftSim sim(numbers);
     sim.start({0, 0, 0}, at.roll_rad, at.pitch_rad, 0.0, {at.u_mps, at.v_mps, at.w_mps},
@@ -39,8 +39,8 @@ TEST(TrimTable, IsASteadyFlightEverywhere) {
 }
 
 TEST(TrimTable, LevelFlightIsExactAndLimitsHold) {
-  const TrimTable table(make_aircraft(), 12.0, rad_from_deg(45.0), "plane.controller");
-  const TrimPoint level = table.at(0.0, 0.0);
+  const controllers::TrimTable table(make_aircraft(), 12.0, rad_from_deg(45.0), "plane.controller");
+  const controllers::TrimPoint level = table.at(0.0, 0.0);
   EXPECT_NEAR(level.controls.throttle, table.level().controls.throttle, 1e-3);
   // Full throttle and none are the ends of the climb.
   EXPECT_NEAR(table.at(2.0, 0.0).controls.throttle, 1.0, 1e-12);
@@ -54,9 +54,9 @@ TEST(TrimTable, LevelFlightIsExactAndLimitsHold) {
 }
 
 TEST(TrimTable, MirrorsLeftAndRight) {
-  const TrimTable table(make_aircraft(), 12.0, rad_from_deg(45.0), "plane.controller");
+  const controllers::TrimTable table(make_aircraft(), 12.0, rad_from_deg(45.0), "plane.controller");
   for (const double bank : {0.03, 0.21, 0.5, 0.77}) {
-    const TrimPoint right = table.at(0.04, bank), left = table.at(0.04, -bank);
+    const controllers::TrimPoint right = table.at(0.04, bank), left = table.at(0.04, -bank);
     EXPECT_NEAR(right.controls.aileron_rad, -left.controls.aileron_rad, 1e-12);
     EXPECT_NEAR(right.r_radps, -left.r_radps, 1e-12);
     EXPECT_NEAR(right.v_mps, -left.v_mps, 1e-12);
@@ -65,7 +65,7 @@ TEST(TrimTable, MirrorsLeftAndRight) {
 }
 
 TEST(TrimTable, LeavesOutBanksThatStall) {
-  const TrimTable table(make_aircraft(), 9.5, rad_from_deg(80.0), "plane.controller");
+  const controllers::TrimTable table(make_aircraft(), 9.5, rad_from_deg(80.0), "plane.controller");
   EXPECT_LT(table.bank_max_rad(), rad_from_deg(60.0));
   EXPECT_GT(table.bank_max_rad(), rad_from_deg(15.0));
   // A little more bank has no trim with the throttle at an end.
@@ -74,14 +74,15 @@ TEST(TrimTable, LeavesOutBanksThatStall) {
 }
 
 TEST(TrimTable, LooksUpWithoutHeapAndRefusesTheUnflyable) {
-  const TrimTable table(make_aircraft(), 12.0, rad_from_deg(45.0), "plane.controller");
+  const controllers::TrimTable table(make_aircraft(), 12.0, rad_from_deg(45.0), "plane.controller");
   AllocationCounter counter;
-  const TrimPoint at = table.at(0.01, 0.3);
+  const controllers::TrimPoint at = table.at(0.01, 0.3);
   EXPECT_EQ(counter.count(), 0u);
   EXPECT_GT(at.controls.throttle, 0.0);
   EXPECT_EQ(
       complaint([] {
-        TrimTable(make_aircraft(make_scaled_zagi()), 12.0, 0.7, "plane.controller (trmpc)");
+        controllers::TrimTable(make_aircraft(make_scaled_zagi()), 12.0, 0.7,
+                               "plane.controller (trmpc)");
       })
           .find("plane.controller (trmpc): no steady flight at 12.00 m/s, climb 0.0 deg, bank "
                 "0.0 deg: "),

@@ -12,14 +12,15 @@ namespace vinerow::test {
 inline constexpr double kDeg = std::numbers::pi / 180.0;
 
 /// With the LQR's gain, the "relaxed" limits and gusts of 1 m/s.
-struct Wing : TubeModel {
-  TubeCost cost;
+struct Wing : controllers::TubeModel {
+  controllers::TubeCost cost;
   Eigen::MatrixXd K_lmi;
   Eigen::VectorXd tight_states, tight_inputs;  ///< limits in the "full scale" reading
 
   Eigen::MatrixXd closed() const { return A + B * K; }
-  Polytope constraints() const {
-    return Polytope::box(state_limit).intersection(Polytope::box(input_limit).linear_preimage(K));
+  controllers::Polytope constraints() const {
+    return controllers::Polytope::box(state_limit)
+        .intersection(controllers::Polytope::box(input_limit).linear_preimage(K));
   }
   Wing with_tight_limits() const {
     Wing wing = *this;

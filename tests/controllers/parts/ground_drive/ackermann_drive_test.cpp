@@ -8,7 +8,7 @@
 
 #include "engine/core/error.h"
 
-namespace vinerow::ackermann_drive_test {
+namespace vinerow::controllers::ackermann_drive_test {
 namespace {
 
 /// Wheel base 2 m, track 1.2 m, B 0.8 m ahead of the rear axle, wheels of 0.4 m.
@@ -88,4 +88,4 @@ TEST(AckermannDrive, RefusesOtherActuators) {
 }
 
 }  // namespace
-}  // namespace vinerow::ackermann_drive_test
+}  // namespace vinerow::controllers::ackermann_drive_test

@@ -5,7 +5,7 @@
 #include "engine/core/error.h"
 #include "tests/controllers/support/mission.h"
 
-namespace vinerow::differential_drive_test {
+namespace vinerow::controllers::differential_drive_test {
 namespace {
 
 TEST(DifferentialDrive, TurnsLeftByFasterRightWheels) {
@@ -64,4 +64,4 @@ TEST(DifferentialDrive, RefusesOtherVehicles) {
 }
 
 }  // namespace
-}  // namespace vinerow::differential_drive_test
+}  // namespace vinerow::controllers::differential_drive_test

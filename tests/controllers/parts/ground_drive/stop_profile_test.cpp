@@ -7,7 +7,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow::stop_profile_test {
+namespace vinerow::controllers::stop_profile_test {
 namespace {
 
 constexpr double kStop_m = 20.0;
@@ -80,4 +80,4 @@ TEST(StopProfile, StandsWhereItIsBeyondThePlace) {
 }
 
 }  // namespace
-}  // namespace vinerow::stop_profile_test
+}  // namespace vinerow::controllers::stop_profile_test

@@ -4,7 +4,7 @@
 
 #include "engine/math/angles.h"
 
-namespace vinerow::arc3_test {
+namespace vinerow::controllers::arc3_test {
 namespace {
 
 TEST(Arc3, PassesItsPointsWhateverItsSweep) {
@@ -32,4 +32,4 @@ TEST(Arc3, RefusesPointsOnALineAndEqualPoints) {
 }
 
 }  // namespace
-}  // namespace vinerow::arc3_test
+}  // namespace vinerow::controllers::arc3_test

@@ -23,7 +23,7 @@ using Vec = Eigen::Vector2d;
 
 /// Two straights of 20 m; the second leaves the first by an angle, positive to the left.
 std::vector<Vec> make_corner(double turn_rad, double leg_m = 20.0) {
-  return {{0, 0}, {leg_m, 0}, Vec(leg_m, 0) + leg_m * direction(turn_rad)};
+  return {{0, 0}, {leg_m, 0}, Vec(leg_m, 0) + leg_m * controllers::direction(turn_rad)};
 }
 
 MissionSetup make_setup(const std::string& controller, const std::vector<Vec>& points) {
@@ -44,7 +44,7 @@ MissionSetup make_setup(const std::string& controller, const std::vector<Vec>& p
 double largest_deviation(const MissionResult& result, const std::vector<Vec>& points) {
   const PolylineDistance line(points);
   double largest_m = 0.0;
-  for (const Pose2& pose : result.poses) {
+  for (const controllers::Pose2& pose : result.poses) {
     largest_m = std::max(largest_m, line.nearest(pose.p).distance_m);
   }
   return largest_m;
@@ -104,7 +104,7 @@ TEST_P(EveryFollower, DrivesASquareAndThereAndBack) {
     const double radius_m = planned_radius_m();
     for (std::size_t i = 1; i < points.size(); ++i) {
       double nearest_m = 1e9;
-      for (const Pose2& pose : result.poses) {
+      for (const controllers::Pose2& pose : result.poses) {
         nearest_m = std::min(nearest_m, (pose.p - points[i]).norm());
       }
       EXPECT_LT(nearest_m, turns_on_the_spot(GetParam()) ? 0.15 : 1.5 * radius_m) << i;
@@ -118,20 +118,21 @@ INSTANTIATE_TEST_SUITE_P(Parts, EveryFollower,
 
 TEST(PathCorners, FindsJumpsOfDirectionAndNoArcs) {
   // Straight, half a circle in two chords, straight: no corner, though the chords bend by 45 deg.
-  const Pose2 begin{{10, 0}, 0.0};
-  const PathPiece arc{begin, 2.0 * kPi, 0.5, PathKind::kTurn, -1, 0.0};
-  const PlannedPath smooth =
-      make_planned_path({make_straight({0, 0}, {10, 0}, PathKind::kLeg, 0, 0.0), arc,
-                         make_straight({10, 4}, {0, 4}, PathKind::kLeg, 1, 0.0)},
-                        3.5);
-  EXPECT_TRUE(find_corners(smooth, 1e-6).empty());
+  const controllers::Pose2 begin{{10, 0}, 0.0};
+  const controllers::PathPiece arc{begin, 2.0 * kPi, 0.5, PathKind::kTurn, -1, 0.0};
+  const PlannedPath smooth = controllers::make_planned_path(
+      {controllers::make_straight({0, 0}, {10, 0}, PathKind::kLeg, 0, 0.0), arc,
+       controllers::make_straight({10, 4}, {0, 4}, PathKind::kLeg, 1, 0.0)},
+      3.5);
+  EXPECT_TRUE(controllers::find_corners(smooth, 1e-6).empty());
   PlannedPath bent;
   for (const Vec& p : {Vec(0, 0), Vec(5, 0), Vec(5, 0), Vec(5, 5), Vec(0, 5), Vec(10, 5)}) {
     PathPoint point;
     point.p_W << p, 0.0;
     bent.points.push_back(point);  // yaw_rad is not told: the chords count
   }
-  const std::vector<PathCorner> corners = find_corners(bent, kSharpCorner_rad);
+  const std::vector<controllers::PathCorner> corners =
+      controllers::find_corners(bent, controllers::kSharpCorner_rad);
   ASSERT_EQ(corners.size(), 3u);
   EXPECT_EQ(corners[0].point, 2);
   EXPECT_NEAR(corners[0].turn_rad, 0.5 * kPi, 1e-12);
@@ -141,13 +142,14 @@ TEST(PathCorners, FindsJumpsOfDirectionAndNoArcs) {
 TEST(CornerRounding, TouchesBothLegsAndKeepsTheRadius) {
   for (const double angle_deg : {10.0, 45.0, 90.0, 119.0, -60.0, 150.0, 180.0}) {
     const double turn_rad = rad_from_deg(angle_deg);
-    const RoundedWay way = round_corners(make_corner(turn_rad), {1.0, 0.5}, 2.0, PathKind::kLeg);
+    const controllers::RoundedWay way =
+        controllers::round_corners(make_corner(turn_rad), {1.0, 0.5}, 2.0, PathKind::kLeg);
     double length_m = 0.0;
     for (std::size_t i = 0; i < way.pieces.size(); ++i) {
       EXPECT_LE(std::abs(way.pieces[i].curvature_per_m), 0.5 + 1e-12);
       length_m += way.pieces[i].length_m;
       if (i == 0) continue;
-      const Pose2 end = way.pieces[i - 1].end(), next = way.pieces[i].start;
+      const controllers::Pose2 end = way.pieces[i - 1].end(), next = way.pieces[i].start;
       EXPECT_LT((end.p - next.p).norm(), 1e-9) << angle_deg;
       EXPECT_LT(std::abs(wrap_angle(end.yaw_rad - next.yaw_rad)), 1e-9) << angle_deg;
     }
@@ -159,17 +161,19 @@ TEST(CornerRounding, TouchesBothLegsAndKeepsTheRadius) {
     }
   }
   // A slight kink between legs too short for its arc stays; a sharp one becomes a loop.
-  EXPECT_EQ(round_corners(make_corner(0.4, 0.2), {1.0, 1.0}, 2.0, PathKind::kLeg).pieces.size(),
+  EXPECT_EQ(controllers::round_corners(make_corner(0.4, 0.2), {1.0, 1.0}, 2.0, PathKind::kLeg)
+                .pieces.size(),
             2u);
-  EXPECT_EQ(round_corners(make_corner(1.5, 0.5), {1.0, 1.0}, 2.0, PathKind::kLeg).loops, 1);
+  EXPECT_EQ(
+      controllers::round_corners(make_corner(1.5, 0.5), {1.0, 1.0}, 2.0, PathKind::kLeg).loops, 1);
 }
 
-PathWatch::Cycle at(double x_m, double y_m, double distance_m, double way_m) {
+controllers::PathWatch::Cycle at(double x_m, double y_m, double distance_m, double way_m) {
   return {{x_m, y_m}, {x_m, 0.0}, distance_m, 100.0, way_m};
 }
 
 TEST(PathWatch, TellsWhoGoesAwayAndWhoDoesNotGetOn) {
-  PathWatch away({5.0});
+  controllers::PathWatch away({5.0});
   // From 20 m off it may come back, and be no more than 5 m farther than it was.
   for (double y = 20.0; y > 0.0; y -= 0.1) away.update(at(0.0, y, 0.0, 0.1));
   EXPECT_FALSE(away.is_lost());
@@ -179,7 +183,7 @@ TEST(PathWatch, TellsWhoGoesAwayAndWhoDoesNotGetOn) {
   EXPECT_EQ(away.failure(),
             "lost its path: 5.2 m away from it at (30.00, 5.20), 30.0 m along its path of 100.0 m");
 
-  PathWatch circling({5.0});
+  controllers::PathWatch circling({5.0});
   for (int i = 0; i < 500; ++i) circling.update(at(10.0, 1.0, 10.0, 0.1));
   EXPECT_FALSE(circling.is_lost());  // 10 times 5 m and three times the 1 m beside
   for (int i = 0; i < 40; ++i) circling.update(at(10.0, 1.0, 10.0, 0.1));
@@ -188,7 +192,7 @@ TEST(PathWatch, TellsWhoGoesAwayAndWhoDoesNotGetOn) {
             "its path of 100.0 m");
 
   // Who stands may stand for ever.
-  PathWatch standing({5.0});
+  controllers::PathWatch standing({5.0});
   const AllocationCounter allocations;
   for (int i = 0; i < 100000; ++i) standing.update(at(10.0, 1.0, 10.0, 0.0));
   EXPECT_EQ(allocations.count(), 0u);

@@ -8,7 +8,7 @@
 #include "engine/api/messages/grid.h"
 #include "engine/core/random.h"
 
-namespace vinerow::distance_field_test {
+namespace vinerow::controllers::distance_field_test {
 namespace {
 
 using Vec = Eigen::Vector2d;
@@ -90,4 +90,4 @@ TEST(DistanceField, WithoutGridEverythingIsFar) {
 }
 
 }  // namespace
-}  // namespace vinerow::distance_field_test
+}  // namespace vinerow::controllers::distance_field_test

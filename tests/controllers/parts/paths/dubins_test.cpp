@@ -10,7 +10,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::dubins_test {
+namespace vinerow::controllers::dubins_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -193,4 +193,4 @@ TEST(Dubins, NarrowHeadlandTurnIsALoop) {
 }
 
 }  // namespace
-}  // namespace vinerow::dubins_test
+}  // namespace vinerow::controllers::dubins_test

@@ -6,7 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::path_test {
+namespace vinerow::controllers::path_test {
 namespace {
 
 /// 10 m east, a left semicircle of radius 2, 10 m west.
@@ -92,4 +92,4 @@ TEST(Path, TakesPlansWithoutLength) {
 }
 
 }  // namespace
-}  // namespace vinerow::path_test
+}  // namespace vinerow::controllers::path_test

@@ -7,7 +7,7 @@
 #include "engine/core/error.h"
 #include "tests/controllers/support/quadrotor_sim.h"
 
-namespace vinerow::flight_ports_test {
+namespace vinerow::controllers::flight_ports_test {
 namespace {
 
 using Phase = ReferenceTrajectory::Phase;
@@ -163,4 +163,4 @@ TEST(FlightPorts, RefusesVehiclesWithoutRotors) {
 }
 
 }  // namespace
-}  // namespace vinerow::flight_ports_test
+}  // namespace vinerow::controllers::flight_ports_test

@@ -10,17 +10,17 @@ namespace {
 constexpr double kInertia_kgm2 = 0.12, kWeight_N = 20.0, kDt_s = 1e-4;
 constexpr double kLay_radps = 0.35;  // the rate at which it should come down
 
-Wrench holding(const Eigen::Vector3d& torque_B) {
+controllers::Wrench holding(const Eigen::Vector3d& torque_B) {
   return {15.0, torque_B};
 }
 
 /// A body that turns about its foot under a steady torque of its weight.
 struct Body {
   Eigen::Vector3d push_B, rates_B = Eigen::Vector3d::Zero();
-  LayDown lay_down{kInertia_kgm2, kWeight_N};
+  controllers::LayDown lay_down{kInertia_kgm2, kWeight_N};
   explicit Body(const Eigen::Vector3d& push) : push_B(push) { lay_down.start(holding(-push)); }
-  Wrench advance() {
-    const Wrench wrench = lay_down.advance(rates_B, kDt_s);
+  controllers::Wrench advance() {
+    const controllers::Wrench wrench = lay_down.advance(rates_B, kDt_s);
     rates_B += kDt_s / kInertia_kgm2 * (push_B + wrench.torque_B);
     return wrench;
   }
@@ -47,11 +47,11 @@ TEST(LayDown, ComesDownLikeADampedOscillatorsStep) {
 
 TEST(LayDown, FallsSilentOnAVehicleThatLies) {
   // No longer turning it lets go of S within S / (K w_lay), and of the thrust within half a second.
-  LayDown lay_down(kInertia_kgm2, kWeight_N);
+  controllers::LayDown lay_down(kInertia_kgm2, kWeight_N);
   const Eigen::Vector3d held_B(1.2, -0.9, 0.0);
   lay_down.start(holding(held_B));
   const double silent_s = held_B.norm() / (30.0 * kInertia_kgm2 * kLay_radps);
-  Wrench wrench;
+  controllers::Wrench wrench;
   for (double t = kDt_s; t < silent_s + 0.01; t += kDt_s) {
     wrench = lay_down.advance(Eigen::Vector3d::Zero(), kDt_s);
     const double left = std::max(0.0, 1.0 - t / silent_s);
@@ -63,13 +63,13 @@ TEST(LayDown, FallsSilentOnAVehicleThatLies) {
 }
 
 TEST(LayDown, LeavesYawToTheFeet) {
-  LayDown lay_down(kInertia_kgm2, kWeight_N);
+  controllers::LayDown lay_down(kInertia_kgm2, kWeight_N);
   lay_down.start(holding({0.5, 0.0, 0.8}));
   EXPECT_EQ(lay_down.advance({0.0, 0.0, 2.0}, kDt_s).torque_B.z(), 0.0);
 }
 
 TEST(LayDown, NeverLiftsMoreThanHalfTheWeightOnceItsThrustIsGone) {
-  LayDown lay_down(kInertia_kgm2, kWeight_N);
+  controllers::LayDown lay_down(kInertia_kgm2, kWeight_N);
   lay_down.start(holding(Eigen::Vector3d::UnitX()));
   EXPECT_EQ(lay_down.most_thrust_N(), 15.0);
   for (double t = 0.0; t < 0.6; t += kDt_s) lay_down.advance(Eigen::Vector3d::Zero(), kDt_s);
@@ -77,7 +77,7 @@ TEST(LayDown, NeverLiftsMoreThanHalfTheWeightOnceItsThrustIsGone) {
 }
 
 TEST(LayDown, ForgetsWhatTheRotorsCannotHold) {
-  LayDown lay_down(kInertia_kgm2, kWeight_N);
+  controllers::LayDown lay_down(kInertia_kgm2, kWeight_N);
   lay_down.start(holding({2.0, 0.0, 0.0}));
   lay_down.limit(0.25);
   const double less_Nm = 30.0 * kInertia_kgm2 * kLay_radps * kDt_s;

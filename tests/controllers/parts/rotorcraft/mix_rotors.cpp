@@ -25,8 +25,9 @@ int main() {
   RandomStream random(1, "test", "mixer");
   for (const QuadrotorNumbers& numbers :
        {test::make_q4t(), test::with_plus_layout(test::make_q4t()), test::make_m100(), odd, six}) {
-    const RotorcraftModel craft = read_rotorcraft(test::describe(numbers), 9.80665, "test");
-    RotorMixer mixer(craft, "test");
+    const controllers::RotorcraftModel craft =
+        controllers::read_rotorcraft(test::describe(numbers), 9.80665, "test");
+    controllers::RotorMixer mixer(craft, "test");
     std::vector<double> speeds(craft.rotors.size());
     std::printf("vehicle %zu %.17g %.17g %.17g %.17g\n", craft.rotors.size(),
                 craft.thrust_coefficient_Ns2, craft.torque_coefficient_Nms2, craft.min_rotor_radps,
@@ -39,7 +40,7 @@ int main() {
     for (int i = 0; i < kCases; ++i) {
       // From gentle to far beyond the limits.
       const double size = std::pow(10.0, random.uniform(-1.5, 0.5));
-      Wrench wanted;
+      controllers::Wrench wanted;
       wanted.thrust_N = craft.max_thrust_N() * random.uniform(-0.1, 1.2);
       wanted.torque_B = {10.0 * size * random.normal(), 10.0 * size * random.normal(),
                          size * random.normal()};

@@ -9,7 +9,7 @@
 #include "tests/controllers/support/quadrotor_sim.h"
 #include "tests/support/no_alloc.h"
 
-namespace vinerow::rotor_mixer_test {
+namespace vinerow::controllers::rotor_mixer_test {
 namespace {
 
 RotorcraftModel make_craft(const test::QuadrotorNumbers& numbers) {
@@ -184,4 +184,4 @@ TEST(RotorMixer, RefusesRotorsThatCannotSteer) {
 }
 
 }  // namespace
-}  // namespace vinerow::rotor_mixer_test
+}  // namespace vinerow::controllers::rotor_mixer_test

@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "tests/controllers/support/quadrotor_sim.h"
 
-namespace vinerow::rotorcraft_test {
+namespace vinerow::controllers::rotorcraft_test {
 namespace {
 
 using test::QuadrotorNumbers;
@@ -149,4 +149,4 @@ TEST(HoverModel, WithoutLagHasTheWrenchAsInput) {
 }
 
 }  // namespace
-}  // namespace vinerow::rotorcraft_test
+}  // namespace vinerow::controllers::rotorcraft_test

@@ -29,7 +29,8 @@ void expect_near(const MatrixXd& reached, const MatrixXd& expected, double toler
 
 TEST(Discretise, DoubleIntegrator) {
   const double T = 0.3;
-  const SampledModel model = discretise(matrix(2, 2, {0, 1, 0, 0}), matrix(2, 1, {0, 1}), T);
+  const controllers::SampledModel model =
+      controllers::discretise(matrix(2, 2, {0, 1, 0, 0}), matrix(2, 1, {0, 1}), T);
   expect_near(model.A, matrix(2, 2, {1, T, 0, 1}), 1e-16);
   expect_near(model.B, matrix(2, 1, {T * T / 2, T}), 1e-16);
 }
@@ -38,8 +39,8 @@ TEST(Discretise, Oscillator) {
   // x'' = -w^2 (x - u), from slow to several turns within one sample
   for (const double w : {0.2, 3.0, 70.0}) {
     const double T = 0.5, c = std::cos(w * T), s = std::sin(w * T);
-    const SampledModel model =
-        discretise(matrix(2, 2, {0, 1, -w * w, 0}), matrix(2, 1, {0, w * w}), T);
+    const controllers::SampledModel model =
+        controllers::discretise(matrix(2, 2, {0, 1, -w * w, 0}), matrix(2, 1, {0, w * w}), T);
     const double tolerance = 1e-13 * (1.0 + w * w);
     expect_near(model.A, matrix(2, 2, {c, s / w, -w * s, c}), tolerance);
     expect_near(model.B, matrix(2, 1, {1 - c, w * s}), tolerance);
@@ -50,8 +51,8 @@ TEST(Discretise, FirstOrderLagsWithInputsInAnyUnit) {
   // x' = -x / lag + gain u: a unit a million times smaller takes no digit from A
   for (const double gain : {1e-9, 1.0, 1e9}) {
     const double T = 0.05, fast = 0.02, slow = 2.0;
-    const SampledModel model = discretise(matrix(2, 2, {-1 / fast, 0, 0, -1 / slow}),
-                                          matrix(2, 2, {gain, 0, 0, 1 / slow}), T);
+    const controllers::SampledModel model = controllers::discretise(
+        matrix(2, 2, {-1 / fast, 0, 0, -1 / slow}), matrix(2, 2, {gain, 0, 0, 1 / slow}), T);
     expect_near(model.A, matrix(2, 2, {std::exp(-T / fast), 0, 0, std::exp(-T / slow)}), 4e-16);
     EXPECT_NEAR(model.B(0, 0) / (-gain * fast * std::expm1(-T / fast)), 1.0, 1e-14);
     EXPECT_NEAR(model.B(1, 1) / -std::expm1(-T / slow), 1.0, 1e-14);
@@ -60,7 +61,8 @@ TEST(Discretise, FirstOrderLagsWithInputsInAnyUnit) {
 }
 
 TEST(Discretise, ModelWithoutInputs) {
-  const SampledModel model = discretise(matrix(1, 1, {-2}), MatrixXd(1, 0), 0.5);
+  const controllers::SampledModel model =
+      controllers::discretise(matrix(1, 1, {-2}), MatrixXd(1, 0), 0.5);
   EXPECT_NEAR(model.A(0, 0), std::exp(-1.0), 1e-16);
   EXPECT_EQ(model.B.cols(), 0);
 }
@@ -75,7 +77,7 @@ TEST(Discretise, StructuralZerosStayZero) {
   A(4, 4) = -0.3;
   B(3, 0) = 80.0;
   B(4, 1) = 5.0;
-  const SampledModel model = discretise(A, B, 0.05);
+  const controllers::SampledModel model = controllers::discretise(A, B, 0.05);
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < 5; ++j) {
       const bool acts = i == j || (i < j && j < 4);

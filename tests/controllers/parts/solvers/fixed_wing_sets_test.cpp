@@ -15,14 +15,14 @@
 namespace vinerow::test::fixed_wing_sets_test {
 namespace {
 
-Eigen::VectorXd supports(const Support& S, const Eigen::MatrixXd& rows) {
+Eigen::VectorXd supports(const controllers::Support& S, const Eigen::MatrixXd& rows) {
   Eigen::VectorXd values(rows.rows());
   for (Eigen::Index i = 0; i < rows.rows(); ++i) values[i] = S(rows.row(i));
   return values;
 }
 
 /// How many m/s of gust the limits leave room for.
-double largest_gust(const Support& S, const Wing& wing) {
+double largest_gust(const controllers::Support& S, const Wing& wing) {
   const Eigen::VectorXd x = supports(S, Eigen::MatrixXd::Identity(5, 5));
   return std::min(wing.state_limit.cwiseQuotient(x).minCoeff(),
                   wing.input_limit.cwiseQuotient(supports(S, wing.K)).minCoeff());
@@ -37,8 +37,10 @@ void expect_within(const Eigen::VectorXd& values, const Eigen::VectorXd& expecte
 
 TEST(FixedWingSets, HalfWidthsOfTheTubeAreThePrototypes) {
   const Wing lon = longitudinal_wing(), lat = lateral_wing();
-  const Result<SeriesSupport> S_lon = SeriesSupport::make(lon.closed(), Zonotope(lon.E));
-  const Result<SeriesSupport> S_lat = SeriesSupport::make(lat.closed(), Zonotope(lat.E));
+  const Result<controllers::SeriesSupport> S_lon =
+      controllers::SeriesSupport::make(lon.closed(), controllers::Zonotope(lon.E));
+  const Result<controllers::SeriesSupport> S_lat =
+      controllers::SeriesSupport::make(lat.closed(), controllers::Zonotope(lat.E));
   ASSERT_TRUE(S_lon && S_lat);
   const Eigen::MatrixXd axes = Eigen::MatrixXd::Identity(5, 5);
   Eigen::VectorXd x_lon(5), x_lat(5);
@@ -58,7 +60,8 @@ TEST(FixedWingSets, AdversaryReachesTheHalfWidthsAndChanceDoesNot) {
   // Simulated: 600 gusts of +-1 m/s with the signs that push one output most.
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
     const Eigen::MatrixXd A = wing.closed();
-    const Result<SeriesSupport> S = SeriesSupport::make(A, Zonotope(wing.E));
+    const Result<controllers::SeriesSupport> S =
+        controllers::SeriesSupport::make(A, controllers::Zonotope(wing.E));
     ASSERT_TRUE(S);
     Eigen::MatrixXd rows(5 + wing.K.rows(), 5);
     rows << Eigen::MatrixXd::Identity(5, 5), wing.K;
@@ -92,12 +95,14 @@ TEST(FixedWingSets, BoxAroundTheGustsIsSeveralTimesAsLarge) {
   for (const Case& expected :
        {Case{longitudinal_wing(), .55, .27}, Case{lateral_wing(), .52, .22}}) {
     const Wing& wing = expected.wing;
-    const Eigen::VectorXd half = Zonotope(wing.E).half_widths();
-    const Result<SeriesSupport> S = SeriesSupport::make(wing.closed(), Zonotope::box(half));
+    const Eigen::VectorXd half = controllers::Zonotope(wing.E).half_widths();
+    const Result<controllers::SeriesSupport> S =
+        controllers::SeriesSupport::make(wing.closed(), controllers::Zonotope::box(half));
     ASSERT_TRUE(S);
     EXPECT_NEAR(largest_gust(*S, wing), expected.gust, 0.006);
     EXPECT_NEAR(largest_gust(*S, wing.with_tight_limits()), expected.tight_gust, 0.005);
-    const Result<SeriesSupport> exact = SeriesSupport::make(wing.closed(), Zonotope(wing.E));
+    const Result<controllers::SeriesSupport> exact =
+        controllers::SeriesSupport::make(wing.closed(), controllers::Zonotope(wing.E));
     ASSERT_TRUE(exact);
     Eigen::MatrixXd rows(5 + wing.K.rows(), 5);
     rows << Eigen::MatrixXd::Identity(5, 5), wing.K;
@@ -113,21 +118,24 @@ TEST(FixedWingSets, TerminalSetsNeedThePrototypesNumberOfSteps) {
   for (const auto& [wing, steps] :
        {std::pair{longitudinal_wing(), 13}, std::pair{lateral_wing(), 16}}) {
     const Eigen::MatrixXd A = wing.closed();
-    const Zonotope W(wing.E);
-    const Result<SeriesSupport> S = SeriesSupport::make(A, W);
+    const controllers::Zonotope W(wing.E);
+    const Result<controllers::SeriesSupport> S = controllers::SeriesSupport::make(A, W);
     ASSERT_TRUE(S);
-    const Polytope X = wing.constraints();
-    const Polytope tightened(X.F(), X.g() - supports(*S, X.F()));
-    const Result<InvariantSet> terminal = maximal_invariant_set(A, tightened);
+    const controllers::Polytope X = wing.constraints();
+    const controllers::Polytope tightened(X.F(), X.g() - supports(*S, X.F()));
+    const Result<controllers::InvariantSet> terminal =
+        controllers::maximal_invariant_set(A, tightened);
     ASSERT_TRUE(terminal) << terminal.reason();
     EXPECT_EQ(terminal->steps, steps);
-    EXPECT_LE(invariance_excess(A, terminal->set, Zonotope(Eigen::MatrixXd(5, 0))), 1e-8);
+    EXPECT_LE(invariance_excess(A, terminal->set, controllers::Zonotope(Eigen::MatrixXd(5, 0))),
+              1e-8);
     // What an error in S and a nominal state in the terminal set add up to stays in the limits, and
     // so is part of the maximal robust set.
-    const Result<InvariantSet> robust = maximal_robust_invariant_set(A, X, W);
+    const Result<controllers::InvariantSet> robust =
+        controllers::maximal_robust_invariant_set(A, X, W);
     ASSERT_TRUE(robust) << robust.reason();
     EXPECT_LE(invariance_excess(A, robust->set, W), 1e-8);
-    const Polytope& R = robust->set;
+    const controllers::Polytope& R = robust->set;
     for (int i = 0; i < R.rows(); ++i) {
       EXPECT_LE(terminal->set.support(R.F().row(i)) + (*S)(R.F().row(i)), R.g()[i] * (1.0 + 1e-8));
     }
@@ -137,8 +145,9 @@ TEST(FixedWingSets, TerminalSetsNeedThePrototypesNumberOfSteps) {
 TEST(FixedWingSets, RobustSetIsWhatRandomAndWorstGustsStayIn) {
   const Wing wing = lateral_wing();
   const Eigen::MatrixXd A = wing.closed();
-  const Polytope X = wing.constraints();
-  const Result<InvariantSet> robust = maximal_robust_invariant_set(A, X, Zonotope(wing.E));
+  const controllers::Polytope X = wing.constraints();
+  const Result<controllers::InvariantSet> robust =
+      controllers::maximal_robust_invariant_set(A, X, controllers::Zonotope(wing.E));
   ASSERT_TRUE(robust);
   RandomStream random(2, "", "gust");
   int inside = 0, steps_outside = 0;
@@ -157,8 +166,8 @@ TEST(FixedWingSets, RobustSetIsWhatRandomAndWorstGustsStayIn) {
 
 TEST(FixedWingSets, LateralGustBeyondTheLimitIsRefusedWithBothNumbers) {
   const Wing wing = lateral_wing().with_tight_limits();
-  const Result<InvariantSet> set =
-      maximal_robust_invariant_set(wing.closed(), wing.constraints(), Zonotope(wing.E));
+  const Result<controllers::InvariantSet> set = controllers::maximal_robust_invariant_set(
+      wing.closed(), wing.constraints(), controllers::Zonotope(wing.E));
   ASSERT_FALSE(set);
   EXPECT_EQ(set.reason(),
             "the disturbance is too large: alone it brings row 2 of the constraints to 2.11866, "

@@ -10,7 +10,8 @@ namespace vinerow::test {
 
 /// How far x+ = A x + w leads out of P from its worst point, over rows of length one; <= 0 where P
 /// is invariant. -infinity if P is empty. @param W  support of the disturbance
-inline double invariance_excess(const Eigen::MatrixXd& A, const Polytope& P, const Support& W) {
+inline double invariance_excess(const Eigen::MatrixXd& A, const controllers::Polytope& P,
+                                const controllers::Support& W) {
   double worst = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < P.rows(); ++i) {
     const Eigen::VectorXd row = P.F().row(i);

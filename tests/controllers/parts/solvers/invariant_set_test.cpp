@@ -16,15 +16,16 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(InvariantSet, ScalarAndDiagonalSystemsKeepTheirWholeBox) {
-  const Polytope line = Polytope::box(Eigen::VectorXd::Constant(1, -0.7), Eigen::VectorXd::Ones(1));
-  const Result<InvariantSet> scalar =
-      maximal_invariant_set(Eigen::MatrixXd::Constant(1, 1, 0.99), line);
+  const controllers::Polytope line =
+      controllers::Polytope::box(Eigen::VectorXd::Constant(1, -0.7), Eigen::VectorXd::Ones(1));
+  const Result<controllers::InvariantSet> scalar =
+      controllers::maximal_invariant_set(Eigen::MatrixXd::Constant(1, 1, 0.99), line);
   ASSERT_TRUE(scalar);
   EXPECT_EQ(scalar->steps, 0);
   EXPECT_TRUE(same_set(scalar->set, line));
-  const Polytope box = Polytope::box(Eigen::Vector3d(1.0, 2.0, 3.0));
+  const controllers::Polytope box = controllers::Polytope::box(Eigen::Vector3d(1.0, 2.0, 3.0));
   const Eigen::Matrix3d A = Eigen::Vector3d(0.5, -0.8, 0.99).asDiagonal();
-  const Result<InvariantSet> diagonal = maximal_invariant_set(A, box);
+  const Result<controllers::InvariantSet> diagonal = controllers::maximal_invariant_set(A, box);
   ASSERT_TRUE(diagonal);
   EXPECT_EQ(diagonal->steps, 0);
   EXPECT_TRUE(same_set(diagonal->set, box));
@@ -33,13 +34,14 @@ TEST(InvariantSet, ScalarAndDiagonalSystemsKeepTheirWholeBox) {
 
 TEST(InvariantSet, NegativeScalarMirrorsTheNearerLimit) {
   // x+ = -x / 2 in [-5, 1]: -5 would go to 2.5, so only [-2, 1] stays.
-  const Polytope line = Polytope::box(Eigen::VectorXd::Constant(1, -5.0), Eigen::VectorXd::Ones(1));
-  const Result<InvariantSet> set =
-      maximal_invariant_set(Eigen::MatrixXd::Constant(1, 1, -0.5), line);
+  const controllers::Polytope line =
+      controllers::Polytope::box(Eigen::VectorXd::Constant(1, -5.0), Eigen::VectorXd::Ones(1));
+  const Result<controllers::InvariantSet> set =
+      controllers::maximal_invariant_set(Eigen::MatrixXd::Constant(1, 1, -0.5), line);
   ASSERT_TRUE(set);
   EXPECT_EQ(set->steps, 1);
-  EXPECT_TRUE(same_set(
-      set->set, Polytope::box(Eigen::VectorXd::Constant(1, -2.0), Eigen::VectorXd::Ones(1))));
+  EXPECT_TRUE(same_set(set->set, controllers::Polytope::box(Eigen::VectorXd::Constant(1, -2.0),
+                                                            Eigen::VectorXd::Ones(1))));
 }
 
 TEST(InvariantSet, OneStepCutsTheSecondState) {
@@ -48,12 +50,12 @@ TEST(InvariantSet, OneStepCutsTheSecondState) {
   const Eigen::Matrix2d A = Eigen::Vector2d(0.5, 0.0).asDiagonal();
   Eigen::MatrixXd rows(2, 2);
   rows << 1, 1, -1, -1;
-  const Polytope strip(rows, Eigen::Vector2d(1.0, 1.0));
-  const Result<InvariantSet> set = maximal_invariant_set(A, strip);
+  const controllers::Polytope strip(rows, Eigen::Vector2d(1.0, 1.0));
+  const Result<controllers::InvariantSet> set = controllers::maximal_invariant_set(A, strip);
   ASSERT_TRUE(set);
   EXPECT_EQ(set->steps, 1);
-  EXPECT_TRUE(
-      same_set(set->set, strip.intersection(Polytope::box(Eigen::Vector2d(2.0, kInfinity)))));
+  EXPECT_TRUE(same_set(
+      set->set, strip.intersection(controllers::Polytope::box(Eigen::Vector2d(2.0, kInfinity)))));
   EXPECT_EQ(set->set.rows(), 4);
 }
 
@@ -62,19 +64,21 @@ TEST(InvariantSet, ContractedQuarterTurnSwapsTheLimits) {
   const double r = 0.5;
   Eigen::Matrix2d A;
   A << 0.0, -r, r, 0.0;
-  const Polytope X = Polytope::box(Eigen::Vector2d(-8.0, -0.75), Eigen::Vector2d(1.0, 10.0));
-  const Result<InvariantSet> set = maximal_invariant_set(A, X);
+  const controllers::Polytope X =
+      controllers::Polytope::box(Eigen::Vector2d(-8.0, -0.75), Eigen::Vector2d(1.0, 10.0));
+  const Result<controllers::InvariantSet> set = controllers::maximal_invariant_set(A, X);
   ASSERT_TRUE(set);
   // One turn on: x_1 / 2 >= -0.75; two turns: -x_2 / 4 >= -0.75; three: x_2 / 8 <= 1, no more.
-  const Polytope expected = Polytope::box(Eigen::Vector2d(-1.5, -0.75), Eigen::Vector2d(1.0, 3.0));
+  const controllers::Polytope expected =
+      controllers::Polytope::box(Eigen::Vector2d(-1.5, -0.75), Eigen::Vector2d(1.0, 3.0));
   EXPECT_TRUE(same_set(set->set, expected));
   EXPECT_EQ(set->steps, 2);
 }
 
 TEST(InvariantSet, StatesThatNoConstraintSeesAreFree) {
   const Eigen::Matrix2d A = Eigen::Vector2d(0.5, 0.9).asDiagonal();
-  const Result<InvariantSet> set =
-      maximal_invariant_set(A, Polytope::box(Eigen::Vector2d(1.0, kInfinity)));
+  const Result<controllers::InvariantSet> set = controllers::maximal_invariant_set(
+      A, controllers::Polytope::box(Eigen::Vector2d(1.0, kInfinity)));
   ASSERT_TRUE(set);
   EXPECT_EQ(set->set.rows(), 2);
   EXPECT_EQ(set->set.support(Eigen::Vector2d(0.0, 1.0)), kInfinity);
@@ -86,10 +90,11 @@ TEST(InvariantSet, IsWhatSimulationsNeverLeave) {
   for (int run = 0; run < 10; ++run) {
     const int n = 2 + run % 3;
     const Eigen::MatrixXd A = random_system(random, n, 0.6 + 0.035 * run);
-    const Polytope X = random_constraints(random, n, 3 + run % 4);
-    const Result<InvariantSet> result = maximal_invariant_set(A, X);
+    const controllers::Polytope X = random_constraints(random, n, 3 + run % 4);
+    const Result<controllers::InvariantSet> result = controllers::maximal_invariant_set(A, X);
     ASSERT_TRUE(result) << result.reason();
-    EXPECT_LE(invariance_excess(A, result->set, Zonotope(Eigen::MatrixXd(n, 0))), 1e-8);
+    EXPECT_LE(invariance_excess(A, result->set, controllers::Zonotope(Eigen::MatrixXd(n, 0))),
+              1e-8);
     EXPECT_TRUE(X.contains(result->set));
     for (int i = 0; i < 1000; ++i) {
       const Eigen::VectorXd start = 0.6 * normal_matrix(random, n, 1);
@@ -109,17 +114,18 @@ TEST(InvariantSet, IsWhatSimulationsNeverLeave) {
 
 TEST(RobustInvariantSet, NegativeScalarLeavesRoomForTheDisturbance) {
   // x+ = -x/2 + w, |w| <= 1/5, x in [-3, 1]: -x/2 + 1/5 <= 1 asks x >= -1.6; nothing else cuts.
-  const Polytope line = Polytope::box(Eigen::VectorXd::Constant(1, -3.0), Eigen::VectorXd::Ones(1));
-  const Result<InvariantSet> set =
-      maximal_robust_invariant_set(Eigen::MatrixXd::Constant(1, 1, -0.5), line,
-                                   Zonotope::box(Eigen::VectorXd::Constant(1, 0.2)));
+  const controllers::Polytope line =
+      controllers::Polytope::box(Eigen::VectorXd::Constant(1, -3.0), Eigen::VectorXd::Ones(1));
+  const Result<controllers::InvariantSet> set = controllers::maximal_robust_invariant_set(
+      Eigen::MatrixXd::Constant(1, 1, -0.5), line,
+      controllers::Zonotope::box(Eigen::VectorXd::Constant(1, 0.2)));
   ASSERT_TRUE(set);
-  EXPECT_TRUE(same_set(
-      set->set, Polytope::box(Eigen::VectorXd::Constant(1, -1.6), Eigen::VectorXd::Ones(1))));
+  EXPECT_TRUE(same_set(set->set, controllers::Polytope::box(Eigen::VectorXd::Constant(1, -1.6),
+                                                            Eigen::VectorXd::Ones(1))));
 }
 
 /// True where no choice of w_k = +-e over `steps` steps leads out of X.
-bool survives(const Eigen::Matrix2d& A, const Polytope& X, const Eigen::Vector2d& e,
+bool survives(const Eigen::Matrix2d& A, const controllers::Polytope& X, const Eigen::Vector2d& e,
               const Eigen::Vector2d& x, int steps) {
   if (!X.contains(x)) return false;
   if (steps == 0) return true;
@@ -133,14 +139,15 @@ TEST(RobustInvariantSet, IsWhatNoSequenceOfGustsLeadsOutOf) {
   int inside = 0, outside = 0, by_gusts_alone = 0;
   for (int run = 0; run < 5; ++run) {
     const Eigen::Matrix2d A = random_system(random, 2, 0.35);
-    const Polytope X = random_constraints(random, 2, 4);
+    const controllers::Polytope X = random_constraints(random, 2, 4);
     const Eigen::Vector2d e = 0.2 * normal_matrix(random, 2, 1);
-    const Zonotope W{Eigen::MatrixXd(e)};
-    const Result<InvariantSet> result = maximal_robust_invariant_set(A, X, W);
+    const controllers::Zonotope W{Eigen::MatrixXd(e)};
+    const Result<controllers::InvariantSet> result =
+        controllers::maximal_robust_invariant_set(A, X, W);
     ASSERT_TRUE(result) << result.reason();
     EXPECT_LE(invariance_excess(A, result->set, W), 1e-8);
     EXPECT_TRUE(X.contains(result->set));
-    const Result<InvariantSet> nominal = maximal_invariant_set(A, X);
+    const Result<controllers::InvariantSet> nominal = controllers::maximal_invariant_set(A, X);
     ASSERT_TRUE(nominal);
     EXPECT_TRUE(nominal->set.contains(result->set));
     for (int i = 0; i < 200; ++i) {
@@ -165,9 +172,10 @@ TEST(RobustInvariantSet, WorstGustsForARowLeadOutExactlyOutside) {
   for (int run = 0; run < 4; ++run) {
     const int n = 3 + run % 2;
     const Eigen::MatrixXd A = random_system(random, n, 0.7);
-    const Polytope X = random_constraints(random, n, 4);
-    const Zonotope W{Eigen::MatrixXd(0.02 * normal_matrix(random, n, 2))};
-    const Result<InvariantSet> result = maximal_robust_invariant_set(A, X, W);
+    const controllers::Polytope X = random_constraints(random, n, 4);
+    const controllers::Zonotope W{Eigen::MatrixXd(0.02 * normal_matrix(random, n, 2))};
+    const Result<controllers::InvariantSet> result =
+        controllers::maximal_robust_invariant_set(A, X, W);
     ASSERT_TRUE(result) << result.reason();
     for (int i = 0; i < 100; ++i) {
       const Eigen::VectorXd start = 0.5 * normal_matrix(random, n, 1);
@@ -195,53 +203,59 @@ TEST(RobustInvariantSet, WorstGustsForARowLeadOutExactlyOutside) {
 }
 
 TEST(InvariantSet, RefusesInOneSentenceWithNumbers) {
-  const Polytope box = Polytope::box(Eigen::Vector2d(1.0, 1.0));
-  const Zonotope gust = Zonotope::box(Eigen::Vector2d(0.05, 0.6));
+  const controllers::Polytope box = controllers::Polytope::box(Eigen::Vector2d(1.0, 1.0));
+  const controllers::Zonotope gust = controllers::Zonotope::box(Eigen::Vector2d(0.05, 0.6));
   const Eigen::Matrix2d A = Eigen::Vector2d(0.9, 0.5).asDiagonal();
   const Eigen::Matrix2d unstable = Eigen::Vector2d(-1.25, 0.5).asDiagonal();
-  EXPECT_EQ(maximal_invariant_set(unstable, box).reason(),
+  EXPECT_EQ(controllers::maximal_invariant_set(unstable, box).reason(),
             "A is not Schur stable: its spectral radius is 1.25, must be < 1");
-  EXPECT_EQ(maximal_robust_invariant_set(unstable, box, gust).reason(),
+  EXPECT_EQ(controllers::maximal_robust_invariant_set(unstable, box, gust).reason(),
             "A is not Schur stable: its spectral radius is 1.25, must be < 1");
   EXPECT_EQ(
-      maximal_invariant_set(A, Polytope::box(Eigen::Vector2d(0.0, -1.0), Eigen::Vector2d(1.0, 1.0)))
+      controllers::maximal_invariant_set(
+          A, controllers::Polytope::box(Eigen::Vector2d(0.0, -1.0), Eigen::Vector2d(1.0, 1.0)))
           .reason(),
       "the origin is not inside the constraints: row 1 has the limit -0, must be > 0");
-  EXPECT_EQ(maximal_robust_invariant_set(A, box, gust).reason(),
+  EXPECT_EQ(controllers::maximal_robust_invariant_set(A, box, gust).reason(),
             "the disturbance is too large: alone it brings row 2 of the constraints to 1.2, the "
             "limit is 1");
-  InvariantSettings few;
+  controllers::InvariantSettings few;
   few.max_steps = 1;
   Eigen::Matrix2d turn;
   turn << 0.0, -0.5, 0.5, 0.0;
   EXPECT_EQ(
-      maximal_invariant_set(
-          turn, Polytope::box(Eigen::Vector2d(-8.0, -0.75), Eigen::Vector2d(1.0, 10.0)), few)
+      controllers::maximal_invariant_set(
+          turn,
+          controllers::Polytope::box(Eigen::Vector2d(-8.0, -0.75), Eigen::Vector2d(1.0, 10.0)), few)
           .reason(),
       "the invariant set is not finished in 1 steps: row 3 still cuts off 1.75 of its limit 0.75");
-  EXPECT_EQ(complaint([&] { (void)maximal_invariant_set(Eigen::Matrix3d::Zero(), box); }),
-            "A is 3 x 3 but the constraints are in 2 dimensions");
-  EXPECT_EQ(complaint([&] { (void)maximal_invariant_set(kNaN * A, box); }),
+  EXPECT_EQ(
+      complaint([&] { (void)controllers::maximal_invariant_set(Eigen::Matrix3d::Zero(), box); }),
+      "A is 3 x 3 but the constraints are in 2 dimensions");
+  EXPECT_EQ(complaint([&] { (void)controllers::maximal_invariant_set(kNaN * A, box); }),
             "A holds a number that is not finite");
 }
 
 TEST(InvariantSet, ExcessTellsHowFarASetIsLeft) {
   // x+ = 0.9 x + w, |w| <= 0.3 from |x| <= 2 reaches 2.1; the row is 2 x <= 4.
-  const Polytope line(2.0 * Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Constant(1, 4.0));
-  const Zonotope W = Zonotope::box(Eigen::VectorXd::Constant(1, 0.3));
+  const controllers::Polytope line(2.0 * Eigen::MatrixXd::Ones(1, 1),
+                                   Eigen::VectorXd::Constant(1, 4.0));
+  const controllers::Zonotope W = controllers::Zonotope::box(Eigen::VectorXd::Constant(1, 0.3));
   EXPECT_NEAR(invariance_excess(Eigen::MatrixXd::Constant(1, 1, 0.9), line, W), 0.1, 1e-12);
   EXPECT_NEAR(invariance_excess(Eigen::MatrixXd::Constant(1, 1, 0.8), line, W), -0.1, 1e-12);
-  EXPECT_EQ(invariance_excess(Eigen::MatrixXd::Ones(1, 1), Polytope::empty_set(1), W), -kInfinity);
+  EXPECT_EQ(invariance_excess(Eigen::MatrixXd::Ones(1, 1), controllers::Polytope::empty_set(1), W),
+            -kInfinity);
 }
 
 TEST(InvariantSet, SameBitsTwice) {
   RandomStream first(5, "", "sets"), second(5, "", "sets");
   const auto make = [](RandomStream& random) {
     const Eigen::MatrixXd A = random_system(random, 4, 0.9);
-    const Polytope X = random_constraints(random, 4, 5);
-    return maximal_robust_invariant_set(A, X, Zonotope::box(Eigen::VectorXd::Constant(4, 0.01)));
+    const controllers::Polytope X = random_constraints(random, 4, 5);
+    return controllers::maximal_robust_invariant_set(
+        A, X, controllers::Zonotope::box(Eigen::VectorXd::Constant(4, 0.01)));
   };
-  const Result<InvariantSet> one = make(first), two = make(second);
+  const Result<controllers::InvariantSet> one = make(first), two = make(second);
   ASSERT_TRUE(one && two);
   EXPECT_EQ(one->set.F(), two->set.F());
   EXPECT_EQ(one->set.g(), two->set.g());

@@ -22,14 +22,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Every kind of limit at once.
-LinearMpcProblem busy_problem() {
+controllers::LinearMpcProblem busy_problem() {
   RandomStream random(5, "", "linear_mpc_contract_test");
-  LinearMpcProblem problem = random_plant(random, 5, 2, 8);
+  controllers::LinearMpcProblem problem = random_plant(random, 5, 2, 8);
   problem.input_lower.setConstant(2, -0.7);
   problem.input_upper.setConstant(2, 0.5);
   problem.rate_lower.setConstant(2, -0.4);
   problem.rate_upper.setConstant(2, 0.4);
-  MpcStateRows rows = box(VectorXd::Constant(5, -1.0), VectorXd::Constant(5, 1.0));
+  controllers::MpcStateRows rows = box(VectorXd::Constant(5, -1.0), VectorXd::Constant(5, 1.0));
   rows.soft_weight.setConstant(5, 100.0);
   problem.state_rows.push_back(rows);
   rows.relative = true;
@@ -38,7 +38,8 @@ LinearMpcProblem busy_problem() {
 }
 
 /// A closed loop pushed about, in which limits come and go. @returns all inputs
-std::vector<double> run_loop(LinearMpc& mpc, const LinearMpcProblem& problem, int steps) {
+std::vector<double> run_loop(controllers::LinearMpc& mpc,
+                             const controllers::LinearMpcProblem& problem, int steps) {
   RandomStream random(6, "", "linear_mpc_contract_test");
   MpcCall call(problem);
   std::vector<double> inputs;
@@ -57,8 +58,8 @@ std::vector<double> run_loop(LinearMpc& mpc, const LinearMpcProblem& problem, in
 }
 
 TEST(LinearMpcContract, SolvesWithoutHeapWhateverComes) {
-  const LinearMpcProblem problem = busy_problem();
-  LinearMpc mpc(problem, "test");
+  const controllers::LinearMpcProblem problem = busy_problem();
+  controllers::LinearMpc mpc(problem, "test");
   MpcCall good(problem), far(problem), bad(problem);
   good.x.setConstant(0.8);
   far.x.setConstant(1e3);
@@ -71,8 +72,8 @@ TEST(LinearMpcContract, SolvesWithoutHeapWhateverComes) {
 }
 
 TEST(LinearMpcContract, SameCallsSameBits) {
-  const LinearMpcProblem problem = busy_problem();
-  LinearMpc first(problem, "test"), second(problem, "test");
+  const controllers::LinearMpcProblem problem = busy_problem();
+  controllers::LinearMpc first(problem, "test"), second(problem, "test");
   const std::vector<double> once = run_loop(first, problem, 200);
   EXPECT_EQ(once, run_loop(second, problem, 200));
   first.cold_start();
@@ -80,15 +81,15 @@ TEST(LinearMpcContract, SameCallsSameBits) {
 }
 
 TEST(LinearMpcContract, WarmAndColdAgree) {
-  const LinearMpcProblem problem = busy_problem();
-  LinearMpc warm(problem, "test"), cold(problem, "test");
+  const controllers::LinearMpcProblem problem = busy_problem();
+  controllers::LinearMpc warm(problem, "test"), cold(problem, "test");
   RandomStream random(7, "", "linear_mpc_contract_test");
   MpcCall call(problem);
   for (int step = 0; step < 200; ++step) {
     if (step % 20 == 0) call.reference.row(1).setConstant(random.uniform(-2.0, 2.0));
     cold.cold_start();
-    ASSERT_EQ(call.solve(warm), QpStatus::kSolved);
-    ASSERT_EQ(call.solve(cold), QpStatus::kSolved);
+    ASSERT_EQ(call.solve(warm), controllers::QpStatus::kSolved);
+    ASSERT_EQ(call.solve(cold), controllers::QpStatus::kSolved);
     EXPECT_LT((warm.inputs_ahead() - cold.inputs_ahead()).cwiseAbs().maxCoeff(), 1e-9);
     call.input_before = warm.u();
     call.x = problem.A * call.x + problem.B * warm.u();
@@ -97,8 +98,8 @@ TEST(LinearMpcContract, WarmAndColdAgree) {
 }
 
 /// |x| <= 1 hard, |u| <= 1, on a slow double integrator.
-LinearMpcProblem walled() {
-  LinearMpcProblem problem = double_integrator(0.1, 6);
+controllers::LinearMpcProblem walled() {
+  controllers::LinearMpcProblem problem = double_integrator(0.1, 6);
   problem.Q.setIdentity();
   problem.P.setIdentity();
   problem.R *= 0.01;
@@ -110,16 +111,16 @@ LinearMpcProblem walled() {
 }
 
 TEST(LinearMpcContract, OutsideHardLimitsTheLastInputsMoveUp) {
-  const LinearMpcProblem problem = walled();
-  LinearMpc mpc(problem, "test");
+  const controllers::LinearMpcProblem problem = walled();
+  controllers::LinearMpc mpc(problem, "test");
   MpcCall call(problem);
   call.x << 0.8, 0.0;
-  ASSERT_EQ(call.solve(mpc), QpStatus::kSolved);
+  ASSERT_EQ(call.solve(mpc), controllers::QpStatus::kSolved);
   MatrixXd expected = mpc.inputs_ahead();
   ASSERT_GT((expected.rightCols(5) - expected.leftCols(5)).norm(), 0.1);  // not all the same
   call.x << 1.5, 0.0;
   for (int failure = 1; failure <= 8; ++failure) {
-    ASSERT_EQ(call.solve(mpc), QpStatus::kInfeasible);
+    ASSERT_EQ(call.solve(mpc), controllers::QpStatus::kInfeasible);
     const MatrixXd moved = expected.rightCols(5);
     expected.leftCols(5) = moved;
     EXPECT_EQ(mpc.inputs_ahead(), expected) << failure;
@@ -129,22 +130,22 @@ TEST(LinearMpcContract, OutsideHardLimitsTheLastInputsMoveUp) {
   // The end of the sequence is held.
   EXPECT_EQ(expected.minCoeff(), expected.maxCoeff());
   call.x << 0.8, 0.0;
-  ASSERT_EQ(call.solve(mpc), QpStatus::kSolved);
-  LinearMpc fresh(problem, "test");
-  ASSERT_EQ(call.solve(fresh), QpStatus::kSolved);
+  ASSERT_EQ(call.solve(mpc), controllers::QpStatus::kSolved);
+  controllers::LinearMpc fresh(problem, "test");
+  ASSERT_EQ(call.solve(fresh), controllers::QpStatus::kSolved);
   EXPECT_EQ(mpc.inputs_ahead(), fresh.inputs_ahead());
 }
 
 TEST(LinearMpcContract, SoftLimitsBringAStateBackThatIsOutside) {
-  LinearMpcProblem problem = walled();
+  controllers::LinearMpcProblem problem = walled();
   problem.state_rows[0].soft_weight.setConstant(1e5);
-  LinearMpc mpc(problem, "test");
+  controllers::LinearMpc mpc(problem, "test");
   MpcCall call(problem);
   call.x << 1.5, 0.5;
   call.reference.row(0).setConstant(0.99);
   double last = kInfinity;
   for (int step = 0; step < 200; ++step) {
-    ASSERT_EQ(call.solve(mpc), QpStatus::kSolved);
+    ASSERT_EQ(call.solve(mpc), controllers::QpStatus::kSolved);
     // Once the speed has turned, the violation only falls.
     if (step > 8) {
       EXPECT_LE(mpc.soft_violation(), last);
@@ -157,13 +158,13 @@ TEST(LinearMpcContract, SoftLimitsBringAStateBackThatIsOutside) {
 }
 
 TEST(LinearMpcContract, NumbersThatAreNoneNeverReachTheInput) {
-  const LinearMpcProblem problem = walled();
+  const controllers::LinearMpcProblem problem = walled();
   for (const double wrong : {kNan, kInfinity, -kInfinity}) {
     for (int place = 0; place < 6; ++place) {
-      LinearMpc mpc(problem, "test");
+      controllers::LinearMpc mpc(problem, "test");
       MpcCall call(problem);
       call.x << 0.8, 0.0;
-      ASSERT_EQ(call.solve(mpc), QpStatus::kSolved);
+      ASSERT_EQ(call.solve(mpc), controllers::QpStatus::kSolved);
       const MatrixXd inputs = mpc.inputs_ahead(), states = mpc.states_ahead();
       if (place == 0) call.x[1] = wrong;
       if (place == 1) call.reference(1, 6) = wrong;
@@ -171,7 +172,7 @@ TEST(LinearMpcContract, NumbersThatAreNoneNeverReachTheInput) {
       if (place == 3) call.disturbance[0] = wrong;
       if (place == 4) call.input_before[0] = wrong;
       if (place == 5) call.reference(0, 0) = wrong;
-      EXPECT_EQ(call.solve(mpc), QpStatus::kInvalidInput) << place;
+      EXPECT_EQ(call.solve(mpc), controllers::QpStatus::kInvalidInput) << place;
       EXPECT_EQ(mpc.inputs_ahead().leftCols(5), inputs.rightCols(5));
       EXPECT_TRUE(mpc.states_ahead().allFinite());
       EXPECT_TRUE(std::isfinite(mpc.soft_violation()));
@@ -183,30 +184,30 @@ TEST(LinearMpcContract, NumbersThatAreNoneNeverReachTheInput) {
 }
 
 TEST(LinearMpcContract, BeforeTheFirstSolutionInputsAreZeroWithinBounds) {
-  LinearMpcProblem problem = walled();
+  controllers::LinearMpcProblem problem = walled();
   problem.input_lower.setConstant(1, 0.25);
-  LinearMpc mpc(problem, "test");
+  controllers::LinearMpc mpc(problem, "test");
   EXPECT_EQ(mpc.u()[0], 0.25);
   MpcCall call(problem);
   call.x << 5.0, kNan;
-  EXPECT_EQ(call.solve(mpc), QpStatus::kInvalidInput);
+  EXPECT_EQ(call.solve(mpc), controllers::QpStatus::kInvalidInput);
   EXPECT_EQ(mpc.u()[0], 0.25);
 }
 
 TEST(LinearMpcContract, TheIterationLimitIsReported) {
-  const LinearMpcProblem problem = busy_problem();
-  QpSettings settings;
+  const controllers::LinearMpcProblem problem = busy_problem();
+  controllers::QpSettings settings;
   settings.max_iterations = 2;
-  LinearMpc mpc(problem, "test", settings);
+  controllers::LinearMpc mpc(problem, "test", settings);
   MpcCall call(problem);
   call.x.setConstant(3.0);
-  EXPECT_EQ(call.solve(mpc), QpStatus::kIterationLimit);
+  EXPECT_EQ(call.solve(mpc), controllers::QpStatus::kIterationLimit);
   EXPECT_TRUE(mpc.inputs_ahead().isZero());
 }
 
-std::string refusal(const LinearMpcProblem& problem) {
+std::string refusal(const controllers::LinearMpcProblem& problem) {
   try {
-    const LinearMpc mpc(problem, "drone.controller");
+    const controllers::LinearMpc mpc(problem, "drone.controller");
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -215,11 +216,11 @@ std::string refusal(const LinearMpcProblem& problem) {
 
 TEST(LinearMpcContract, RefusesShapesThatDoNotFit) {
   const auto with = [](auto change) {
-    LinearMpcProblem problem = walled();
+    controllers::LinearMpcProblem problem = walled();
     change(problem);
     return refusal(problem);
   };
-  using Problem = LinearMpcProblem;
+  using Problem = controllers::LinearMpcProblem;
   EXPECT_EQ(with([](Problem&) {}), "accepted");
   EXPECT_EQ(with([](Problem& p) { p.A.resize(0, 0); }), "drone.controller: A has no rows");
   EXPECT_EQ(with([](Problem& p) { p.A.setZero(2, 3); }),
@@ -247,24 +248,25 @@ TEST(LinearMpcContract, RefusesShapesThatDoNotFit) {
 
 TEST(LinearMpcContract, RefusesRowsThatDoNotFit) {
   const auto with = [](auto change) {
-    LinearMpcProblem problem = walled();
+    controllers::LinearMpcProblem problem = walled();
     problem.terminal_rows.push_back(problem.state_rows[0]);
     change(problem.terminal_rows[0]);
     return refusal(problem);
   };
-  EXPECT_EQ(with([](MpcStateRows&) {}), "accepted");
-  EXPECT_EQ(with([](MpcStateRows& rows) { rows = MpcStateRows(); }), "accepted");
-  EXPECT_EQ(with([](MpcStateRows& rows) { rows.soft_weight.resize(0); }), "accepted");
-  EXPECT_EQ(with([](MpcStateRows& rows) { rows.F.setZero(2, 3); }),
+  EXPECT_EQ(with([](controllers::MpcStateRows&) {}), "accepted");
+  EXPECT_EQ(with([](controllers::MpcStateRows& rows) { rows = controllers::MpcStateRows(); }),
+            "accepted");
+  EXPECT_EQ(with([](controllers::MpcStateRows& rows) { rows.soft_weight.resize(0); }), "accepted");
+  EXPECT_EQ(with([](controllers::MpcStateRows& rows) { rows.F.setZero(2, 3); }),
             "drone.controller: terminal_rows 0: F is 2 x 3, must be 2 x 2");
-  EXPECT_EQ(with([](MpcStateRows& rows) { rows.upper.setZero(1); }),
+  EXPECT_EQ(with([](controllers::MpcStateRows& rows) { rows.upper.setZero(1); }),
             "drone.controller: terminal_rows 0: upper has 1 numbers, must have 2");
   EXPECT_EQ(
-      with([](MpcStateRows& rows) { rows.lower[1] = kNan; }),
+      with([](controllers::MpcStateRows& rows) { rows.lower[1] = kNan; }),
       "drone.controller: terminal_rows 0: 1: lower = nan, upper = inf, must be lower <= upper");
-  EXPECT_EQ(with([](MpcStateRows& rows) { rows.soft_weight.setZero(2); }),
+  EXPECT_EQ(with([](controllers::MpcStateRows& rows) { rows.soft_weight.setZero(2); }),
             "drone.controller: terminal_rows 0: soft_weight 0 = 0, must be > 0");
-  EXPECT_EQ(with([](MpcStateRows& rows) { rows.soft_weight.setOnes(3); }),
+  EXPECT_EQ(with([](controllers::MpcStateRows& rows) { rows.soft_weight.setOnes(3); }),
             "drone.controller: terminal_rows 0: soft_weight has 3 numbers, must have 2 or none");
 }
 

@@ -9,8 +9,8 @@ namespace vinerow::test {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-LinearMpcProblem double_integrator(double period_s, int horizon) {
-  LinearMpcProblem problem;
+controllers::LinearMpcProblem double_integrator(double period_s, int horizon) {
+  controllers::LinearMpcProblem problem;
   problem.A.setIdentity(2, 2);
   problem.A(0, 1) = period_s;
   problem.B.resize(2, 1);
@@ -22,7 +22,7 @@ LinearMpcProblem double_integrator(double period_s, int horizon) {
   return problem;
 }
 
-LinearMpcProblem random_plant(RandomStream& random, int n, int m, int horizon) {
+controllers::LinearMpcProblem random_plant(RandomStream& random, int n, int m, int horizon) {
   const auto normal = [&](int rows, int columns) {
     MatrixXd result(rows, columns);
     for (int i = 0; i < rows; ++i) {
@@ -30,9 +30,9 @@ LinearMpcProblem random_plant(RandomStream& random, int n, int m, int horizon) {
     }
     return result;
   };
-  LinearMpcProblem problem;
+  controllers::LinearMpcProblem problem;
   problem.A = normal(n, n);
-  problem.A *= random.uniform(0.5, 1.1) / spectral_radius(problem.A);
+  problem.A *= random.uniform(0.5, 1.1) / controllers::spectral_radius(problem.A);
   problem.B = normal(n, m);
   const MatrixXd root_Q = normal(n, n), root_R = normal(m, m), root_P = normal(n, n);
   problem.Q = root_Q * root_Q.transpose();
@@ -42,15 +42,15 @@ LinearMpcProblem random_plant(RandomStream& random, int n, int m, int horizon) {
   return problem;
 }
 
-MpcCall::MpcCall(const LinearMpcProblem& problem)
+MpcCall::MpcCall(const controllers::LinearMpcProblem& problem)
     : x(VectorXd::Zero(problem.A.rows())),
       disturbance(x),
       input_before(VectorXd::Zero(problem.B.cols())),
       reference(MatrixXd::Zero(problem.A.rows(), problem.horizon + 1)),
       input_reference(MatrixXd::Zero(problem.B.cols(), problem.horizon)) {}
 
-MpcStateRows box(const VectorXd& lower, const VectorXd& upper) {
-  MpcStateRows rows;
+controllers::MpcStateRows box(const VectorXd& lower, const VectorXd& upper) {
+  controllers::MpcStateRows rows;
   rows.F.setIdentity(lower.size(), lower.size());
   rows.lower = lower;
   rows.upper = upper;

@@ -9,15 +9,15 @@
 namespace vinerow::test {
 
 /// x+ = x + v T + u T^2/2, v+ = v + u T; Q, R, P zero but for R = 1.
-LinearMpcProblem double_integrator(double period_s, int horizon);
+controllers::LinearMpcProblem double_integrator(double period_s, int horizon);
 
 /// A random system of n states and m inputs, about as fast as the sample, Q, R and P positive.
-LinearMpcProblem random_plant(RandomStream& random, int n, int m, int horizon);
+controllers::LinearMpcProblem random_plant(RandomStream& random, int n, int m, int horizon);
 
 /// Reference and the like that are constant or zero.
 struct MpcCall {
-  explicit MpcCall(const LinearMpcProblem& problem);
-  QpStatus solve(LinearMpc& mpc) const {
+  explicit MpcCall(const controllers::LinearMpcProblem& problem);
+  controllers::QpStatus solve(controllers::LinearMpc& mpc) const {
     return mpc.solve(x, reference, input_reference, disturbance, input_before);
   }
   Eigen::VectorXd x, disturbance, input_before;
@@ -25,6 +25,6 @@ struct MpcCall {
 };
 
 /// Rows of all states, hard.
-MpcStateRows box(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
+controllers::MpcStateRows box(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
 }  // namespace vinerow::test

@@ -29,9 +29,9 @@ TEST(LinearProgramme, BoxHasItsOptimumInTheCornerOfTheCost) {
     const Eigen::VectorXd c = normal_matrix(random, n, 1);
     Eigen::VectorXd g(2 * n);
     g << upper, -lower;
-    LinearProgramme programme(n, 2 * n);
+    controllers::LinearProgramme programme(n, 2 * n);
     programme.set_rows(box_rows(n), g);
-    ASSERT_EQ(programme.maximise(c), LpStatus::kSolved);
+    ASSERT_EQ(programme.maximise(c), controllers::LpStatus::kSolved);
     const Eigen::VectorXd corner = (c.array() > 0.0).select(upper, lower);
     EXPECT_EQ(programme.x(), corner);
     EXPECT_NEAR(programme.value(), c.dot(corner), 1e-14 * (1.0 + std::abs(c.dot(corner))));
@@ -47,14 +47,14 @@ TEST(LinearProgramme, SimplexHasItsOptimumInOneOfItsCorners) {
   F << -Eigen::MatrixXd::Identity(n, n), Eigen::RowVectorXd::Ones(n);
   Eigen::VectorXd g = Eigen::VectorXd::Zero(n + 1);
   g[n] = 2.0;
-  LinearProgramme programme(n, n + 1);
+  controllers::LinearProgramme programme(n, n + 1);
   programme.set_rows(F, g);
   Eigen::VectorXd c(n);
   c << -1.0, 0.5, 3.0, 2.0, -4.0;
-  ASSERT_EQ(programme.maximise(c), LpStatus::kSolved);
+  ASSERT_EQ(programme.maximise(c), controllers::LpStatus::kSolved);
   EXPECT_EQ(programme.value(), 6.0);
   EXPECT_EQ(programme.x(), 2.0 * Eigen::VectorXd::Unit(n, 2));
-  ASSERT_EQ(programme.maximise(-c.cwiseAbs()), LpStatus::kSolved);
+  ASSERT_EQ(programme.maximise(-c.cwiseAbs()), controllers::LpStatus::kSolved);
   EXPECT_EQ(programme.value(), 0.0);
   EXPECT_EQ(programme.x(), Eigen::VectorXd::Zero(n));
 }
@@ -63,117 +63,119 @@ TEST(LinearProgramme, InfeasibleRowsComeWithTheirContradiction) {
   // x + y <= 1, -x <= -2, -y <= 0.5: the first two and the last add up to 0 <= -0.5.
   Eigen::MatrixXd F(3, 2);
   F << 1, 1, -1, 0, 0, -1;
-  LinearProgramme programme(2, 3);
+  controllers::LinearProgramme programme(2, 3);
   programme.set_rows(F, Eigen::Vector3d(1.0, -2.0, 0.5));
-  ASSERT_EQ(programme.maximise(Eigen::Vector2d(1.0, 0.3)), LpStatus::kInfeasible);
+  ASSERT_EQ(programme.maximise(Eigen::Vector2d(1.0, 0.3)), controllers::LpStatus::kInfeasible);
   EXPECT_EQ(programme.value(), -kInfinity);
   const Eigen::VectorXd y = programme.multipliers();
   EXPECT_GT(y.minCoeff(), 0.0);
   EXPECT_LT((F.transpose() * y).norm(), 1e-15 * y.norm());
   EXPECT_LT(Eigen::Vector3d(1.0, -2.0, 0.5).dot(y), 0.0);
   // With no end along the cost either, that there is no point comes first.
-  EXPECT_EQ(programme.maximise(Eigen::Vector2d(-1.0, 0.0)), LpStatus::kInfeasible);
-  EXPECT_EQ(programme.maximise(Eigen::Vector2d(0.0, 0.0)), LpStatus::kInfeasible);
+  EXPECT_EQ(programme.maximise(Eigen::Vector2d(-1.0, 0.0)), controllers::LpStatus::kInfeasible);
+  EXPECT_EQ(programme.maximise(Eigen::Vector2d(0.0, 0.0)), controllers::LpStatus::kInfeasible);
   programme.set_limit(1, -1.5);  // now it is the point (1.5, -0.5)
-  ASSERT_EQ(programme.maximise(Eigen::Vector2d(1.0, 0.3)), LpStatus::kSolved);
+  ASSERT_EQ(programme.maximise(Eigen::Vector2d(1.0, 0.3)), controllers::LpStatus::kSolved);
   EXPECT_LT((programme.x() - Eigen::Vector2d(1.5, -0.5)).norm(), 1e-15);
 }
 
 TEST(LinearProgramme, UnboundedComesWithItsDirection) {
   Eigen::MatrixXd F(2, 3);
   F << 1, -1, 0, -1, -1, 0;
-  LinearProgramme programme(3, 2);
+  controllers::LinearProgramme programme(3, 2);
   programme.set_rows(F, Eigen::Vector2d(0.0, -3.0));
-  ASSERT_EQ(programme.maximise(Eigen::Vector3d(0.2, 1.0, 0.0)), LpStatus::kUnbounded);
+  ASSERT_EQ(programme.maximise(Eigen::Vector3d(0.2, 1.0, 0.0)), controllers::LpStatus::kUnbounded);
   EXPECT_EQ(programme.value(), kInfinity);
   EXPECT_LE((F * programme.x()).maxCoeff(), 0.0);
   EXPECT_GT(programme.x().dot(Eigen::Vector3d(0.2, 1.0, 0.0)), 0.0);
   // Bounded along this one, although the set is not.
-  ASSERT_EQ(programme.maximise(Eigen::Vector3d(0.0, -1.0, 0.0)), LpStatus::kSolved);
+  ASSERT_EQ(programme.maximise(Eigen::Vector3d(0.0, -1.0, 0.0)), controllers::LpStatus::kSolved);
   EXPECT_NEAR(programme.value(), -1.5, 1e-15);
   // And no row sees the third variable at all.
-  EXPECT_EQ(programme.maximise(Eigen::Vector3d(0.0, -1.0, 1e-6)), LpStatus::kUnbounded);
+  EXPECT_EQ(programme.maximise(Eigen::Vector3d(0.0, -1.0, 1e-6)),
+            controllers::LpStatus::kUnbounded);
 }
 
 TEST(LinearProgramme, WithoutRows) {
-  LinearProgramme programme(2, 0);
+  controllers::LinearProgramme programme(2, 0);
   programme.set_rows(Eigen::MatrixXd(0, 2), Eigen::VectorXd(0));
-  EXPECT_EQ(programme.maximise(Eigen::Vector2d(0.0, 1.0)), LpStatus::kUnbounded);
-  EXPECT_EQ(programme.maximise(Eigen::Vector2d::Zero()), LpStatus::kSolved);
+  EXPECT_EQ(programme.maximise(Eigen::Vector2d(0.0, 1.0)), controllers::LpStatus::kUnbounded);
+  EXPECT_EQ(programme.maximise(Eigen::Vector2d::Zero()), controllers::LpStatus::kSolved);
   EXPECT_EQ(programme.value(), 0.0);
 }
 
 TEST(LinearProgramme, RowsOfZerosAndInfiniteLimits) {
   Eigen::MatrixXd F(4, 1);
   F << 0.0, 1.0, 1.0, -1.0;
-  LinearProgramme programme(1, 4);
+  controllers::LinearProgramme programme(1, 4);
   programme.set_rows(F, Eigen::Vector4d(0.0, kInfinity, 3.0, 1.0));
   const Eigen::VectorXd c = Eigen::VectorXd::Ones(1);
-  ASSERT_EQ(programme.maximise(c), LpStatus::kSolved);
+  ASSERT_EQ(programme.maximise(c), controllers::LpStatus::kSolved);
   EXPECT_EQ(programme.value(), 3.0);
   EXPECT_EQ(programme.multipliers(), Eigen::Vector4d(0.0, 0.0, 1.0, 0.0));
   programme.set_limit(2, kInfinity);
-  EXPECT_EQ(programme.maximise(c), LpStatus::kUnbounded);
+  EXPECT_EQ(programme.maximise(c), controllers::LpStatus::kUnbounded);
   programme.set_limit(0, -1e-30);  // 0 <= -1e-30
-  EXPECT_EQ(programme.maximise(c), LpStatus::kInfeasible);
+  EXPECT_EQ(programme.maximise(c), controllers::LpStatus::kInfeasible);
   EXPECT_EQ(programme.multipliers(), Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));
 }
 
 TEST(LinearProgramme, ContradictionsWithinTheToleranceAreEqualities) {
   Eigen::MatrixXd F(2, 1);
   F << 1.0, -1.0;
-  LinearProgramme programme(1, 2);
+  controllers::LinearProgramme programme(1, 2);
   programme.set_rows(F, Eigen::Vector2d(1.0, -1.0 - 1e-10));
-  ASSERT_EQ(programme.maximise(Eigen::VectorXd::Ones(1)), LpStatus::kSolved);
+  ASSERT_EQ(programme.maximise(Eigen::VectorXd::Ones(1)), controllers::LpStatus::kSolved);
   EXPECT_NEAR(programme.value(), 1.0, 1e-9);
   programme.set_limit(1, -1.0 - 1e-8);
-  EXPECT_EQ(programme.maximise(Eigen::VectorXd::Ones(1)), LpStatus::kInfeasible);
+  EXPECT_EQ(programme.maximise(Eigen::VectorXd::Ones(1)), controllers::LpStatus::kInfeasible);
 }
 
 TEST(LinearProgramme, InvalidInputIsToldAndGivesNoNumbers) {
   Eigen::MatrixXd F = box_rows(2);
   Eigen::VectorXd g = Eigen::VectorXd::Ones(4);
   const Eigen::Vector2d c(1.0, 2.0);
-  LinearProgramme programme(2, 4);
+  controllers::LinearProgramme programme(2, 4);
   const auto answer = [&] {
     programme.set_rows(F, g);
     return programme.maximise(c);
   };
-  ASSERT_EQ(answer(), LpStatus::kSolved);
+  ASSERT_EQ(answer(), controllers::LpStatus::kSolved);
   for (const double bad : {kNaN, kInfinity, -kInfinity}) {
-    EXPECT_EQ(programme.maximise(Eigen::Vector2d(bad, 1.0)), LpStatus::kInvalidInput);
+    EXPECT_EQ(programme.maximise(Eigen::Vector2d(bad, 1.0)), controllers::LpStatus::kInvalidInput);
     F(3, 1) = bad;
-    EXPECT_EQ(answer(), LpStatus::kInvalidInput);
+    EXPECT_EQ(answer(), controllers::LpStatus::kInvalidInput);
     EXPECT_TRUE(std::isnan(programme.value()));
     EXPECT_EQ(programme.x(), Eigen::Vector2d::Zero());
     F(3, 1) = -1.0;
   }
   for (const double bad : {kNaN, -kInfinity}) {
     g[1] = bad;
-    EXPECT_EQ(answer(), LpStatus::kInvalidInput);
+    EXPECT_EQ(answer(), controllers::LpStatus::kInvalidInput);
     g[1] = 1.0;
   }
-  EXPECT_EQ(answer(), LpStatus::kSolved);  // and it recovers
+  EXPECT_EQ(answer(), controllers::LpStatus::kSolved);  // and it recovers
 }
 
 TEST(LinearProgramme, StopsAtItsIterationLimit) {
   RandomStream random(2, "", "lp");
   const Eigen::MatrixXd F = normal_matrix(random, 100, 8);
-  LpSettings settings;
+  controllers::LpSettings settings;
   settings.max_iterations = 5;
-  LinearProgramme programme(8, 100, settings);
+  controllers::LinearProgramme programme(8, 100, settings);
   programme.set_rows(F, Eigen::VectorXd::Ones(100));
-  EXPECT_EQ(programme.maximise(normal_matrix(random, 8, 1)), LpStatus::kIterationLimit);
+  EXPECT_EQ(programme.maximise(normal_matrix(random, 8, 1)),
+            controllers::LpStatus::kIterationLimit);
   EXPECT_TRUE(std::isnan(programme.value()));
   EXPECT_EQ(programme.x(), Eigen::VectorXd::Zero(8));
 }
 
 TEST(LinearProgramme, StatusesHaveNames) {
-  EXPECT_STREQ(to_string(LpStatus::kSolved), "solved");
-  EXPECT_STREQ(to_string(LpStatus::kInfeasible), "infeasible");
-  EXPECT_STREQ(to_string(LpStatus::kUnbounded), "unbounded");
-  EXPECT_STREQ(to_string(LpStatus::kIterationLimit), "iteration limit");
-  EXPECT_STREQ(to_string(LpStatus::kInvalidInput), "invalid input");
+  EXPECT_STREQ(controllers::to_string(controllers::LpStatus::kSolved), "solved");
+  EXPECT_STREQ(controllers::to_string(controllers::LpStatus::kInfeasible), "infeasible");
+  EXPECT_STREQ(controllers::to_string(controllers::LpStatus::kUnbounded), "unbounded");
+  EXPECT_STREQ(controllers::to_string(controllers::LpStatus::kIterationLimit), "iteration limit");
+  EXPECT_STREQ(controllers::to_string(controllers::LpStatus::kInvalidInput), "invalid input");
 }
 
 TEST(LinearProgramme, SolvesWithoutHeapAndWithTheSameBitsWhateverCameBefore) {
@@ -183,9 +185,9 @@ TEST(LinearProgramme, SolvesWithoutHeapAndWithTheSameBitsWhateverCameBefore) {
   const Eigen::MatrixXd other_F = normal_matrix(random, 40, 12);
   const Eigen::VectorXd other_g = -Eigen::VectorXd::Ones(40),
                         other_c = normal_matrix(random, 12, 1);
-  LinearProgramme fresh(12, 300), used(12, 300);
+  controllers::LinearProgramme fresh(12, 300), used(12, 300);
   fresh.set_rows(F, g);
-  ASSERT_EQ(fresh.maximise(c), LpStatus::kSolved);
+  ASSERT_EQ(fresh.maximise(c), controllers::LpStatus::kSolved);
   const AllocationCounter counter;
   used.set_rows(other_F, other_g);
   used.maximise(other_c);
@@ -194,9 +196,9 @@ TEST(LinearProgramme, SolvesWithoutHeapAndWithTheSameBitsWhateverCameBefore) {
   used.set_limit(7, kInfinity);
   used.maximise(c);
   used.set_limit(7, g[7]);
-  const LpStatus status = used.maximise(c);
+  const controllers::LpStatus status = used.maximise(c);
   EXPECT_EQ(counter.count(), 0u);
-  ASSERT_EQ(status, LpStatus::kSolved);
+  ASSERT_EQ(status, controllers::LpStatus::kSolved);
   EXPECT_EQ(used.x(), fresh.x());
   EXPECT_EQ(used.value(), fresh.value());
   EXPECT_EQ(used.multipliers(), fresh.multipliers());

@@ -11,13 +11,13 @@
 
 namespace {
 
-const char* word(vinerow::LpStatus status) {
+const char* word(vinerow::controllers::LpStatus status) {
   switch (status) {
-    case vinerow::LpStatus::kSolved:
+    case vinerow::controllers::LpStatus::kSolved:
       return "solved";
-    case vinerow::LpStatus::kInfeasible:
+    case vinerow::controllers::LpStatus::kInfeasible:
       return "infeasible";
-    case vinerow::LpStatus::kUnbounded:
+    case vinerow::controllers::LpStatus::kUnbounded:
       return "unbounded";
     default:
       return "failed";
@@ -40,9 +40,9 @@ int main(int argument_count, char** arguments) {
     numbers.fill(F);
     numbers.fill(g);
     numbers.fill(c);
-    vinerow::LinearProgramme programme(variables, rows);
+    vinerow::controllers::LinearProgramme programme(variables, rows);
     programme.set_rows(F, g);
-    const vinerow::LpStatus status = programme.maximise(c);
+    const vinerow::controllers::LpStatus status = programme.maximise(c);
     std::printf("%s %d %.17g", word(status), programme.iterations(), programme.value());
     for (const double x : programme.x()) std::printf(" %.17g", x);
     for (int i = 0; i < rows; ++i) std::printf(" %.17g", programme.multipliers()[i]);

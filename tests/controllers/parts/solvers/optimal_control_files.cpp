@@ -33,7 +33,7 @@ void answer_discretise(NumberReader& in) {
   const int n = in.expect_int(), m = in.expect_int();
   const double period_s = in.expect();
   const MatrixXd A = in.matrix(n, n), B = in.matrix(n, m);
-  const SampledModel model = discretise(A, B, period_s);
+  const controllers::SampledModel model = controllers::discretise(A, B, period_s);
   std::printf("ok");
   print(model.A);
   print(model.B);
@@ -42,24 +42,24 @@ void answer_discretise(NumberReader& in) {
 void answer_dare(NumberReader& in) {
   const int n = in.expect_int(), m = in.expect_int();
   const MatrixXd A = in.matrix(n, n), B = in.matrix(n, m), Q = in.matrix(n, n), R = in.matrix(m, m);
-  const Result<MatrixXd> P = solve_dare(A, B, Q, R);
+  const Result<MatrixXd> P = controllers::solve_dare(A, B, Q, R);
   std::printf(P ? "ok" : "failed");
   if (!P) return;
   print(*P);
-  print(lqr_gain(A, B, R, *P));
+  print(controllers::lqr_gain(A, B, R, *P));
 }
 
 void answer_lyapunov(NumberReader& in) {
   const int n = in.expect_int();
   const MatrixXd A = in.matrix(n, n), Q = in.matrix(n, n);
-  const Result<MatrixXd> P = solve_discrete_lyapunov(A, Q);
+  const Result<MatrixXd> P = controllers::solve_discrete_lyapunov(A, Q);
   std::printf(P ? "ok" : "failed");
   if (P) print(*P);
 }
 
-std::vector<MpcStateRows> read_blocks(NumberReader& in, int n) {
-  std::vector<MpcStateRows> blocks(static_cast<std::size_t>(in.expect_int()));
-  for (MpcStateRows& block : blocks) {
+std::vector<controllers::MpcStateRows> read_blocks(NumberReader& in, int n) {
+  std::vector<controllers::MpcStateRows> blocks(static_cast<std::size_t>(in.expect_int()));
+  for (controllers::MpcStateRows& block : blocks) {
     const int rows = in.expect_int();
     block.relative = in.expect_int() != 0;
     block.F = in.matrix(rows, n);
@@ -70,14 +70,14 @@ std::vector<MpcStateRows> read_blocks(NumberReader& in, int n) {
   return blocks;
 }
 
-const char* word(QpStatus status) {
-  if (status == QpStatus::kSolved) return "solved";
-  return status == QpStatus::kInfeasible ? "infeasible" : "failed";
+const char* word(controllers::QpStatus status) {
+  if (status == controllers::QpStatus::kSolved) return "solved";
+  return status == controllers::QpStatus::kInfeasible ? "infeasible" : "failed";
 }
 
 void answer_mpc(NumberReader& in) {
   const int n = in.expect_int(), m = in.expect_int();
-  LinearMpcProblem problem;
+  controllers::LinearMpcProblem problem;
   problem.horizon = in.expect_int();
   problem.A = in.matrix(n, n);
   problem.B = in.matrix(n, m);
@@ -94,13 +94,14 @@ void answer_mpc(NumberReader& in) {
   }
   problem.state_rows = read_blocks(in, n);
   problem.terminal_rows = read_blocks(in, n);
-  LinearMpc mpc(problem, "judge");
+  controllers::LinearMpc mpc(problem, "judge");
   for (int solves = in.expect_int(); solves > 0; --solves) {
     const Eigen::VectorXd x = in.matrix(n, 1);
     const MatrixXd reference = in.matrix(problem.horizon + 1, n).transpose();
     const MatrixXd input_reference = in.matrix(problem.horizon, m).transpose();
     const Eigen::VectorXd disturbance = in.matrix(n, 1), input_before = in.matrix(m, 1);
-    const QpStatus status = mpc.solve(x, reference, input_reference, disturbance, input_before);
+    const controllers::QpStatus status =
+        mpc.solve(x, reference, input_reference, disturbance, input_before);
     std::printf("%s %.17g %.17g", word(status), mpc.cost(), mpc.soft_violation());
     print(mpc.inputs_ahead().transpose());
     print(mpc.states_ahead().transpose());

@@ -18,47 +18,55 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 TEST(QpContract, SaysWhatIsWrongWithTheProblem) {
   QpProblem problem(2, 1);
   problem.A << 1.0, 1.0;
-  QpSolver solver(2, 1);
-  EXPECT_EQ(problem.solve(solver), QpStatus::kNotConvex) << "no Hessian yet";
+  controllers::QpSolver solver(2, 1);
+  EXPECT_EQ(problem.solve(solver), controllers::QpStatus::kNotConvex) << "no Hessian yet";
   EXPECT_FALSE(solver.set_hessian((Eigen::Matrix2d() << 1.0, 2.0, 2.0, 1.0).finished()));
-  EXPECT_EQ(problem.solve(solver), QpStatus::kNotConvex);
+  EXPECT_EQ(problem.solve(solver), controllers::QpStatus::kNotConvex);
   EXPECT_FALSE(solver.set_hessian((Eigen::Matrix2d() << 1.0, 1.0, 1.0, 1.0).finished()));
   EXPECT_FALSE(solver.set_hessian((Eigen::Matrix2d() << 1.0, 0.0, 0.0, kNaN).finished()));
   EXPECT_FALSE(solver.set_hessian((Eigen::Matrix2d() << 1.0, 0.0, 0.0, kInfinity).finished()));
   EXPECT_FALSE(solver.set_hessian(Eigen::Matrix2d::Zero()));
   ASSERT_TRUE(problem.prepare(solver));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
 
   const auto status_with = [&](auto&& change) {
     QpProblem changed = problem;
     change(changed);
     changed.prepare(solver);
-    const QpStatus status = changed.solve(solver);
+    const controllers::QpStatus status = changed.solve(solver);
     problem.prepare(solver);
-    EXPECT_EQ(problem.solve(solver), QpStatus::kSolved) << "recovers";
+    EXPECT_EQ(problem.solve(solver), controllers::QpStatus::kSolved) << "recovers";
     return status;
   };
-  EXPECT_EQ(status_with([](QpProblem& p) { p.f[1] = kNaN; }), QpStatus::kInvalidInput);
-  EXPECT_EQ(status_with([](QpProblem& p) { p.f[1] = kInfinity; }), QpStatus::kInvalidInput);
-  EXPECT_EQ(status_with([](QpProblem& p) { p.A(0, 1) = kNaN; }), QpStatus::kInvalidInput);
-  EXPECT_EQ(status_with([](QpProblem& p) { p.A(0, 1) = kInfinity; }), QpStatus::kInvalidInput);
-  EXPECT_EQ(status_with([](QpProblem& p) { p.lower[0] = kNaN; }), QpStatus::kInvalidInput);
-  EXPECT_EQ(status_with([](QpProblem& p) { p.row_upper[0] = kNaN; }), QpStatus::kInvalidInput);
-  EXPECT_EQ(status_with([](QpProblem& p) { p.lower[0] = kInfinity; }), QpStatus::kInfeasible);
-  EXPECT_EQ(status_with([](QpProblem& p) { p.upper[0] = -kInfinity; }), QpStatus::kInfeasible);
+  EXPECT_EQ(status_with([](QpProblem& p) { p.f[1] = kNaN; }), controllers::QpStatus::kInvalidInput);
+  EXPECT_EQ(status_with([](QpProblem& p) { p.f[1] = kInfinity; }),
+            controllers::QpStatus::kInvalidInput);
+  EXPECT_EQ(status_with([](QpProblem& p) { p.A(0, 1) = kNaN; }),
+            controllers::QpStatus::kInvalidInput);
+  EXPECT_EQ(status_with([](QpProblem& p) { p.A(0, 1) = kInfinity; }),
+            controllers::QpStatus::kInvalidInput);
+  EXPECT_EQ(status_with([](QpProblem& p) { p.lower[0] = kNaN; }),
+            controllers::QpStatus::kInvalidInput);
+  EXPECT_EQ(status_with([](QpProblem& p) { p.row_upper[0] = kNaN; }),
+            controllers::QpStatus::kInvalidInput);
+  EXPECT_EQ(status_with([](QpProblem& p) { p.lower[0] = kInfinity; }),
+            controllers::QpStatus::kInfeasible);
+  EXPECT_EQ(status_with([](QpProblem& p) { p.upper[0] = -kInfinity; }),
+            controllers::QpStatus::kInfeasible);
   EXPECT_EQ(status_with([](QpProblem& p) {
               p.lower[1] = 1.0;
               p.upper[1] = 0.999;
             }),
-            QpStatus::kInfeasible);
+            controllers::QpStatus::kInfeasible);
   EXPECT_EQ(status_with([](QpProblem& p) {
               p.upper.setConstant(1.0);
               p.row_lower[0] = 2.001;
             }),
-            QpStatus::kInfeasible);
-  EXPECT_EQ(status_with([](QpProblem& p) { p.f.setConstant(1e308); }), QpStatus::kInvalidInput)
+            controllers::QpStatus::kInfeasible);
+  EXPECT_EQ(status_with([](QpProblem& p) { p.f.setConstant(1e308); }),
+            controllers::QpStatus::kInvalidInput)
       << "the point overflows";
-  EXPECT_STREQ(to_string(QpStatus::kInfeasible), "infeasible");
+  EXPECT_STREQ(controllers::to_string(controllers::QpStatus::kInfeasible), "infeasible");
 }
 
 TEST(QpContract, StopsAtItsIterationLimit) {
@@ -68,13 +76,13 @@ TEST(QpContract, StopsAtItsIterationLimit) {
   problem.f = 100.0 * random_matrix(random, 10, 1);
   problem.lower.setConstant(-1.0);
   problem.upper.setConstant(1.0);
-  QpSettings settings;
+  controllers::QpSettings settings;
   settings.max_iterations = 3;
-  QpSolver hurried(10, 0, settings), solver(10, 0);
+  controllers::QpSolver hurried(10, 0, settings), solver(10, 0);
   ASSERT_TRUE(problem.prepare(hurried) && problem.prepare(solver));
-  EXPECT_EQ(problem.solve(solver), QpStatus::kSolved);
+  EXPECT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_GT(solver.iterations(), 3);
-  EXPECT_EQ(problem.solve(hurried), QpStatus::kIterationLimit);
+  EXPECT_EQ(problem.solve(hurried), controllers::QpStatus::kIterationLimit);
 }
 
 TEST(QpContract, AllocatesNothingAfterTheConstructor) {
@@ -85,7 +93,7 @@ TEST(QpContract, AllocatesNothingAfterTheConstructor) {
     QpProblem other = problem;
     other.H = random_hessian(random, problem.n(), 2.0);
     other.A = random_matrix(random, problem.m(), problem.n());
-    QpSolver solver(problem.n(), problem.m());
+    controllers::QpSolver solver(problem.n(), problem.m());
     const AllocationCounter counter;
     problem.prepare(solver);
     problem.solve(solver);
@@ -104,10 +112,10 @@ TEST(QpContract, AllocatesNothingAfterTheConstructor) {
   large.A = random_matrix(random, 240, 80);
   large.row_upper.setConstant(1.0);
   large.upper.setConstant(0.5);
-  QpSolver solver(80, 240);
+  controllers::QpSolver solver(80, 240);
   const AllocationCounter counter;
   large.prepare(solver);
-  EXPECT_EQ(large.solve(solver), QpStatus::kSolved);
+  EXPECT_EQ(large.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_GT(solver.active_set().size(), 10u);
   EXPECT_EQ(counter.count(), 0u);
 }
@@ -118,8 +126,8 @@ TEST(QpContract, SameCallsGiveTheSameBitsAndAColdStartForgets) {
     const QpProblem problem = random_feasible_qp(random, {});
     QpProblem next = problem;
     next.f = random_matrix(random, problem.n(), 1);
-    QpSolver first(problem.n(), problem.m()), second(problem.n(), problem.m());
-    for (QpSolver* solver : {&first, &second}) {
+    controllers::QpSolver first(problem.n(), problem.m()), second(problem.n(), problem.m());
+    for (controllers::QpSolver* solver : {&first, &second}) {
       problem.prepare(*solver);
       problem.solve(*solver);
       next.solve(*solver);
@@ -127,7 +135,7 @@ TEST(QpContract, SameCallsGiveTheSameBitsAndAColdStartForgets) {
     EXPECT_EQ(first.x(), second.x());
     EXPECT_EQ(first.multipliers(), second.multipliers());
     EXPECT_EQ(first.iterations(), second.iterations());
-    QpSolver fresh(problem.n(), problem.m());
+    controllers::QpSolver fresh(problem.n(), problem.m());
     problem.prepare(fresh);
     next.solve(fresh);
     first.cold_start();
@@ -140,11 +148,11 @@ TEST(QpContract, SameCallsGiveTheSameBitsAndAColdStartForgets) {
 TEST(QpContract, MovesKeepTheProblem) {
   QpProblem problem(1, 0);
   problem.f << -1.0;
-  QpSolver solver(1, 0);
+  controllers::QpSolver solver(1, 0);
   ASSERT_TRUE(problem.prepare(solver));
-  QpSolver moved(std::move(solver));
-  ASSERT_EQ(problem.solve(moved), QpStatus::kSolved);
-  QpSolver assigned(2, 3);
+  controllers::QpSolver moved(std::move(solver));
+  ASSERT_EQ(problem.solve(moved), controllers::QpStatus::kSolved);
+  controllers::QpSolver assigned(2, 3);
   assigned = std::move(moved);
   EXPECT_EQ(assigned.variables(), 1);
   EXPECT_EQ(assigned.rows(), 0);

@@ -58,9 +58,9 @@ void expect_solved(const std::string& name) {
   problem.f = matrices.at("q");
   problem.A = G;
   problem.row_upper = matrices.at("h");
-  QpSolver solver(problem.n(), problem.m());
+  controllers::QpSolver solver(problem.n(), problem.m());
   ASSERT_TRUE(problem.prepare(solver));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   const Eigen::VectorXd& x = solver.x();
   const double optimum = optima.at(name);
   const double reached = 0.5 * x.dot(P * x) + problem.f.dot(x);

@@ -19,9 +19,9 @@ void expect_all_optimal(const char* name, int count, const QpRandomKind& kind) {
   for (int run = 0; run < count; ++run) {
     RandomStream random(static_cast<std::uint64_t>(run), "", name);
     const QpProblem problem = random_feasible_qp(random, kind);
-    QpSolver solver(problem.n(), problem.m());
+    controllers::QpSolver solver(problem.n(), problem.m());
     ASSERT_TRUE(problem.prepare(solver));
-    ASSERT_EQ(problem.solve(solver), QpStatus::kSolved) << name << ' ' << run;
+    ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved) << name << ' ' << run;
     const QpResiduals residuals = qp_residuals(problem, solver);
     ASSERT_LT(residuals.largest(), 1e-8) << name << ' ' << run;
     worst_violation = std::max(worst_violation, residuals.primal);
@@ -110,9 +110,10 @@ TEST(QpRandom, FarkasCertificatesDecideFeasibility) {
     for (const double bound : {-1.0, -1e-5, 1e-5}) {
       RandomStream random(static_cast<std::uint64_t>(run), "", "farkas");
       const QpProblem problem = contradictory_qp(random, bound);
-      QpSolver solver(problem.n(), problem.m());
+      controllers::QpSolver solver(problem.n(), problem.m());
       ASSERT_TRUE(problem.prepare(solver));
-      ASSERT_EQ(problem.solve(solver), bound < 0.0 ? QpStatus::kInfeasible : QpStatus::kSolved)
+      ASSERT_EQ(problem.solve(solver),
+                bound < 0.0 ? controllers::QpStatus::kInfeasible : controllers::QpStatus::kSolved)
           << run << ' ' << bound;
     }
   }
@@ -145,10 +146,10 @@ TEST(QpRandom, SoftRowsAreSlackVariables) {
     explicit_slacks.upper.head(n) = problem.upper;
     explicit_slacks.row_lower = problem.row_lower;
     explicit_slacks.row_upper = problem.row_upper;
-    QpSolver solver(n, m), larger(n + slacks, m);
+    controllers::QpSolver solver(n, m), larger(n + slacks, m);
     ASSERT_TRUE(problem.prepare(solver) && explicit_slacks.prepare(larger));
-    ASSERT_EQ(explicit_slacks.solve(larger), QpStatus::kSolved) << run;
-    ASSERT_EQ(problem.solve(solver), QpStatus::kSolved) << run;
+    ASSERT_EQ(explicit_slacks.solve(larger), controllers::QpStatus::kSolved) << run;
+    ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved) << run;
     const double size = 1.0 + larger.x().norm();
     EXPECT_LT((solver.x() - larger.x().head(n)).norm(), 1e-8 * size) << run;
     EXPECT_NEAR(solver.cost(), larger.cost(), 1e-9 * (1.0 + std::abs(larger.cost()))) << run;
@@ -162,7 +163,7 @@ TEST(QpRandom, WarmStartEndsWhereAColdStartEnds) {
     RandomStream random(static_cast<std::uint64_t>(run), "", "warm");
     QpProblem problem = random_feasible_qp(random, {});
     const int n = problem.n(), m = problem.m();
-    QpSolver warm(n, m);
+    controllers::QpSolver warm(n, m);
     ASSERT_TRUE(problem.prepare(warm));
     for (int step = 0; step < 40; ++step) {
       problem.f += 0.1 * problem.f.norm() * random_matrix(random, n, 1);
@@ -179,10 +180,10 @@ TEST(QpRandom, WarmStartEndsWhereAColdStartEnds) {
         problem.H = random_hessian(random, n, 2.0);
         ASSERT_TRUE(warm.set_hessian(problem.H));
       }
-      QpSolver cold(n, m);
+      controllers::QpSolver cold(n, m);
       ASSERT_TRUE(problem.prepare(cold));
-      ASSERT_EQ(problem.solve(warm), QpStatus::kSolved) << run << ' ' << step;
-      ASSERT_EQ(problem.solve(cold), QpStatus::kSolved) << run << ' ' << step;
+      ASSERT_EQ(problem.solve(warm), controllers::QpStatus::kSolved) << run << ' ' << step;
+      ASSERT_EQ(problem.solve(cold), controllers::QpStatus::kSolved) << run << ' ' << step;
       ASSERT_LT((warm.x() - cold.x()).norm(), 1e-8 * (1.0 + cold.x().norm())) << run << ' ' << step;
       ASSERT_LT(qp_residuals(problem, warm).largest(), 1e-8) << run << ' ' << step;
       warm_iterations += warm.iterations();
@@ -196,11 +197,11 @@ TEST(QpRandom, RepeatedProblemTakesNoIteration) {
   for (int run = 0; run < 100; ++run) {
     RandomStream random(static_cast<std::uint64_t>(run), "", "repeat");
     const QpProblem problem = random_feasible_qp(random, {});
-    QpSolver solver(problem.n(), problem.m());
+    controllers::QpSolver solver(problem.n(), problem.m());
     ASSERT_TRUE(problem.prepare(solver));
-    ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+    ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
     const Eigen::VectorXd x = solver.x();
-    ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+    ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
     EXPECT_EQ(solver.iterations(), 0) << run;
     EXPECT_LT((solver.x() - x).norm(), 1e-10 * (1.0 + x.norm())) << run;
   }
@@ -216,12 +217,12 @@ TEST(QpRandom, LongWarmRunKeepsItsPrecision) {
   problem.row_lower.setConstant(-1.0);
   problem.lower.setConstant(-0.3);
   problem.upper.setConstant(0.3);
-  QpSolver solver(30, 60);
+  controllers::QpSolver solver(30, 60);
   ASSERT_TRUE(problem.prepare(solver));
   long iterations = 0;
   for (int step = 0; step < 3000; ++step) {
     problem.f = 50.0 * random_matrix(random, 30, 1);
-    ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+    ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
     iterations += solver.iterations();
     const QpResiduals residuals = qp_residuals(problem, solver);
     ASSERT_LT(residuals.stationarity, 1e-12) << step;

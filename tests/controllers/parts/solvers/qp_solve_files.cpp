@@ -12,11 +12,11 @@
 
 namespace {
 
-const char* word(vinerow::QpStatus status) {
+const char* word(vinerow::controllers::QpStatus status) {
   switch (status) {
-    case vinerow::QpStatus::kSolved:
+    case vinerow::controllers::QpStatus::kSolved:
       return "solved";
-    case vinerow::QpStatus::kInfeasible:
+    case vinerow::controllers::QpStatus::kInfeasible:
       return "infeasible";
     default:
       return "failed";
@@ -41,9 +41,9 @@ int main(int argument_count, char** arguments) {
     numbers.fill(problem.A);
     numbers.fill(problem.row_lower);
     numbers.fill(problem.row_upper);
-    vinerow::QpSolver solver(problem.n(), problem.m());
+    vinerow::controllers::QpSolver solver(problem.n(), problem.m());
     problem.prepare(solver);
-    const vinerow::QpStatus status = problem.solve(solver);
+    const vinerow::controllers::QpStatus status = problem.solve(solver);
     std::printf("%s %d %.17g", word(status), solver.iterations(), solver.cost());
     for (const double x : solver.x()) std::printf(" %.17g", x);
     for (const double multiplier : solver.multipliers()) std::printf(" %.17g", multiplier);

@@ -24,13 +24,13 @@ QpProblem::QpProblem(int n, int m)
       row_upper(Eigen::VectorXd::Constant(m, kInfinity)),
       weight(Eigen::VectorXd::Constant(m, kInfinity)) {}
 
-bool QpProblem::prepare(QpSolver& solver) const {
+bool QpProblem::prepare(controllers::QpSolver& solver) const {
   solver.set_rows(A);
   for (int r = 0; r < m(); ++r) solver.soften_row(r, weight[r]);
   return solver.set_hessian(H);
 }
 
-QpStatus QpProblem::solve(QpSolver& solver) const {
+controllers::QpStatus QpProblem::solve(controllers::QpSolver& solver) const {
   return solver.solve(f, lower, upper, row_lower, row_upper);
 }
 
@@ -38,7 +38,7 @@ double QpResiduals::largest() const {
   return std::max(std::max(stationarity, primal), std::max(dual_sign, complementarity));
 }
 
-QpResiduals qp_residuals(const QpProblem& problem, const QpSolver& solver) {
+QpResiduals qp_residuals(const QpProblem& problem, const controllers::QpSolver& solver) {
   const int n = problem.n(), m = problem.m();
   const Eigen::VectorXd& x = solver.x();
   const Eigen::VectorXd& lambda = solver.multipliers();

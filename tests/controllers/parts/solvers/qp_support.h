@@ -18,8 +18,8 @@ struct QpProblem {
   QpProblem(int n, int m);
   int n() const { return static_cast<int>(f.size()); }
   int m() const { return static_cast<int>(row_lower.size()); }
-  bool prepare(QpSolver& solver) const;
-  QpStatus solve(QpSolver& solver) const;
+  bool prepare(controllers::QpSolver& solver) const;
+  controllers::QpStatus solve(controllers::QpSolver& solver) const;
 };
 
 /// Largest residuals of the optimality conditions, which for a strictly convex programme prove the
@@ -28,7 +28,7 @@ struct QpResiduals {
   double stationarity = 0.0, primal = 0.0, dual_sign = 0.0, complementarity = 0.0;
   double largest() const;
 };
-QpResiduals qp_residuals(const QpProblem& problem, const QpSolver& solver);
+QpResiduals qp_residuals(const QpProblem& problem, const controllers::QpSolver& solver);
 
 struct QpRandomKind {
   int most_variables = 30, most_rows = 60;

@@ -17,9 +17,9 @@ TEST(Qp, UnconstrainedMinimumIsNewtonsStep) {
   QpProblem problem(2, 0);
   problem.H << 4.0, 1.0, 1.0, 3.0;
   problem.f << -1.0, -2.0;
-  QpSolver solver(2, 0);
+  controllers::QpSolver solver(2, 0);
   ASSERT_TRUE(problem.prepare(solver));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_NEAR(solver.x()[0], 1.0 / 11.0, 1e-15);
   EXPECT_NEAR(solver.x()[1], 7.0 / 11.0, 1e-15);
   EXPECT_NEAR(solver.cost(), -0.5 * (1.0 / 11.0 + 14.0 / 11.0), 1e-15);  // f'x / 2
@@ -32,9 +32,9 @@ TEST(Qp, ReadsTheLowerTriangleOfTheHessian) {
   H << 4.0, kNaN, 1.0, 3.0;
   QpProblem problem(2, 0);
   problem.f << -1.0, -2.0;
-  QpSolver solver(2, 0);
+  controllers::QpSolver solver(2, 0);
   ASSERT_TRUE(solver.set_hessian(H));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_NEAR(solver.x()[1], 7.0 / 11.0, 1e-15);
 }
 
@@ -47,9 +47,9 @@ TEST(Qp, ProjectsOnABox) {
     problem.f = -point;
     problem.lower.setConstant(-0.7);
     problem.upper.setConstant(0.4);
-    QpSolver solver(n, 0);
+    controllers::QpSolver solver(n, 0);
     ASSERT_TRUE(problem.prepare(solver));
-    ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+    ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
     const Eigen::VectorXd expected = point.cwiseMax(-0.7).cwiseMin(0.4);
     EXPECT_LT((solver.x() - expected).cwiseAbs().maxCoeff(), 1e-15);
     // At a limit the multiplier is how far the point lies outside: positive at the upper one.
@@ -63,14 +63,14 @@ TEST(Qp, ProjectsOnAHalfSpaceFromEitherSide) {
   problem.f << -3.0, 0.0, 0.0;
   problem.row_lower << -kInfinity;
   problem.row_upper << 0.0;
-  QpSolver solver(3, 1);
+  controllers::QpSolver solver(3, 1);
   ASSERT_TRUE(problem.prepare(solver));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_LT((solver.x() - Eigen::Vector3d(8.0, -2.0, -2.0) / 3.0).norm(), 1e-14);
   EXPECT_NEAR(solver.multipliers()[3], 1.0 / 3.0, 1e-15);
   problem.row_lower << 6.0;
   problem.row_upper << kInfinity;
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_LT((solver.x() - Eigen::Vector3d(10.0, 2.0, 2.0) / 3.0).norm(), 1e-14);
   EXPECT_NEAR(solver.multipliers()[3], -1.0 / 3.0, 1e-15);
   EXPECT_EQ(solver.active_set(), std::vector<int>{3});
@@ -90,9 +90,9 @@ TEST(Qp, EqualitiesAgreeWithTheKktSystemByLu) {
     Eigen::VectorXd right(n + m);
     right << -problem.f, problem.row_lower;
     const Eigen::VectorXd expected = kkt.fullPivLu().solve(right);
-    QpSolver solver(n, m);
+    controllers::QpSolver solver(n, m);
     ASSERT_TRUE(problem.prepare(solver));
-    ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+    ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
     EXPECT_LT((solver.x() - expected.head(n)).norm(), 1e-10 * (1.0 + expected.head(n).norm()));
     EXPECT_LT((solver.multipliers().tail(m) - expected.tail(m)).norm(),
               1e-10 * (1.0 + expected.tail(m).norm()));
@@ -106,14 +106,14 @@ TEST(Qp, SoftRowGivesWayByItsMultiplierOverItsWeight) {
   problem.f << -3.0;
   problem.row_upper << 1.0;
   problem.weight << 4.0;
-  QpSolver solver(1, 1);
+  controllers::QpSolver solver(1, 1);
   ASSERT_TRUE(problem.prepare(solver));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_NEAR(solver.x()[0], 7.0 / 5.0, 1e-15);
   EXPECT_NEAR(solver.multipliers()[1], 4.0 * 0.4, 1e-14);
   EXPECT_NEAR(solver.cost(), 0.5 * 1.96 - 3.0 * 1.4 + 0.5 * 4.0 * 0.16, 1e-14);
   solver.soften_row(0, kInfinity);
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_NEAR(solver.x()[0], 1.0, 1e-15);
 }
 
@@ -125,14 +125,14 @@ TEST(Qp, SoftRowsMayContradictEachOther) {
   problem.row_upper[0] = -1.0;
   problem.row_lower[1] = 1.0;
   problem.weight << 1.0, 3.0;
-  QpSolver solver(1, 2);
+  controllers::QpSolver solver(1, 2);
   ASSERT_TRUE(problem.prepare(solver));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_NEAR(solver.x()[0], 0.5, 1e-8);
   // Weights beyond the cap are still no contradiction.
   problem.weight << 1e30, 1e30;
   ASSERT_TRUE(problem.prepare(solver));
-  EXPECT_EQ(problem.solve(solver), QpStatus::kSolved);
+  EXPECT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_NEAR(solver.x()[0], 0.0, 1e-3);
 }
 
@@ -145,9 +145,9 @@ TEST(Qp, ActiveInputsSitExactlyOnTheirLimits) {
   problem.lower.setConstant(-0.1);
   problem.upper.setConstant(0.1);
   problem.row_upper.setConstant(0.3);
-  QpSolver solver(12, 4);
+  controllers::QpSolver solver(12, 4);
   ASSERT_TRUE(problem.prepare(solver));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   int at_limit = 0;
   for (const int i : solver.active_set()) {
     if (i < 12) at_limit += std::abs(solver.x()[i]) == 0.1;
@@ -164,14 +164,14 @@ TEST(Qp, FixedVariablesAndZeroRows) {
   problem.A << 0.0, 0.0, 0.0, 1.0;
   problem.row_lower << -1.0, -kInfinity;
   problem.row_upper << 1.0, 0.5;
-  QpSolver solver(2, 2);
+  controllers::QpSolver solver(2, 2);
   ASSERT_TRUE(problem.prepare(solver));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_EQ(solver.x(), Eigen::Vector2d(0.25, 0.5));
   problem.row_lower[0] = 0.5;  // 0 >= 0.5
-  EXPECT_EQ(problem.solve(solver), QpStatus::kInfeasible);
+  EXPECT_EQ(problem.solve(solver), controllers::QpStatus::kInfeasible);
   problem.row_lower[0] = -1.0;
-  EXPECT_EQ(problem.solve(solver), QpStatus::kSolved);
+  EXPECT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
 }
 
 TEST(Qp, RepeatedAndDependentEqualities) {
@@ -179,13 +179,13 @@ TEST(Qp, RepeatedAndDependentEqualities) {
   problem.A << 1, 0, 1, 0, 1, 1, 1, 1, 2, 2, 0, 2;
   problem.row_lower << 1, 2, 3, 2;
   problem.row_upper = problem.row_lower;
-  QpSolver solver(3, 4);
+  controllers::QpSolver solver(3, 4);
   ASSERT_TRUE(problem.prepare(solver));
-  ASSERT_EQ(problem.solve(solver), QpStatus::kSolved);
+  ASSERT_EQ(problem.solve(solver), controllers::QpStatus::kSolved);
   EXPECT_LT((solver.x() - Eigen::Vector3d(0.0, 1.0, 1.0)).norm(), 1e-14);
   EXPECT_EQ(solver.active_set().size(), 2u);
   problem.row_lower[2] = problem.row_upper[2] = 3.1;
-  EXPECT_EQ(problem.solve(solver), QpStatus::kInfeasible);
+  EXPECT_EQ(problem.solve(solver), controllers::QpStatus::kInfeasible);
 }
 
 }  // namespace

@@ -25,18 +25,20 @@ inline Eigen::MatrixXd random_system(RandomStream& random, int n, double radius)
 }
 
 /// `rows` half-spaces about the origin, within the box of these half widths.
-inline Polytope random_constraints(RandomStream& random, const Eigen::VectorXd& box, int rows) {
+inline controllers::Polytope random_constraints(RandomStream& random, const Eigen::VectorXd& box,
+                                                int rows) {
   Eigen::VectorXd g(rows);
   for (double& limit : g) limit = random.uniform(0.5, 1.5);
-  return Polytope(normal_matrix(random, rows, box.size()), g).intersection(Polytope::box(box));
+  return controllers::Polytope(normal_matrix(random, rows, box.size()), g)
+      .intersection(controllers::Polytope::box(box));
 }
 
 /// The same within the box |x_i| <= 2.
-inline Polytope random_constraints(RandomStream& random, int n, int rows) {
+inline controllers::Polytope random_constraints(RandomStream& random, int n, int rows) {
   return random_constraints(random, Eigen::VectorXd::Constant(n, 2.0), rows);
 }
 
-inline bool same_set(const Polytope& P, const Polytope& Q) {
+inline bool same_set(const controllers::Polytope& P, const controllers::Polytope& Q) {
   return P.contains(Q) && Q.contains(P);
 }
 

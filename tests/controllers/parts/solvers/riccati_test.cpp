@@ -29,11 +29,12 @@ TEST(Dare, ScalarClosedForm) {
       const double half = 0.5 * (r - a * a * r - b * b * q);
       const double root = std::sqrt(half * half + b * b * q * r);
       const double p = half > 0.0 ? q * r / (half + root) : (root - half) / (b * b);
-      const Result<MatrixXd> P = solve_dare(scalar(a), scalar(b), scalar(q), scalar(r));
+      const Result<MatrixXd> P =
+          controllers::solve_dare(scalar(a), scalar(b), scalar(q), scalar(r));
       ASSERT_TRUE(P) << P.reason();
       EXPECT_NEAR((*P)(0, 0) / p, 1.0, 1e-12) << a << ' ' << q;
-      EXPECT_NEAR(lqr_gain(scalar(a), scalar(b), scalar(r), *P)(0, 0), a * b * p / (r + b * b * p),
-                  1e-12);
+      EXPECT_NEAR(controllers::lqr_gain(scalar(a), scalar(b), scalar(r), *P)(0, 0),
+                  a * b * p / (r + b * b * p), 1e-12);
     }
   }
 }
@@ -44,10 +45,10 @@ TEST(Dare, DeadbeatWhereInputsCostNextToNothing) {
   A << 1.2, 0.3, -0.4, 0.8;
   Q << 2.0, 0.5, 0.5, 1.0;
   const MatrixXd B = MatrixXd::Identity(2, 2), R = 1e-13 * B;
-  const Result<MatrixXd> P = solve_dare(A, B, Q, R);
+  const Result<MatrixXd> P = controllers::solve_dare(A, B, Q, R);
   ASSERT_TRUE(P) << P.reason();
   EXPECT_LT((*P - Q).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((lqr_gain(A, B, R, *P) - A).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((controllers::lqr_gain(A, B, R, *P) - A).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 struct Wing {
@@ -93,16 +94,16 @@ Wing lateral() {
 }
 
 void expect_published_gain(const Wing& wing) {
-  const Result<MatrixXd> P = solve_dare(wing.A, wing.B, wing.Q, wing.R);
+  const Result<MatrixXd> P = controllers::solve_dare(wing.A, wing.B, wing.Q, wing.R);
   ASSERT_TRUE(P) << P.reason();
-  const MatrixXd K = -lqr_gain(wing.A, wing.B, wing.R, *P);
+  const MatrixXd K = -controllers::lqr_gain(wing.A, wing.B, wing.R, *P);
   EXPECT_LT((K - wing.K_rounded).cwiseAbs().maxCoeff(), 6e-6) << K;
   EXPECT_LT((K - wing.K).cwiseAbs().maxCoeff(), 7e-4) << K;
-  EXPECT_NEAR(spectral_radius(wing.A + wing.B * K), wing.radius, 5e-4);
+  EXPECT_NEAR(controllers::spectral_radius(wing.A + wing.B * K), wing.radius, 5e-4);
   EXPECT_EQ(*P, P->transpose());
   // The cost of the closed loop summed up by itself is P as well.
-  const Result<MatrixXd> sum =
-      solve_discrete_lyapunov(wing.A + wing.B * K, wing.Q + K.transpose() * wing.R * K);
+  const Result<MatrixXd> sum = controllers::solve_discrete_lyapunov(
+      wing.A + wing.B * K, wing.Q + K.transpose() * wing.R * K);
   ASSERT_TRUE(sum) << sum.reason();
   EXPECT_LT((*sum - *P).norm(), 1e-11 * P->norm());
 }
@@ -118,22 +119,23 @@ TEST(Dare, SaysWhatCannotBeStabilised) {
   MatrixXd A(2, 2);
   A << 0.5, 1.0, 0.0, 1.25;
   const MatrixXd I = MatrixXd::Identity(2, 2);
-  Result<MatrixXd> P = solve_dare(A, Eigen::Vector2d(1.0, 0.0), I, scalar(1.0));
+  Result<MatrixXd> P = controllers::solve_dare(A, Eigen::Vector2d(1.0, 0.0), I, scalar(1.0));
   ASSERT_FALSE(P);
   EXPECT_EQ(P.reason(),
             "(A, B) cannot be stabilised: no input reaches the mode with eigenvalue 1.25");
   // The same mode can be left alone where it dies out by itself.
   A(1, 1) = 0.9;
-  P = solve_dare(A, Eigen::Vector2d(1.0, 0.0), I, scalar(1.0));
+  P = controllers::solve_dare(A, Eigen::Vector2d(1.0, 0.0), I, scalar(1.0));
   EXPECT_TRUE(P) << P.reason();
   // An integrator without an input, and an undamped oscillation.
   A(1, 1) = 1.0;
-  P = solve_dare(A, Eigen::Vector2d(1.0, 0.0), I, scalar(1.0));
+  P = controllers::solve_dare(A, Eigen::Vector2d(1.0, 0.0), I, scalar(1.0));
   ASSERT_FALSE(P);
   EXPECT_EQ(P.reason(), "(A, B) cannot be stabilised: no input reaches the mode with eigenvalue 1");
   MatrixXd turn = MatrixXd::Zero(3, 3);
   turn << 0.6, -0.8, 0.0, 0.8, 0.6, 0.0, 0.0, 0.0, 0.5;
-  P = solve_dare(turn, Eigen::Vector3d(0.0, 0.0, 1.0), MatrixXd::Identity(3, 3), scalar(1.0));
+  P = controllers::solve_dare(turn, Eigen::Vector3d(0.0, 0.0, 1.0), MatrixXd::Identity(3, 3),
+                              scalar(1.0));
   ASSERT_FALSE(P);
   EXPECT_EQ(P.reason(),
             "(A, B) cannot be stabilised: no input reaches the mode with eigenvalues 0.6 +- 0.8i");
@@ -142,7 +144,7 @@ TEST(Dare, SaysWhatCannotBeStabilised) {
 TEST(Dare, SaysWhatIsNotSeen) {
   const MatrixXd A = Eigen::Vector2d(0.5, 1.25).asDiagonal();
   const MatrixXd Q = Eigen::Vector2d(1.0, 0.0).asDiagonal();
-  const Result<MatrixXd> P = solve_dare(A, Eigen::Vector2d(1.0, 1.0), Q, scalar(1.0));
+  const Result<MatrixXd> P = controllers::solve_dare(A, Eigen::Vector2d(1.0, 1.0), Q, scalar(1.0));
   ASSERT_FALSE(P);
   EXPECT_EQ(P.reason(),
             "(A, Q) leaves an unstable mode unseen: Q gives no weight to the one with eigenvalue "
@@ -151,16 +153,18 @@ TEST(Dare, SaysWhatIsNotSeen) {
 
 TEST(Dare, RefusesWeightsThatAreNone) {
   const MatrixXd one = scalar(1.0);
-  EXPECT_EQ(solve_dare(one, one, one, scalar(0.0)).reason(), "R is not positive definite");
-  EXPECT_EQ(solve_dare(one, one, one, scalar(-1.0)).reason(), "R is not positive definite");
+  EXPECT_EQ(controllers::solve_dare(one, one, one, scalar(0.0)).reason(),
+            "R is not positive definite");
+  EXPECT_EQ(controllers::solve_dare(one, one, one, scalar(-1.0)).reason(),
+            "R is not positive definite");
   const MatrixXd nan = scalar(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(solve_dare(one, one, nan, one).reason(),
+  EXPECT_EQ(controllers::solve_dare(one, one, nan, one).reason(),
             "A, B, Q or R holds a number that is not finite");
 }
 
 TEST(Lyapunov, GeometricSeries) {
   for (const double a : {0.0, -0.5, 0.999999}) {
-    const Result<MatrixXd> P = solve_discrete_lyapunov(scalar(a), scalar(3.0));
+    const Result<MatrixXd> P = controllers::solve_discrete_lyapunov(scalar(a), scalar(3.0));
     ASSERT_TRUE(P) << P.reason();
     EXPECT_NEAR((*P)(0, 0) * (1.0 - a * a) / 3.0, 1.0, 1e-9);
   }
@@ -168,26 +172,26 @@ TEST(Lyapunov, GeometricSeries) {
   MatrixXd A = MatrixXd::Zero(3, 3);
   A(0, 1) = 2.0;
   A(1, 2) = 3.0;
-  const Result<MatrixXd> P = solve_discrete_lyapunov(A, MatrixXd::Identity(3, 3));
+  const Result<MatrixXd> P = controllers::solve_discrete_lyapunov(A, MatrixXd::Identity(3, 3));
   ASSERT_TRUE(P) << P.reason();
   const MatrixXd expected = Eigen::Vector3d(1.0, 1.0 + 4.0, 1.0 + 9.0 * (1.0 + 4.0)).asDiagonal();
   EXPECT_LT((*P - expected).cwiseAbs().maxCoeff(), 1e-13);
 }
 
 TEST(Lyapunov, SaysHowUnstable) {
-  const Result<MatrixXd> P = solve_discrete_lyapunov(scalar(-1.02), scalar(1.0));
+  const Result<MatrixXd> P = controllers::solve_discrete_lyapunov(scalar(-1.02), scalar(1.0));
   ASSERT_FALSE(P);
   EXPECT_EQ(P.reason(), "A is not Schur stable: its spectral radius is 1.02");
-  EXPECT_FALSE(solve_discrete_lyapunov(scalar(1.0), scalar(1.0)));
+  EXPECT_FALSE(controllers::solve_discrete_lyapunov(scalar(1.0), scalar(1.0)));
 }
 
 TEST(SpectralRadius, OfATurnAndOfNothing) {
   MatrixXd turn(2, 2);
   turn << 0.0, -0.9, 0.9, 0.0;
-  EXPECT_NEAR(spectral_radius(turn), 0.9, 1e-15);
-  EXPECT_EQ(spectral_radius(MatrixXd(0, 0)), 0.0);
+  EXPECT_NEAR(controllers::spectral_radius(turn), 0.9, 1e-15);
+  EXPECT_EQ(controllers::spectral_radius(MatrixXd(0, 0)), 0.0);
   turn(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(spectral_radius(turn), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(controllers::spectral_radius(turn), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

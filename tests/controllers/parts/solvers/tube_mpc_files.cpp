@@ -29,13 +29,15 @@ void print_rows(const MatrixXd& rows) {
 
 void answer(NumberReader& in) {
   const int n = in.expect_int(), m = in.expect_int(), g = in.expect_int();
-  TubeCost cost;
+  controllers::TubeCost cost;
   cost.horizon = in.expect_int();
-  TubeMpcSettings settings;
-  settings.law = in.expect_int() == 0 ? TubeLaw::kTube : TubeLaw::kFixedStart;
-  const TubeShape shape = in.expect_int() == 0 ? TubeShape::kBox : TubeShape::kInvariant;
+  controllers::TubeMpcSettings settings;
+  settings.law =
+      in.expect_int() == 0 ? controllers::TubeLaw::kTube : controllers::TubeLaw::kFixedStart;
+  const controllers::TubeShape shape =
+      in.expect_int() == 0 ? controllers::TubeShape::kBox : controllers::TubeShape::kInvariant;
   settings.soft_weight = in.expect();
-  TubeModel model;
+  controllers::TubeModel model;
   model.A = in.matrix(n, n);
   model.B = in.matrix(n, m);
   model.E = in.matrix(n, g);
@@ -47,7 +49,7 @@ void answer(NumberReader& in) {
   cost.R = in.matrix(m, m);
   const int solves = in.expect_int();
   const MatrixXd states = in.matrix(solves, n);
-  const Result<TubeSets> sets = make_tube_sets(model, shape);
+  const Result<controllers::TubeSets> sets = controllers::make_tube_sets(model, shape);
   if (!sets) {
     std::printf("failed\n");
     return;
@@ -57,11 +59,11 @@ void answer(NumberReader& in) {
   print(sets->input_limit);
   print_rows(sets->tube_rows);
   print_rows(sets->terminal_rows);
-  TubeMpc mpc(model, *sets, cost, settings, "file");
+  controllers::TubeMpc mpc(model, *sets, cost, settings, "file");
   for (int i = 0; i < solves; ++i) {
-    const QpStatus status = mpc.solve(states.row(i).transpose());
-    std::printf(" %s %.17g %.17g", status == QpStatus::kSolved ? "solved" : "failed", mpc.cost(),
-                mpc.soft_violation());
+    const controllers::QpStatus status = mpc.solve(states.row(i).transpose());
+    std::printf(" %s %.17g %.17g", status == controllers::QpStatus::kSolved ? "solved" : "failed",
+                mpc.cost(), mpc.soft_violation());
     print(mpc.z0());
     print(mpc.u());
     print(mpc.corrections());

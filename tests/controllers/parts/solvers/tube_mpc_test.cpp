@@ -23,15 +23,17 @@ using Eigen::VectorXd;
 
 constexpr double kNone = 1e-6;  // violation as a share of a limit: what softness leaves
 
-TubeSets sets_of(const Wing& wing, TubeShape shape = TubeShape::kInvariant) {
-  Result<TubeSets> sets = make_tube_sets(wing, shape);
+controllers::TubeSets sets_of(const Wing& wing,
+                              controllers::TubeShape shape = controllers::TubeShape::kInvariant) {
+  Result<controllers::TubeSets> sets = controllers::make_tube_sets(wing, shape);
   EXPECT_TRUE(sets) << sets.reason();
   return std::move(sets).value();
 }
 
-TubeMpc make_mpc(const Wing& wing, TubeLaw law = TubeLaw::kTube,
-                 TubeShape shape = TubeShape::kInvariant) {
-  return TubeMpc(wing, sets_of(wing, shape), wing.cost, {.law = law}, "wing");
+controllers::TubeMpc make_mpc(const Wing& wing,
+                              controllers::TubeLaw law = controllers::TubeLaw::kTube,
+                              controllers::TubeShape shape = controllers::TubeShape::kInvariant) {
+  return controllers::TubeMpc(wing, sets_of(wing, shape), wing.cost, {.law = law}, "wing");
 }
 
 double share(const VectorXd& values, const VectorXd& limits) {
@@ -51,11 +53,11 @@ VectorXd random_gust(const Wing& wing, RandomStream& random) {
 }
 
 /// The farthest state along `direction` with a problem that is feasible without softness.
-VectorXd farthest_feasible(TubeMpc& mpc, const VectorXd& direction) {
+VectorXd farthest_feasible(controllers::TubeMpc& mpc, const VectorXd& direction) {
   double good = 0.0, bad = 1.0;
   for (int i = 0; i < 20; ++i) {
     const double middle = 0.5 * (good + bad);
-    EXPECT_EQ(mpc.solve(middle * direction), QpStatus::kSolved);
+    EXPECT_EQ(mpc.solve(middle * direction), controllers::QpStatus::kSolved);
     (mpc.soft_violation() < kNone ? good : bad) = middle;
   }
   mpc.cold_start();
@@ -72,10 +74,10 @@ struct Flight {
 
 using Gusts = std::function<VectorXd(int step, const VectorXd& x)>;
 
-Flight fly(const Wing& wing, TubeMpc& mpc, VectorXd x, int steps, const Gusts& gusts) {
+Flight fly(const Wing& wing, controllers::TubeMpc& mpc, VectorXd x, int steps, const Gusts& gusts) {
   Flight flight;
   for (int k = 0; k < steps; ++k) {
-    EXPECT_EQ(mpc.solve(x), QpStatus::kSolved);
+    EXPECT_EQ(mpc.solve(x), controllers::QpStatus::kSolved);
     const double input = share(mpc.u(), wing.input_limit);
     flight.largest_input = std::max(flight.largest_input, input);
     flight.largest_violation = std::max(flight.largest_violation, mpc.soft_violation());
@@ -92,11 +94,11 @@ TEST(TubeMpc, IsTheLqrWhileNothingIsActive) {
   RandomStream random(1, "", "state");
   for (const Wing& wing : {longitudinal_wing(), lateral_wing(), longitudinal_wing().with_lmi_gain(),
                            lateral_wing().with_lmi_gain()}) {
-    TubeMpc mpc = make_mpc(wing);
+    controllers::TubeMpc mpc = make_mpc(wing);
     int beyond_tube = 0;
     for (int i = 0; i < 300; ++i) {
       const VectorXd x = random_state(wing, random, random.uniform(0.0, 0.2));
-      ASSERT_EQ(mpc.solve(x), QpStatus::kSolved);
+      ASSERT_EQ(mpc.solve(x), controllers::QpStatus::kSolved);
       // u = K x + c_0 with the LQR's cost, whatever z_0 is: so without limits on z and v the law is
       // the LQR's even where z_0 is not zero.
       EXPECT_LT((mpc.u() - wing.K * x - mpc.corrections().head(wing.K.rows())).norm(), 1e-12);
@@ -115,14 +117,15 @@ TEST(TubeMpc, IsTheLqrWhileNothingIsActive) {
 TEST(TubeMpc, OutsideItsTubeButWithinLimitsIsStillTheLqr) {
   // The gain is the LQR's to four decimals, so the cost hardly couples z_0 and c.
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    TubeMpc mpc = make_mpc(wing), fixed = make_mpc(wing, TubeLaw::kFixedStart);
+    controllers::TubeMpc mpc = make_mpc(wing),
+                         fixed = make_mpc(wing, controllers::TubeLaw::kFixedStart);
     RandomStream random(2, "", "state");
     int outside = 0;
     for (int i = 0; i < 300; ++i) {
       const VectorXd x = random_state(wing, random, 0.12);
-      ASSERT_EQ(mpc.solve(x), QpStatus::kSolved);
+      ASSERT_EQ(mpc.solve(x), controllers::QpStatus::kSolved);
       if (mpc.iterations() == 0) continue;
-      ASSERT_EQ(fixed.solve(x), QpStatus::kSolved);
+      ASSERT_EQ(fixed.solve(x), controllers::QpStatus::kSolved);
       if (fixed.active_rows() > 0) continue;  // z_0 = x and c = 0 keep all limits
       ++outside;
       EXPECT_LT((fixed.u() - wing.K * x).cwiseQuotient(wing.input_limit).norm(), 2e-3);
@@ -134,16 +137,16 @@ TEST(TubeMpc, OutsideItsTubeButWithinLimitsIsStillTheLqr) {
 
 TEST(TubeMpc, ShortCutAndProgrammeMeet) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    TubeMpc mpc = make_mpc(wing);
-    const TubeSets sets = sets_of(wing);
+    controllers::TubeMpc mpc = make_mpc(wing);
+    const controllers::TubeSets sets = sets_of(wing);
     RandomStream random(3, "", "direction");
     for (int i = 0; i < 50; ++i) {
       const VectorXd direction = random_state(wing, random, 1.0);
       const VectorXd edge = direction / (sets.tube_rows * direction).cwiseAbs().maxCoeff();
-      ASSERT_EQ(mpc.solve((1.0 - 1e-5) * edge), QpStatus::kSolved);
+      ASSERT_EQ(mpc.solve((1.0 - 1e-5) * edge), controllers::QpStatus::kSolved);
       EXPECT_EQ(mpc.active_rows(), 0);
       const VectorXd inside = mpc.u();
-      ASSERT_EQ(mpc.solve((1.0 + 1e-5) * edge), QpStatus::kSolved);
+      ASSERT_EQ(mpc.solve((1.0 + 1e-5) * edge), controllers::QpStatus::kSolved);
       EXPECT_GT(mpc.active_rows(), 0);
       EXPECT_LT((mpc.u() - inside).cwiseQuotient(wing.input_limit).norm(), 1e-4);
     }
@@ -152,14 +155,16 @@ TEST(TubeMpc, ShortCutAndProgrammeMeet) {
 
 TEST(TubeMpc, InputsKeepTheirLimitsWhereverTheStateIs) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    for (const TubeLaw law : {TubeLaw::kTube, TubeLaw::kFixedStart, TubeLaw::kPropagated}) {
-      TubeMpc mpc = make_mpc(wing, law);
+    for (const controllers::TubeLaw law :
+         {controllers::TubeLaw::kTube, controllers::TubeLaw::kFixedStart,
+          controllers::TubeLaw::kPropagated}) {
+      controllers::TubeMpc mpc = make_mpc(wing, law);
       RandomStream random(4, "", "state");
       int outside = 0;
       double most = 0.0;
       for (int i = 0; i < 40; ++i) {
         ASSERT_EQ(mpc.solve(random_state(wing, random, random.uniform(0.0, 4.0))),
-                  QpStatus::kSolved);
+                  controllers::QpStatus::kSolved);
         most = std::max(most, share(mpc.u(), wing.input_limit));
         outside += mpc.soft_violation() > kNone;
       }
@@ -171,8 +176,9 @@ TEST(TubeMpc, InputsKeepTheirLimitsWhereverTheStateIs) {
 
 TEST(TubeMpc, FiftySeedsOfWorstCaseGustsFromTheEdgeOfFeasibilityViolateNothing) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    for (const TubeLaw law : {TubeLaw::kTube, TubeLaw::kPropagated}) {
-      TubeMpc mpc = make_mpc(wing, law);
+    for (const controllers::TubeLaw law :
+         {controllers::TubeLaw::kTube, controllers::TubeLaw::kPropagated}) {
+      controllers::TubeMpc mpc = make_mpc(wing, law);
       int active_steps = 0;
       for (std::uint64_t seed = 0; seed < 50; ++seed) {
         RandomStream random(seed, "", "gust");
@@ -193,8 +199,8 @@ TEST(TubeMpc, FiftySeedsOfWorstCaseGustsFromTheEdgeOfFeasibilityViolateNothing) 
 TEST(TubeMpc, AdversaryViolatesNothing) {
   // At every step the gust that pushes one row most, seen over the steps that the loop remembers.
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    TubeMpc mpc = make_mpc(wing);
-    const Result<TubeRoom> room = calc_tube_room(wing);
+    controllers::TubeMpc mpc = make_mpc(wing);
+    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(wing);
     ASSERT_TRUE(room);
     Eigen::MatrixXd rows(5 + wing.K.rows(), 5);
     rows << Eigen::MatrixXd::Identity(5, 5), wing.K;
@@ -226,10 +232,10 @@ TEST(TubeMpc, AdversaryViolatesNothing) {
 
 TEST(TubeMpc, StrongestFeasibleGustViolatesNothing) {
   for (Wing wing : {longitudinal_wing(), lateral_wing()}) {
-    const Result<TubeRoom> room = calc_tube_room(wing);
+    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(wing);
     ASSERT_TRUE(room);
     wing = wing.in_gusts(0.99 * room->factor);
-    TubeMpc mpc = make_mpc(wing);
+    controllers::TubeMpc mpc = make_mpc(wing);
     RandomStream random(5, "", "gust");
     const Flight flight = fly(wing, mpc, VectorXd::Zero(5), 2000,
                               [&](int, const VectorXd&) { return random_gust(wing, random); });
@@ -244,7 +250,7 @@ TEST(TubeMpc, OrdinaryMpcOnTheSameModelLosesItsFeasibilityInGusts) {
   // calls feasible is carried out of its limits; the tube's own edge is not.
   const Wing wing = lateral_wing();
   const Wing calm = wing.in_gusts(0.0);
-  TubeMpc nominal = make_mpc(calm);
+  controllers::TubeMpc nominal = make_mpc(calm);
   int outside = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     RandomStream random(seed, "", "gust");
@@ -264,7 +270,8 @@ TEST(TubeMpc, LawAsPrintedLeavesTheInputLimits) {
   VectorXd low = VectorXd::Zero(5);
   low[4] = -14.0;
   const auto calm = [&](int, const VectorXd&) -> VectorXd { return VectorXd::Zero(2); };
-  TubeMpc printed = make_mpc(wing, TubeLaw::kPrinted), right = make_mpc(wing);
+  controllers::TubeMpc printed = make_mpc(wing, controllers::TubeLaw::kPrinted),
+                       right = make_mpc(wing);
   const Flight flown = fly(wing, printed, low, 240, calm);
   EXPECT_GT(flown.largest_input, 2.0);
   EXPECT_GT(flown.steps_outside_inputs, 20);
@@ -273,45 +280,47 @@ TEST(TubeMpc, LawAsPrintedLeavesTheInputLimits) {
   EXPECT_EQ(good.steps_outside_states, 0);
   // In the middle it is u = 2 K x.
   const VectorXd near = 1e-3 * low;
-  ASSERT_EQ(printed.solve(near), QpStatus::kSolved);
+  ASSERT_EQ(printed.solve(near), controllers::QpStatus::kSolved);
   EXPECT_LT((printed.u() - 2.0 * wing.K * near).norm(), 2e-3 * (wing.K * near).norm());
 }
 
 TEST(TubeMpc, FixedStartIsLostWhereTheTightenedHeadingEnds) {
   const Wing wing = lateral_wing();
-  const TubeSets sets = sets_of(wing, TubeShape::kBox);
+  const controllers::TubeSets sets = sets_of(wing, controllers::TubeShape::kBox);
   EXPECT_NEAR(sets.state_limit[4] / kDeg, 23.1, 0.02);  // 30 deg less 6.9: the prototype's figure
   VectorXd off = VectorXd::Zero(5);
   off[4] = 30.0 * kDeg;
-  TubeMpc fixed(wing, sets, wing.cost, {.law = TubeLaw::kFixedStart}, "wing");
+  controllers::TubeMpc fixed(wing, sets, wing.cost, {.law = controllers::TubeLaw::kFixedStart},
+                             "wing");
   // Ailerons yaw the wrong way at first, so a little less than that is feasible.
   const double farthest_deg = farthest_feasible(fixed, off)[4] / kDeg;
   EXPECT_GT(farthest_deg, 22.5);
   EXPECT_LT(farthest_deg, 23.1);
   off[4] = 20.0 * kDeg;
-  ASSERT_EQ(fixed.solve(off), QpStatus::kSolved);
+  ASSERT_EQ(fixed.solve(off), controllers::QpStatus::kSolved);
   EXPECT_LT(fixed.soft_violation(), kNone);
   off[4] = 24.0 * kDeg;
-  ASSERT_EQ(fixed.solve(off), QpStatus::kSolved);
+  ASSERT_EQ(fixed.solve(off), controllers::QpStatus::kSolved);
   EXPECT_GT(fixed.soft_violation(), 24.0 / 23.1 - 1.001);
-  EXPECT_EQ(fixed.worst_row().kind, TubeRow::Kind::kState);
+  EXPECT_EQ(fixed.worst_row().kind, controllers::TubeRow::Kind::kState);
   EXPECT_EQ(fixed.worst_row().index, 4);
-  for (const TubeShape shape : {TubeShape::kBox, TubeShape::kInvariant}) {
-    TubeMpc free = make_mpc(wing, TubeLaw::kTube, shape);
-    ASSERT_EQ(free.solve(off), QpStatus::kSolved);
+  for (const controllers::TubeShape shape :
+       {controllers::TubeShape::kBox, controllers::TubeShape::kInvariant}) {
+    controllers::TubeMpc free = make_mpc(wing, controllers::TubeLaw::kTube, shape);
+    ASSERT_EQ(free.solve(off), controllers::QpStatus::kSolved);
     EXPECT_LT(free.soft_violation(), kNone);
   }
 }
 
 TEST(TubeMpc, PropagatedStateFollowsItsOwnModelAndStartsAnewWhenLost) {
   const Wing wing = lateral_wing();
-  TubeMpc mpc = make_mpc(wing, TubeLaw::kPropagated);
+  controllers::TubeMpc mpc = make_mpc(wing, controllers::TubeLaw::kPropagated);
   VectorXd x = VectorXd::Zero(5);
   x[4] = 20.0 * kDeg;
   RandomStream random(6, "", "gust");
   VectorXd expected;
   for (int k = 0; k < 40; ++k) {
-    ASSERT_EQ(mpc.solve(x), QpStatus::kSolved);
+    ASSERT_EQ(mpc.solve(x), controllers::QpStatus::kSolved);
     if (k > 0) {
       EXPECT_LT((mpc.z0() - expected).norm(), 1e-12);
     }
@@ -320,33 +329,35 @@ TEST(TubeMpc, PropagatedStateFollowsItsOwnModelAndStartsAnewWhenLost) {
     x = wing.A * x + wing.B * mpc.u() + wing.E * random_gust(wing, random);
   }
   x[4] = -25.0 * kDeg;  // no gust does that
-  ASSERT_EQ(mpc.solve(x), QpStatus::kSolved);
+  ASSERT_EQ(mpc.solve(x), controllers::QpStatus::kSolved);
   EXPECT_GT((mpc.z0() - expected).norm(), 0.1);
   EXPECT_LE(mpc.tube_share(), 1.0 + 1e-8);
 }
 
 TEST(TubeMpc, HardLimitsHaveNoSolutionFarOutAndTheLawFallsBack) {
   const Wing wing = longitudinal_wing();
-  TubeMpcSettings settings;
+  controllers::TubeMpcSettings settings;
   settings.soft_weight = std::numeric_limits<double>::infinity();
-  TubeMpc mpc(wing, sets_of(wing), wing.cost, settings, "wing");
+  controllers::TubeMpc mpc(wing, sets_of(wing), wing.cost, settings, "wing");
   VectorXd x = VectorXd::Zero(5);
   x[4] = -40.0;
-  EXPECT_EQ(mpc.solve(x), QpStatus::kInfeasible);
+  EXPECT_EQ(mpc.solve(x), controllers::QpStatus::kInfeasible);
   EXPECT_EQ(mpc.u(), (wing.K * x).cwiseMin(wing.input_limit).cwiseMax(-wing.input_limit));
   x[4] = std::nan("");
-  EXPECT_EQ(mpc.solve(x), QpStatus::kInvalidInput);
+  EXPECT_EQ(mpc.solve(x), controllers::QpStatus::kInvalidInput);
   EXPECT_EQ(mpc.u(), VectorXd::Zero(2));
   x[4] = -3.0;
-  EXPECT_EQ(mpc.solve(x), QpStatus::kSolved);
+  EXPECT_EQ(mpc.solve(x), controllers::QpStatus::kSolved);
   EXPECT_TRUE(mpc.u().allFinite());
 }
 
 TEST(TubeMpc, SameCallsSameBitsAndNoHeap) {
   const Wing wing = longitudinal_wing();
-  const TubeSets sets = sets_of(wing);
-  for (const TubeLaw law : {TubeLaw::kTube, TubeLaw::kFixedStart, TubeLaw::kPropagated}) {
-    TubeMpc first(wing, sets, wing.cost, {.law = law}, "wing"),
+  const controllers::TubeSets sets = sets_of(wing);
+  for (const controllers::TubeLaw law :
+       {controllers::TubeLaw::kTube, controllers::TubeLaw::kFixedStart,
+        controllers::TubeLaw::kPropagated}) {
+    controllers::TubeMpc first(wing, sets, wing.cost, {.law = law}, "wing"),
         second(wing, sets, wing.cost, {.law = law}, "wing");
     RandomStream random(7, "", "gust");
     VectorXd x = VectorXd::Zero(5);
@@ -367,14 +378,14 @@ TEST(TubeMpc, SameCallsSameBitsAndNoHeap) {
 
 TEST(TubeMpc, RefusesWhatDoesNotFit) {
   const Wing wing = lateral_wing();
-  const TubeSets sets = sets_of(wing);
-  TubeCost cost = wing.cost;
+  const controllers::TubeSets sets = sets_of(wing);
+  controllers::TubeCost cost = wing.cost;
   cost.Q.resize(4, 4);
-  EXPECT_EQ(complaint([&] { TubeMpc(wing, sets, cost, {}, "p.c (trmpc)"); }),
+  EXPECT_EQ(complaint([&] { controllers::TubeMpc(wing, sets, cost, {}, "p.c (trmpc)"); }),
             "p.c (trmpc): Q, R or the horizon do not fit the model");
   cost = wing.cost;
   cost.R *= -1.0;
-  EXPECT_EQ(complaint([&] { TubeMpc(wing, sets, cost, {}, "p.c (trmpc)"); }),
+  EXPECT_EQ(complaint([&] { controllers::TubeMpc(wing, sets, cost, {}, "p.c (trmpc)"); }),
             "p.c (trmpc): the Hessian of Q and R is not positive definite");
 }
 

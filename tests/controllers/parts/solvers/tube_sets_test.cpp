@@ -32,10 +32,10 @@ VectorXd joined(const VectorXd& states, const VectorXd& inputs) {
 }
 
 /// {x : |F x| <= 1}
-Polytope between(const MatrixXd& F) {
+controllers::Polytope between(const MatrixXd& F) {
   MatrixXd both(2 * F.rows(), F.cols());
   both << F, -F;
-  return Polytope(both, VectorXd::Ones(both.rows()));
+  return controllers::Polytope(both, VectorXd::Ones(both.rows()));
 }
 
 TEST(TubeSets, HalfWidthsAndLargestGustsAreThePrototypes) {
@@ -50,7 +50,7 @@ TEST(TubeSets, HalfWidthsAndLargestGustsAreThePrototypes) {
   lat << 1.997, 2.117, .592, .2915, .1203, .1172;
   for (const Case& expected : {Case{longitudinal_wing(), lon, 2.09, "speed along z"},
                                Case{lateral_wing(), lat, 1.79, "aileron"}}) {
-    const Result<TubeRoom> room = calc_tube_room(expected.wing);
+    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(expected.wing);
     ASSERT_TRUE(room) << room.reason();
     const VectorXd reach = joined(room->reach.state, room->reach.input);
     for (int i = 0; i < reach.size(); ++i) {
@@ -59,7 +59,8 @@ TEST(TubeSets, HalfWidthsAndLargestGustsAreThePrototypes) {
     EXPECT_NEAR(room->factor, expected.gust, 0.01);
     EXPECT_EQ(room->binding, expected.binding);
     // What is reached grows with the gust, so the factor is what is left of it.
-    const Result<TubeRoom> strong = calc_tube_room(expected.wing.in_gusts(1.5));
+    const Result<controllers::TubeRoom> strong =
+        controllers::calc_tube_room(expected.wing.in_gusts(1.5));
     ASSERT_TRUE(strong);
     EXPECT_NEAR(strong->factor, room->factor / 1.5, 1e-9);
     EXPECT_NEAR(strong->reach.state[2], 1.5 * room->reach.state[2], 1e-9);
@@ -68,7 +69,7 @@ TEST(TubeSets, HalfWidthsAndLargestGustsAreThePrototypes) {
 
 TEST(TubeSets, WorstGustsReachTheHalfWidthsToTheLastMillionth) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    const Result<TubeRoom> room = calc_tube_room(wing);
+    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(wing);
     ASSERT_TRUE(room);
     const VectorXd reach = joined(room->reach.state, room->reach.input);
     const MatrixXd rows = with_feedback_rows(wing), A = wing.closed();
@@ -90,8 +91,9 @@ TEST(TubeSets, WorstGustsReachTheHalfWidthsToTheLastMillionth) {
 TEST(TubeSets, GustsOfChanceStayInTheTube) {
   RandomStream random(3, "", "gust");
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    for (const TubeShape shape : {TubeShape::kBox, TubeShape::kInvariant}) {
-      const Result<TubeSets> sets = make_tube_sets(wing, shape);
+    for (const controllers::TubeShape shape :
+         {controllers::TubeShape::kBox, controllers::TubeShape::kInvariant}) {
+      const Result<controllers::TubeSets> sets = controllers::make_tube_sets(wing, shape);
       ASSERT_TRUE(sets) << sets.reason();
       VectorXd e = VectorXd::Zero(5), gust(wing.E.cols());
       double most = 0.0;
@@ -108,12 +110,12 @@ TEST(TubeSets, GustsOfChanceStayInTheTube) {
 
 TEST(TubeSets, InvariantTubeHoldsTheSmallestOneAndIsLittleLarger) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing().with_lmi_gain()}) {
-    const Result<TubeSets> sets = make_tube_sets(wing);
+    const Result<controllers::TubeSets> sets = controllers::make_tube_sets(wing);
     ASSERT_TRUE(sets) << sets.reason();
-    const Zonotope W(wing.E);
-    const Polytope R = between(sets->tube_rows);
+    const controllers::Zonotope W(wing.E);
+    const controllers::Polytope R = between(sets->tube_rows);
     EXPECT_LE(invariance_excess(sets->A_K, R, W), 1e-8);
-    const Result<SeriesSupport> S = SeriesSupport::make(sets->A_K, W);
+    const Result<controllers::SeriesSupport> S = controllers::SeriesSupport::make(sets->A_K, W);
     ASSERT_TRUE(S);
     for (int i = 0; i < sets->tube_rows.rows(); ++i) {
       EXPECT_LE((*S)(sets->tube_rows.row(i)), 1.0 + 1e-9);
@@ -134,25 +136,28 @@ TEST(TubeSets, InvariantTubeHoldsTheSmallestOneAndIsLittleLarger) {
 }
 
 TEST(TubeSets, BoxIsNotInvariantWhichIsWhyThereIsTheOther) {
-  const Result<TubeSets> box = make_tube_sets(longitudinal_wing(), TubeShape::kBox);
+  const Result<controllers::TubeSets> box =
+      controllers::make_tube_sets(longitudinal_wing(), controllers::TubeShape::kBox);
   ASSERT_TRUE(box);
   EXPECT_EQ(box->tube_rows.rows(), 7);
   EXPECT_EQ(box->margin, 0.0);
-  EXPECT_GT(invariance_excess(box->A_K, between(box->tube_rows), Zonotope(longitudinal_wing().E)),
+  EXPECT_GT(invariance_excess(box->A_K, between(box->tube_rows),
+                              controllers::Zonotope(longitudinal_wing().E)),
             0.1);
 }
 
 TEST(TubeSets, TerminalSetKeepsTheTightenedLimitsForEver) {
   for (const auto& [wing, steps] :
        {std::pair{longitudinal_wing(), 13}, std::pair{lateral_wing(), 16}}) {
-    const Result<TubeSets> sets = make_tube_sets(wing, TubeShape::kBox);
+    const Result<controllers::TubeSets> sets =
+        controllers::make_tube_sets(wing, controllers::TubeShape::kBox);
     ASSERT_TRUE(sets);
     EXPECT_EQ(sets->terminal_steps, steps);
-    const Polytope terminal = between(sets->terminal_rows);
-    EXPECT_LE(invariance_excess(sets->A_K, terminal, Zonotope(MatrixXd(5, 0))), 1e-8);
-    const Polytope limits =
-        Polytope::box(sets->state_limit)
-            .intersection(Polytope::box(sets->input_limit).linear_preimage(wing.K));
+    const controllers::Polytope terminal = between(sets->terminal_rows);
+    EXPECT_LE(invariance_excess(sets->A_K, terminal, controllers::Zonotope(MatrixXd(5, 0))), 1e-8);
+    const controllers::Polytope limits =
+        controllers::Polytope::box(sets->state_limit)
+            .intersection(controllers::Polytope::box(sets->input_limit).linear_preimage(wing.K));
     EXPECT_TRUE(limits.contains(terminal));
     // Maximal: any point of the limits that stays inside them is in it.
     RandomStream random(4, "", "start");
@@ -174,27 +179,28 @@ TEST(TubeSets, TerminalSetKeepsTheTightenedLimitsForEver) {
 
 TEST(TubeSets, GustsUpToTheLargestAreFeasibleAndBeyondRefused) {
   for (const Wing& wing : {longitudinal_wing(), lateral_wing()}) {
-    const Result<TubeRoom> room = calc_tube_room(wing);
+    const Result<controllers::TubeRoom> room = controllers::calc_tube_room(wing);
     ASSERT_TRUE(room);
     for (const double share : {0.998, 0.9999}) {
-      const Result<TubeSets> close = make_tube_sets(wing.in_gusts(share * room->factor));
+      const Result<controllers::TubeSets> close =
+          controllers::make_tube_sets(wing.in_gusts(share * room->factor));
       ASSERT_TRUE(close) << close.reason();
       EXPECT_LT(close->margin, 1.0 / share - 1.0);
       EXPECT_GT(joined(close->state_limit, close->input_limit).minCoeff(), 0.0);
       EXPECT_LE(invariance_excess(close->A_K, between(close->tube_rows),
-                                  Zonotope(MatrixXd(share * room->factor * wing.E))),
+                                  controllers::Zonotope(MatrixXd(share * room->factor * wing.E))),
                 1e-8);
     }
-    EXPECT_FALSE(make_tube_sets(wing.in_gusts(1.0001 * room->factor)));
+    EXPECT_FALSE(controllers::make_tube_sets(wing.in_gusts(1.0001 * room->factor)));
   }
-  EXPECT_EQ(make_tube_sets(lateral_wing().with_tight_limits()).reason(),
+  EXPECT_EQ(controllers::make_tube_sets(lateral_wing().with_tight_limits()).reason(),
             "the tube is empty: gusts alone take 1.34 times the limit of aileron; at most 0.745 of "
             "them are feasible");
 }
 
 TEST(TubeSets, WithoutGustsThereIsNoTubeAndNoTightening) {
   const Wing wing = lateral_wing();
-  const Result<TubeSets> sets = make_tube_sets(wing.in_gusts(0.0));
+  const Result<controllers::TubeSets> sets = controllers::make_tube_sets(wing.in_gusts(0.0));
   ASSERT_TRUE(sets) << sets.reason();
   EXPECT_EQ(sets->tube_rows.rows(), 0);
   EXPECT_EQ(sets->state_limit, wing.state_limit);
@@ -204,7 +210,7 @@ TEST(TubeSets, WithoutGustsThereIsNoTubeAndNoTightening) {
 
 TEST(TubeSets, GustsThatMissAStateLeaveAThinTube) {
   // Two integrators with feedback, of which one feels the gust: S is a segment.
-  TubeModel model;
+  controllers::TubeModel model;
   model.A = MatrixXd::Identity(2, 2);
   model.B = MatrixXd::Identity(2, 2);
   model.E = Eigen::Vector2d(1.0, 0.0);
@@ -212,7 +218,7 @@ TEST(TubeSets, GustsThatMissAStateLeaveAThinTube) {
   model.gust = VectorXd::Ones(1);
   model.state_limit = VectorXd::Constant(2, 10.0);
   model.input_limit = VectorXd::Constant(2, 10.0);
-  const Result<TubeSets> sets = make_tube_sets(model);
+  const Result<controllers::TubeSets> sets = controllers::make_tube_sets(model);
   ASSERT_TRUE(sets) << sets.reason();
   // 1 + 1/2 + 1/4 + ... = 2, of which the feedback takes half.
   EXPECT_NEAR(sets->room.reach.state[0], 2.0, 1e-11);
@@ -224,19 +230,21 @@ TEST(TubeSets, GustsThatMissAStateLeaveAThinTube) {
 TEST(TubeSets, BadInputIsToldApart) {
   Wing wing = longitudinal_wing();
   wing.K.setZero();
-  EXPECT_EQ(calc_tube_room(wing).reason().rfind("A is not Schur stable: its spectral radius", 0),
+  EXPECT_EQ(controllers::calc_tube_room(wing).reason().rfind(
+                "A is not Schur stable: its spectral radius", 0),
             0u);
-  EXPECT_EQ(make_tube_sets(wing).reason(), calc_tube_room(wing).reason());
+  EXPECT_EQ(controllers::make_tube_sets(wing).reason(), controllers::calc_tube_room(wing).reason());
   wing = longitudinal_wing();
   wing.gust.setOnes(1);
-  EXPECT_EQ(complaint([&] { (void)calc_tube_room(wing); }),
+  EXPECT_EQ(complaint([&] { (void)controllers::calc_tube_room(wing); }),
             "the gust of a tube is 1 x 1, must be 2 x 1");
   wing = longitudinal_wing();
   wing.input_limit[1] = 0.0;
-  EXPECT_EQ(complaint([&] { (void)make_tube_sets(wing); }), "a limit of a tube is not > 0");
+  EXPECT_EQ(complaint([&] { (void)controllers::make_tube_sets(wing); }),
+            "a limit of a tube is not > 0");
   wing = longitudinal_wing();
   wing.E(0, 0) = std::nan("");
-  EXPECT_EQ(complaint([&] { (void)make_tube_sets(wing); }),
+  EXPECT_EQ(complaint([&] { (void)controllers::make_tube_sets(wing); }),
             "E of a tube holds a number that is not finite");
 }
 

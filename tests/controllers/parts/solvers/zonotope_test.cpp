@@ -16,7 +16,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The largest c'x over all 2^k sign patterns of the generators.
-double best_corner(const Zonotope& Z, const Eigen::VectorXd& c) {
+double best_corner(const controllers::Zonotope& Z, const Eigen::VectorXd& c) {
   const int k = static_cast<int>(Z.generators().cols());
   double best = -std::numeric_limits<double>::infinity();
   for (int pattern = 0; pattern < (1 << k); ++pattern) {
@@ -31,17 +31,19 @@ TEST(Zonotope, SupportIsTheBestCorner) {
   RandomStream random(1, "", "zonotope");
   for (int run = 0; run < 30; ++run) {
     const int n = 1 + run % 5, k = run % 9;
-    const Zonotope Z(normal_matrix(random, n, 1), normal_matrix(random, n, k));
+    const controllers::Zonotope Z(normal_matrix(random, n, 1), normal_matrix(random, n, k));
     const Eigen::VectorXd c = normal_matrix(random, n, 1);
     EXPECT_NEAR(Z.support(c), best_corner(Z, c), 1e-12);
     EXPECT_NEAR(Z.half_widths()[0] + Z.centre()[0], Z.support(Eigen::VectorXd::Unit(n, 0)), 1e-12);
   }
-  EXPECT_EQ(Zonotope::box(Eigen::Vector2d(2.0, 0.5)).support(Eigen::Vector2d(-1.0, 4.0)), 4.0);
+  EXPECT_EQ(
+      controllers::Zonotope::box(Eigen::Vector2d(2.0, 0.5)).support(Eigen::Vector2d(-1.0, 4.0)),
+      4.0);
 }
 
 TEST(Zonotope, ImagesMapTheirSupports) {
   RandomStream random(2, "", "zonotope");
-  const Zonotope Z(normal_matrix(random, 3, 1), normal_matrix(random, 3, 4));
+  const controllers::Zonotope Z(normal_matrix(random, 3, 1), normal_matrix(random, 3, 4));
   const Eigen::MatrixXd M = normal_matrix(random, 2, 3);
   for (int i = 0; i < 20; ++i) {
     const Eigen::Vector3d c = normal_matrix(random, 3, 1);
@@ -53,12 +55,12 @@ TEST(Zonotope, ImagesMapTheirSupports) {
 
 TEST(Zonotope, RefusesWhatDoesNotFit) {
   const Eigen::Vector2d two(1.0, 2.0);
-  const Zonotope Z(two, Eigen::MatrixXd::Ones(2, 3));
-  EXPECT_EQ(complaint([&] { Zonotope(two, Eigen::MatrixXd::Ones(3, 1)); }),
+  const controllers::Zonotope Z(two, Eigen::MatrixXd::Ones(2, 3));
+  EXPECT_EQ(complaint([&] { controllers::Zonotope(two, Eigen::MatrixXd::Ones(3, 1)); }),
             "a zonotope around a point of 2 numbers has generators of 3");
-  EXPECT_EQ(complaint([&] { Zonotope(two, Eigen::MatrixXd::Constant(2, 1, kNaN)); }),
+  EXPECT_EQ(complaint([&] { controllers::Zonotope(two, Eigen::MatrixXd::Constant(2, 1, kNaN)); }),
             "a zonotope holds a number that is not finite");
-  EXPECT_EQ(complaint([&] { Zonotope::box(Eigen::Vector2d(1.0, -0.5)); }),
+  EXPECT_EQ(complaint([&] { controllers::Zonotope::box(Eigen::Vector2d(1.0, -0.5)); }),
             "half width 1 of a box is -0.5, must be >= 0");
   EXPECT_EQ(complaint([&] { Z.support(Eigen::Vector3d::Ones()); }),
             "a zonotope in 2 dimensions meets a direction in 3");
@@ -71,8 +73,8 @@ TEST(SeriesSupport, ReproducesTheExampleOfRakovic) {
   // unit box. The set has half widths 100/77 and 200/77.
   Eigen::Matrix2d A;
   A << -0.17, -0.03, -1.17, -0.03;
-  const Result<SeriesSupport> exact =
-      SeriesSupport::make(A, Polytope::box(Eigen::Vector2d(1.0, 1.0)));
+  const Result<controllers::SeriesSupport> exact =
+      controllers::SeriesSupport::make(A, controllers::Polytope::box(Eigen::Vector2d(1.0, 1.0)));
   ASSERT_TRUE(exact);
   EXPECT_NEAR((*exact)(Eigen::Vector2d::UnitX()), 100.0 / 77.0, 1e-10);
   EXPECT_NEAR((*exact)(Eigen::Vector2d::UnitY()), 200.0 / 77.0, 1e-10);
@@ -80,11 +82,13 @@ TEST(SeriesSupport, ReproducesTheExampleOfRakovic) {
 
 TEST(SeriesSupport, ScalarIsTheGeometricSeries) {
   for (const double a : {0.0, 0.5, -0.9, 0.999}) {
-    const Result<SeriesSupport> series = SeriesSupport::make(
-        Eigen::MatrixXd::Constant(1, 1, a), Zonotope::box(Eigen::VectorXd::Constant(1, 0.3)));
+    const Result<controllers::SeriesSupport> series = controllers::SeriesSupport::make(
+        Eigen::MatrixXd::Constant(1, 1, a),
+        controllers::Zonotope::box(Eigen::VectorXd::Constant(1, 0.3)));
     ASSERT_TRUE(series);
     const double expected = 2.0 * 0.3 / (1.0 - std::abs(a));
-    const SeriesSupport::Bound bound = series->bound(Eigen::VectorXd::Constant(1, -2.0));
+    const controllers::SeriesSupport::Bound bound =
+        series->bound(Eigen::VectorXd::Constant(1, -2.0));
     EXPECT_NEAR(bound.value, expected, 1e-11 * expected);
     EXPECT_LE(bound.excess, 3e-12 * expected);
   }
@@ -97,12 +101,14 @@ TEST(SeriesSupport, ContractedQuarterTurn) {
   Eigen::Matrix2d A;
   A << 0.0, -r, r, 0.0;
   const Eigen::Vector2d half(0.1, 0.4);
-  const Result<SeriesSupport> series = SeriesSupport::make(A, Zonotope::box(half));
+  const Result<controllers::SeriesSupport> series =
+      controllers::SeriesSupport::make(A, controllers::Zonotope::box(half));
   ASSERT_TRUE(series);
   EXPECT_NEAR((*series)(Eigen::Vector2d(1.0, 0.0)), (0.1 + r * 0.4) / (1.0 - r * r), 1e-11);
   EXPECT_NEAR((*series)(Eigen::Vector2d(0.0, 1.0)), (0.4 + r * 0.1) / (1.0 - r * r), 1e-11);
   // The same set as a polytope gives the same.
-  const Result<SeriesSupport> again = SeriesSupport::make(A, Polytope::box(half));
+  const Result<controllers::SeriesSupport> again =
+      controllers::SeriesSupport::make(A, controllers::Polytope::box(half));
   ASSERT_TRUE(again);
   EXPECT_NEAR((*again)(Eigen::Vector2d(0.3, -2.0)), (*series)(Eigen::Vector2d(0.3, -2.0)), 1e-11);
 }
@@ -113,11 +119,11 @@ TEST(SeriesSupport, BoundIsAboveALongSumAndNoHigherThanItsExcess) {
     const int n = 1 + run % 6;
     Eigen::MatrixXd A = normal_matrix(random, n, n);
     A *= 0.95 / A.norm();  // at least the largest singular value
-    const Zonotope W(normal_matrix(random, n, 1), normal_matrix(random, n, 2));
-    const Result<SeriesSupport> series = SeriesSupport::make(A, W);
+    const controllers::Zonotope W(normal_matrix(random, n, 1), normal_matrix(random, n, 2));
+    const Result<controllers::SeriesSupport> series = controllers::SeriesSupport::make(A, W);
     ASSERT_TRUE(series);
     const Eigen::VectorXd c = normal_matrix(random, n, 1);
-    const SeriesSupport::Bound bound = series->bound(c);
+    const controllers::SeriesSupport::Bound bound = series->bound(c);
     Eigen::VectorXd moved = c;
     double sum = 0.0;
     for (int j = 0; j < 5000; ++j, moved = A.transpose() * moved) sum += W.support(moved);
@@ -132,7 +138,8 @@ TEST(SeriesSupport, CentreOfTheDisturbanceMovesTheWholeSet) {
   Eigen::Matrix2d A;
   A << 0.9, 0.2, -0.1, 0.7;
   const Eigen::Vector2d w(0.3, -1.0), c(-0.4, 2.0);
-  const Result<SeriesSupport> series = SeriesSupport::make(A, Zonotope(w, Eigen::MatrixXd(2, 0)));
+  const Result<controllers::SeriesSupport> series =
+      controllers::SeriesSupport::make(A, controllers::Zonotope(w, Eigen::MatrixXd(2, 0)));
   ASSERT_TRUE(series);
   const Eigen::Vector2d rest = (Eigen::Matrix2d::Identity() - A).inverse() * w;
   EXPECT_NEAR((*series)(c), c.dot(rest), 1e-10);
@@ -142,27 +149,30 @@ TEST(SeriesSupport, CentreOfTheDisturbanceMovesTheWholeSet) {
 TEST(SeriesSupport, RefusesUnstableSystemsAndOddDisturbances) {
   const Eigen::Matrix2d A = Eigen::Vector2d(0.5, 1.02).asDiagonal();
   const Eigen::Matrix2d slow = Eigen::Vector2d(0.5, 0.3).asDiagonal();
-  const Zonotope box = Zonotope::box(Eigen::Vector2d(1.0, 1.0));
-  EXPECT_EQ(SeriesSupport::make(A, box).reason(),
+  const controllers::Zonotope box = controllers::Zonotope::box(Eigen::Vector2d(1.0, 1.0));
+  EXPECT_EQ(controllers::SeriesSupport::make(A, box).reason(),
             "A is not Schur stable: its spectral radius is 1.02, must be < 1");
-  EXPECT_EQ(SeriesSupport::make(Eigen::Matrix2d::Identity(), box).reason(),
+  EXPECT_EQ(controllers::SeriesSupport::make(Eigen::Matrix2d::Identity(), box).reason(),
             "A is not Schur stable: its spectral radius is 1, must be < 1");
-  EXPECT_EQ(SeriesSupport::make(0.9999999 * Eigen::Matrix2d::Identity(), box).reason(),
+  EXPECT_EQ(controllers::SeriesSupport::make(0.9999999 * Eigen::Matrix2d::Identity(), box).reason(),
             "1000000 steps of A do not halve every state: its spectral radius is 0.9999999");
-  EXPECT_EQ(SeriesSupport::make(slow, Polytope::empty_set(2)).reason(),
+  EXPECT_EQ(controllers::SeriesSupport::make(slow, controllers::Polytope::empty_set(2)).reason(),
             "the disturbance set is empty");
+  EXPECT_EQ(controllers::SeriesSupport::make(
+                slow, controllers::Polytope(Eigen::RowVector2d(1.0, 0.0), Eigen::VectorXd::Ones(1)))
+                .reason(),
+            "the disturbance set has no end along state 0");
   EXPECT_EQ(
-      SeriesSupport::make(slow, Polytope(Eigen::RowVector2d(1.0, 0.0), Eigen::VectorXd::Ones(1)))
-          .reason(),
-      "the disturbance set has no end along state 0");
-  EXPECT_EQ(complaint([&] { (void)SeriesSupport::make(Eigen::MatrixXd::Zero(2, 3), box); }),
-            "A is 2 x 3, must be square");
-  EXPECT_EQ(complaint([&] { (void)SeriesSupport::make(kNaN * slow, box); }),
+      complaint([&] { (void)controllers::SeriesSupport::make(Eigen::MatrixXd::Zero(2, 3), box); }),
+      "A is 2 x 3, must be square");
+  EXPECT_EQ(complaint([&] { (void)controllers::SeriesSupport::make(kNaN * slow, box); }),
             "A holds a number that is not finite");
-  EXPECT_EQ(complaint([&] { (void)SeriesSupport::make(Eigen::Matrix3d::Zero(), box); }),
-            "a zonotope in 2 dimensions meets a direction in 3");
-  EXPECT_EQ(complaint([&] { (*SeriesSupport::make(slow, box))(Eigen::Vector3d::Ones()); }),
-            "a set in 2 dimensions meets a direction in 3");
+  EXPECT_EQ(
+      complaint([&] { (void)controllers::SeriesSupport::make(Eigen::Matrix3d::Zero(), box); }),
+      "a zonotope in 2 dimensions meets a direction in 3");
+  EXPECT_EQ(
+      complaint([&] { (*controllers::SeriesSupport::make(slow, box))(Eigen::Vector3d::Ones()); }),
+      "a set in 2 dimensions meets a direction in 3");
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ std::unique_ptr<Planner> make(const MissionFlight& setup) {
   context.origin = setup.origin;
   Values values = setup.values;
   values.emplace_back("file", setup.file);
-  const PartSpec spec = mission_route_spec();
-  return make_mission_route(make_parameters(spec, values), context);
+  const PartSpec spec = controllers::mission_route_spec();
+  return controllers::make_mission_route(make_parameters(spec, values), context);
 }
 
 PlannedPath plan(const MissionFlight& setup) {
@@ -79,7 +79,7 @@ std::string kinds_of(const PlannedPath& path) {
 
 std::string write_items(const std::vector<io::MissionItem>& items) {
   io::MissionFile mission;
-  mission.planned_home = io::Geodetic{rad_from_deg(47.3977507), rad_from_deg(8.5456075), 488.0};
+  mission.planned_home = Geodetic{rad_from_deg(47.3977507), rad_from_deg(8.5456075), 488.0};
   mission.items = items;
   const auto file = std::filesystem::temp_directory_path() /
                     (std::string("vinerow_route_") +
@@ -89,8 +89,8 @@ std::string write_items(const std::vector<io::MissionItem>& items) {
 }
 
 io::MissionItem at(int command, double east_m, double north_m, double altitude_m, int frame = 3) {
-  const io::LocalFrame frame_W(MissionFlight().origin);
-  const io::Geodetic g = frame_W.to_geodetic({east_m, north_m, 0.0});
+  const LocalFrame frame_W(MissionFlight().origin);
+  const Geodetic g = frame_W.to_geodetic({east_m, north_m, 0.0});
   return {command,
           frame,
           {0, 0, 0, std::nan(""), deg_from_rad(g.latitude_rad), deg_from_rad(g.longitude_rad),
@@ -243,9 +243,9 @@ TEST(MissionRoute, DrivesAtTheItemsSpeedsAndSpraysWhereTheySay) {
 
 TEST(MissionRoute, RefusesWhatFencesPart) {
   io::MissionFile mission;
-  mission.planned_home = io::Geodetic{rad_from_deg(47.3977507), rad_from_deg(8.5456075), 488.0};
+  mission.planned_home = Geodetic{rad_from_deg(47.3977507), rad_from_deg(8.5456075), 488.0};
   mission.items = {at(16, 100, 0, 5)};
-  const io::LocalFrame frame(MissionFlight().origin);
+  const LocalFrame frame(MissionFlight().origin);
   io::FenceCircle around{true, frame.to_geodetic({0.0, 0.0, 0.0}), 50.0};
   around.centre.altitude_m = 0.0;
   mission.fence_circles = {around};
@@ -316,13 +316,15 @@ TEST(MissionRoute, SpeedsCountFromWhereTheyAreSaid) {
 
 /// A survey written and read again is the same flight.
 TEST(MissionRoute, SurveysComeBackFromBothFormats) {
-  SurveyRequest request;
+  controllers::SurveyRequest request;
   request.polygon_W = {{0, 0}, {260, 20}, {240, 300}, {20, 280}};
-  const GroundHeight ground = [](const Vector2d&) { return std::optional<double>(-0.2); };
+  const controllers::GroundHeight ground = [](const Vector2d&) {
+    return std::optional<double>(-0.2);
+  };
   const MissionFlight setup;
   const Pose start{Eigen::Quaterniond::Identity(), {-400, -100, -0.2}};
-  const SurveyPlan survey = plan_survey(request, start, ground).value();
-  io::MissionFile mission = make_survey_mission(survey, setup.origin, -0.2, true);
+  const controllers::SurveyPlan survey = controllers::plan_survey(request, start, ground).value();
+  io::MissionFile mission = controllers::make_survey_mission(survey, setup.origin, -0.2, true);
   for (const bool text : {false, true}) {
     const auto file = std::filesystem::temp_directory_path() /
                       (text ? "vinerow_survey.waypoints" : "vinerow_survey.plan");
@@ -347,17 +349,20 @@ TEST(MissionRoute, SurveysComeBackFromBothFormats) {
 
 /// What QGroundControl must be told so that it takes a plan for a multirotor.
 TEST(MissionRoute, RotorcraftPlansAreOfAMultirotor) {
-  SurveyRequest request;
+  controllers::SurveyRequest request;
   request.polygon_W = {{0, 0}, {60, 0}, {60, 40}, {0, 40}};
   request.height_m = 40.0;
   request.speed_mps = 4.0;
   request.rotorcraft = true;
-  const GroundHeight ground = [](const Vector2d&) { return std::optional<double>(0.0); };
+  const controllers::GroundHeight ground = [](const Vector2d&) {
+    return std::optional<double>(0.0);
+  };
   const Pose start{Eigen::Quaterniond::Identity(), {-10, -5, 0}};
   const MissionFlight setup;
-  const auto survey = plan_survey(request, start, ground);
+  const auto survey = controllers::plan_survey(request, start, ground);
   ASSERT_TRUE(survey.ok()) << survey.reason();
-  const io::MissionFile mission = make_survey_mission(*survey, setup.origin, 0.0, true);
+  const io::MissionFile mission =
+      controllers::make_survey_mission(*survey, setup.origin, 0.0, true);
   const std::string text = io::format_qgc_plan(mission);
   EXPECT_NE(text.find("\"vehicleType\": 2"), std::string::npos);
   EXPECT_NE(text.find("\"hoverSpeed\": 4.0"), std::string::npos);

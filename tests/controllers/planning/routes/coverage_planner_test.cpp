@@ -35,7 +35,7 @@ RowMap make_narrow_map(int alleys = 9, double pitch_m = 2.5) {
 }
 
 Result<PlannedPath> plan(const RowMap& map, const Values& values,
-                         Pose2 start = {{1.25, 0}, 0.5 * kPi}) {
+                         controllers::Pose2 start = {{1.25, 0}, 0.5 * kPi}) {
   return make_planner({"coverage", values}, map)
       ->plan({quaternion_from_rpy({0, 0, start.yaw_rad}), {start.p.x(), start.p.y(), 0.3}});
 }
@@ -143,7 +143,8 @@ TEST(Coverage, ApexOtherThanHalfTheSpacingIsThePapersArc) {
 
 TEST(Coverage, SkipsNeighboursForWideTurns) {
   for (int count = 1; count <= 12; ++count) {
-    const std::vector<int> order = make_alley_order(count, AlleyOrder::kSkip);
+    const std::vector<int> order =
+        controllers::make_alley_order(count, controllers::AlleyOrder::kSkip);
     std::vector<int> sorted = order;
     std::sort(sorted.begin(), sorted.end());
     for (int i = 0; i < count; ++i) ASSERT_EQ(sorted[i], i);
@@ -199,7 +200,8 @@ Result<PlannedPath> plan_on(const Slope& slope) {
   context.scene = &slope;
   const VehicleDescription rover = make_rover_description();
   context.vehicle_description = &rover;
-  return vinerow::make_coverage(make_parameters(coverage_spec(), {}), context)
+  return vinerow::controllers::make_coverage(make_parameters(controllers::coverage_spec(), {}),
+                                             context)
       ->plan({quaternion_from_rpy({0, 0, 0.5 * kPi}), {1.25, 0, 0}});
 }
 

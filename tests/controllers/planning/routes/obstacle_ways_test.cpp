@@ -126,14 +126,15 @@ TEST(Footprint, SeesWhatPassesBetweenTwoPoses) {
   grid.corner_W = {-2.0, -2.0};
   grid.cells.assign(200 * 200, 0);
   mark(grid, {0.01, 0.67}, {0.01, 0.9}, 0.001);
-  const DistanceField field(grid);
-  const Footprint footprint(field, {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, 0.0);
+  const controllers::DistanceField field(grid);
+  const controllers::Footprint footprint(field,
+                                         {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, 0.0);
   // On a circle of 1 cm radius: half a turn in 3 cm.
-  const Pose2 start{{0.0, -0.01}, 0.0};
+  const controllers::Pose2 start{{0.0, -0.01}, 0.0};
   const double curvature_per_m = 100.0, quarter_m = 0.5 * kPi / curvature_per_m;
   ASSERT_TRUE(footprint.is_free(start));
-  ASSERT_TRUE(footprint.is_free(advance(start, quarter_m, 0.5 * kPi)));
-  ASSERT_FALSE(footprint.is_free(advance(start, 0.5 * quarter_m, 0.25 * kPi)));
+  ASSERT_TRUE(footprint.is_free(controllers::advance(start, quarter_m, 0.5 * kPi)));
+  ASSERT_FALSE(footprint.is_free(controllers::advance(start, 0.5 * quarter_m, 0.25 * kPi)));
   EXPECT_FALSE(footprint.is_free_along(start, quarter_m, curvature_per_m, 0.1));
 }
 

@@ -22,24 +22,27 @@ using Vec = Eigen::Vector2d;
 constexpr double kRadius_m = 1.767;
 
 /// The shortest Dubins path whatever is in the way; keeps what it was asked.
-class DubinsSearch final : public PoseSearch {
+class DubinsSearch final : public controllers::PoseSearch {
  public:
   struct Asked {
-    Pose2 from, to;
+    controllers::Pose2 from, to;
     int problem;
   };
   explicit DubinsSearch(std::vector<Asked>* asked, bool fails = false)
       : asked_(asked), fails_(fails) {}
 
-  Result<std::vector<PathPiece>> find(const Pose2& from, const Pose2& to, const Footprint&,
-                                      int problem, SearchReport& report) override {
+  Result<std::vector<controllers::PathPiece>> find(const controllers::Pose2& from,
+                                                   const controllers::Pose2& to,
+                                                   const controllers::Footprint&, int problem,
+                                                   controllers::SearchReport& report) override {
     if (asked_ != nullptr) asked_->push_back({from, to, problem});
     report.nodes = 7;
     report.iterations = 11;
     report.tree_W = {from.p, to.p};
     if (fails_) return Failure{"no luck"};
-    std::vector<PathPiece> pieces;
-    append_dubins(from, calc_dubins(from, to, kRadius_m), PathKind::kTurn, 0.0, pieces);
+    std::vector<controllers::PathPiece> pieces;
+    controllers::append_dubins(from, controllers::calc_dubins(from, to, kRadius_m), PathKind::kTurn,
+                               0.0, pieces);
     return pieces;
   }
 
@@ -77,7 +80,8 @@ struct Bench {
     context.map = &map;
     context.vehicle_description = &vehicle;
     context.scene = scene;
-    return make_route_planner(params, std::make_unique<DubinsSearch>(&asked, fails), context);
+    return controllers::make_route_planner(params, std::make_unique<DubinsSearch>(&asked, fails),
+                                           context);
   }
   Result<PlannedPath> plan(double x, double y, double yaw_rad, bool fails = false) {
     planner = make(fails);
@@ -90,7 +94,7 @@ struct Bench {
   BlockSetup setup;
   RowMap map;
   VehicleDescription vehicle = make_four_wheel_description(kRadius_m);
-  RoutePlannerParams params;
+  controllers::RoutePlannerParams params;
   const SceneQuery* scene = nullptr;
   std::vector<DubinsSearch::Asked> asked;
   std::unique_ptr<Planner> planner;
@@ -297,10 +301,10 @@ TEST(RoutePlanner, MissingClearanceIsThatOfTheLoopBetweenWalls) {
   // walls 2.5 m to either side; cells that the wall touches reach up to a cell nearer.
   for (const double radius_m : {1.9, 2.2, 2.6, 3.2}) {
     const Bench bench;
-    const DistanceField field(bench.map.occupancy);
-    const Pose2 from{{1.25, 20.0}, 0.5 * kPi}, to{{3.75, 20.0}, -0.5 * kPi};
-    const auto missing_m =
-        calc_missing_clearance_m(from, to, radius_m, field, bench.vehicle.footprint_B, 0.05);
+    const controllers::DistanceField field(bench.map.occupancy);
+    const controllers::Pose2 from{{1.25, 20.0}, 0.5 * kPi}, to{{3.75, 20.0}, -0.5 * kPi};
+    const auto missing_m = controllers::calc_missing_clearance_m(from, to, radius_m, field,
+                                                                 bench.vehicle.footprint_B, 0.05);
     ASSERT_TRUE(missing_m.has_value());
     const double expected_m = std::hypot(radius_m + 0.5, 0.75) + 0.05 - 2.5;
     EXPECT_GE(*missing_m, expected_m - 0.01) << radius_m;
@@ -310,19 +314,22 @@ TEST(RoutePlanner, MissingClearanceIsThatOfTheLoopBetweenWalls) {
 
 TEST(RoutePlanner, NothingIsMissingWhereTheTurnFits) {
   const Bench bench;
-  const DistanceField field(bench.map.occupancy);
-  const Pose2 from{{1.25, 20.0}, 0.5 * kPi}, to{{3.75, 20.0}, -0.5 * kPi};
-  EXPECT_EQ(calc_missing_clearance_m(from, to, 1.767, field, bench.vehicle.footprint_B, 0.02), 0.0);
-  EXPECT_EQ(
-      calc_missing_clearance_m(from, to, 1.767, DistanceField{}, bench.vehicle.footprint_B, 0.05),
-      0.0);
-  const Pose2 in_row{{2.5, 10.0}, 0.5 * kPi};
-  EXPECT_EQ(calc_missing_clearance_m(from, in_row, 1.767, field, bench.vehicle.footprint_B, 0.05),
+  const controllers::DistanceField field(bench.map.occupancy);
+  const controllers::Pose2 from{{1.25, 20.0}, 0.5 * kPi}, to{{3.75, 20.0}, -0.5 * kPi};
+  EXPECT_EQ(controllers::calc_missing_clearance_m(from, to, 1.767, field, bench.vehicle.footprint_B,
+                                                  0.02),
+            0.0);
+  EXPECT_EQ(controllers::calc_missing_clearance_m(from, to, 1.767, controllers::DistanceField{},
+                                                  bench.vehicle.footprint_B, 0.05),
+            0.0);
+  const controllers::Pose2 in_row{{2.5, 10.0}, 0.5 * kPi};
+  EXPECT_EQ(controllers::calc_missing_clearance_m(from, in_row, 1.767, field,
+                                                  bench.vehicle.footprint_B, 0.05),
             std::nullopt);
 }
 
 ParameterSet make_parameters() {
-  return ParameterSet(route_planner_table().specs(), "planner");
+  return ParameterSet(controllers::route_planner_table().specs(), "planner");
 }
 
 TEST(RoutePlannerParameters, TurningRadiusIsTheVehiclesOrWider) {
@@ -331,36 +338,38 @@ TEST(RoutePlannerParameters, TurningRadiusIsTheVehiclesOrWider) {
   PlannerContext context;
   context.map = &bench.map;
   context.vehicle_description = &vehicle;
-  EXPECT_EQ(read_route_planner_params(make_parameters(), context, "me").turning_radius_m, 1.767);
+  EXPECT_EQ(
+      controllers::read_route_planner_params(make_parameters(), context, "me").turning_radius_m,
+      1.767);
   ParameterSet wider = make_parameters();
   wider.set("turning_radius_m", 2.0);
-  EXPECT_EQ(read_route_planner_params(wider, context, "me").turning_radius_m, 2.0);
+  EXPECT_EQ(controllers::read_route_planner_params(wider, context, "me").turning_radius_m, 2.0);
   ParameterSet tighter = make_parameters();
   tighter.set("turning_radius_m", 1.5);
-  EXPECT_THAT([&] { read_route_planner_params(tighter, context, "me"); },
+  EXPECT_THAT([&] { controllers::read_route_planner_params(tighter, context, "me"); },
               ::testing::ThrowsMessage<ConfigError>(
                   "me: turning_radius_m = 1.500 m is less than the 1.767 m that vehicle type "
                   "'four_wheel_steering_rover' can turn"));
   vehicle.min_turning_radius_m = 0.0;
-  EXPECT_THAT([&] { read_route_planner_params(make_parameters(), context, "me"); },
+  EXPECT_THAT([&] { controllers::read_route_planner_params(make_parameters(), context, "me"); },
               ::testing::ThrowsMessage<ConfigError>(HasSubstr("give turning_radius_m")));
   vehicle.min_turning_radius_m.reset();
   EXPECT_THAT(
-      [&] { read_route_planner_params(make_parameters(), context, "me"); },
+      [&] { controllers::read_route_planner_params(make_parameters(), context, "me"); },
       ::testing::ThrowsMessage<ConfigError>("me needs 'min_turning_radius_m', which vehicle type "
                                             "'four_wheel_steering_rover' does not have"));
 }
 
 TEST(AnalyticTurn, EveryCandidateArrivesAndTheyAreSorted) {
-  const Pose2 from{{0, 0}, 0.3}, to{{2.5, 0.7}, 0.3 + kPi};
-  const auto turns = make_analytic_turns(from, to, {1.5, 2.0, 0.5});
+  const controllers::Pose2 from{{0, 0}, 0.3}, to{{2.5, 0.7}, 0.3 + kPi};
+  const auto turns = controllers::make_analytic_turns(from, to, {1.5, 2.0, 0.5});
   EXPECT_GT(turns.size(), 100u);
   for (std::size_t i = 0; i < turns.size(); ++i) {
     ASSERT_GE(turns[i].length_m, turns[i > 0 ? i - 1 : 0].length_m - 1.1e-3);
-    const auto pieces = make_pieces(from, to, turns[i]);
-    ASSERT_NEAR(calc_length_m(pieces), turns[i].length_m, 1e-5);
-    Pose2 at = from;
-    for (const PathPiece& piece : pieces) {
+    const auto pieces = controllers::make_pieces(from, to, turns[i]);
+    ASSERT_NEAR(controllers::calc_length_m(pieces), turns[i].length_m, 1e-5);
+    controllers::Pose2 at = from;
+    for (const controllers::PathPiece& piece : pieces) {
       ASSERT_NEAR((piece.start.p - at.p).norm(), 0.0, 1e-6);
       ASSERT_NEAR(wrap_angle(piece.start.yaw_rad - at.yaw_rad), 0.0, 1e-6);
       ASSERT_LE(std::abs(piece.curvature_per_m), 1.0 / 1.5 + 1e-12);
@@ -369,7 +378,7 @@ TEST(AnalyticTurn, EveryCandidateArrivesAndTheyAreSorted) {
     ASSERT_NEAR((at.p - to.p).norm(), 0.0, 1e-6);
     ASSERT_NEAR(wrap_angle(at.yaw_rad - to.yaw_rad), 0.0, 1e-6);
   }
-  EXPECT_NEAR(turns.front().length_m, calc_dubins(from, to, 1.5).length_m(), 1e-9);
+  EXPECT_NEAR(turns.front().length_m, controllers::calc_dubins(from, to, 1.5).length_m(), 1e-9);
 }
 
 }  // namespace

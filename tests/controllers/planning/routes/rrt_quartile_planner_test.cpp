@@ -10,7 +10,7 @@
 #include "engine/math/angles.h"
 #include "tests/controllers/planning/search/hand_grids.h"
 
-namespace vinerow::rrt_quartile_planner_test {
+namespace vinerow::controllers::rrt_quartile_planner_test {
 namespace {
 
 using hand_grids::Vineyard;
@@ -173,4 +173,4 @@ TEST(RrtQuartilePlanner, RefusesWhatCannotWork) {
 }
 
 }  // namespace
-}  // namespace vinerow::rrt_quartile_planner_test
+}  // namespace vinerow::controllers::rrt_quartile_planner_test

@@ -36,9 +36,9 @@ struct Bench {
     context.part = "rover.planner";
     context.map = &map;
     context.vehicle_description = &vehicle;
-    ParameterSet parameters(rrt_star_spec().parameters, "rrt_star");
+    ParameterSet parameters(controllers::rrt_star_spec().parameters, "rrt_star");
     for (const auto& [name, value] : values) parameters.set(name, value);
-    const auto planner = make_rrt_star(parameters, context);
+    const auto planner = controllers::make_rrt_star(parameters, context);
     const Vec p = block_point(setup, at.x(), at.y());
     Planned run;
     run.path = planner->plan(

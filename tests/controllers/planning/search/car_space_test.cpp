@@ -17,31 +17,32 @@ namespace {
 using Vec = Eigen::Vector2d;
 constexpr double kRadius_m = 1.5;
 
-Pose2 draw_pose(RandomStream& random) {
+controllers::Pose2 draw_pose(RandomStream& random) {
   const double x = random.uniform(-5, 5), y = random.uniform(-5, 5);
   return {{x, y}, random.uniform(-kPi, kPi)};
 }
 
 TEST(CarSpace, TakesEveryHeading) {
-  const CarSpace space(kRadius_m, {-10, -10}, {10, 10});
+  const controllers::CarSpace space(kRadius_m, {-10, -10}, {10, 10});
   auto* state = space.allocState();
   for (const double yaw_rad : {kPi, -kPi, 3 * kPi, -3 * kPi, 1e3, std::nextafter(kPi, 0.0)}) {
-    CarSpace::set_pose({{1, 2}, yaw_rad}, state);
+    controllers::CarSpace::set_pose({{1, 2}, yaw_rad}, state);
     EXPECT_TRUE(space.satisfiesBounds(state)) << yaw_rad;
-    EXPECT_NEAR(wrap_angle(CarSpace::pose_of(state).yaw_rad - yaw_rad), 0.0, 1e-12);
+    EXPECT_NEAR(wrap_angle(controllers::CarSpace::pose_of(state).yaw_rad - yaw_rad), 0.0, 1e-12);
   }
   space.freeState(state);
 }
 
 TEST(CarSpace, InterpolatesAlongTheShortestPath) {
-  const CarSpace space(kRadius_m, {-10, -10}, {10, 10});
+  const controllers::CarSpace space(kRadius_m, {-10, -10}, {10, 10});
   auto *from = space.allocState(), *to = space.allocState(), *at = space.allocState();
   RandomStream random(1, "a", "b");
   for (int n = 0; n < 300; ++n) {
-    const Pose2 a = draw_pose(random), b = draw_pose(random);
-    CarSpace::set_pose(a, from);
-    CarSpace::set_pose(b, to);
-    EXPECT_NEAR(space.distance(from, to), calc_dubins(a, b, kRadius_m).length_m(), 1e-9);
+    const controllers::Pose2 a = draw_pose(random), b = draw_pose(random);
+    controllers::CarSpace::set_pose(a, from);
+    controllers::CarSpace::set_pose(b, to);
+    EXPECT_NEAR(space.distance(from, to), controllers::calc_dubins(a, b, kRadius_m).length_m(),
+                1e-9);
     const double share = random.uniform();
     space.interpolate(from, to, share, at);
     // A point of a shortest path: what lies before and after adds up to the whole.
@@ -55,14 +56,14 @@ TEST(CarSpace, InterpolatesAlongTheShortestPath) {
 }
 
 TEST(BoundedNearest, EqualsBruteForce) {
-  const auto distance = [](const Pose2& a, const Pose2& b) {
-    return calc_dubins(a, b, kRadius_m).length_m();
+  const auto distance = [](const controllers::Pose2& a, const controllers::Pose2& b) {
+    return controllers::calc_dubins(a, b, kRadius_m).length_m();
   };
-  std::vector<Pose2> poses;
+  std::vector<controllers::Pose2> poses;
   RandomStream random(2, "a", "b");
   for (int n = 0; n < 400; ++n) poses.push_back(draw_pose(random));
   constexpr double kLongest = 6.0;
-  BoundedNearest<int> nearest(
+  controllers::BoundedNearest<int> nearest(
       [&](const int& a, const int& b) {
         return std::max(
             (poses[b].p - poses[a].p).norm(),
@@ -102,32 +103,34 @@ OccupancyGrid make_corridor() {
 
 TEST(WayCost, IsTheIntegralOfLackingClearance) {
   const OccupancyGrid grid = make_corridor();
-  const DistanceField field(grid);
-  const Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
+  const controllers::DistanceField field(grid);
+  const controllers::Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
   // Along the middle the hull has half a metre, less cells, to either side.
   const double clearance_m = footprint.clearance_m({{0, 0}, 0.0});
   EXPECT_NEAR(clearance_m, 0.5, 0.051);
-  const WayCost cost({0.5, 1.0, 0.1, 0.25}, footprint);
-  const PathPiece along{{{-5, 0}, 0.0}, 8.0, 0.0, PathKind::kTurn, -1, 0.0};
+  const controllers::WayCost cost({0.5, 1.0, 0.1, 0.25}, footprint);
+  const controllers::PathPiece along{{{-5, 0}, 0.0}, 8.0, 0.0, PathKind::kTurn, -1, 0.0};
   EXPECT_NEAR(cost.of(along), 8.0 * (1.0 + 0.5 * (1.0 - clearance_m)), 1e-6);
-  EXPECT_EQ(WayCost({0.0, 1.0, 0.1, 0.25}, footprint).of(along), 8.0);
-  EXPECT_EQ(WayCost({0.5, 0.3, 0.1, 0.25}, footprint).of(along), 8.0);  // all that is wanted
+  EXPECT_EQ(controllers::WayCost({0.0, 1.0, 0.1, 0.25}, footprint).of(along), 8.0);
+  EXPECT_EQ(controllers::WayCost({0.5, 0.3, 0.1, 0.25}, footprint).of(along),
+            8.0);  // all that is wanted
   EXPECT_NEAR(cost.most_of(8.0), 12.2, 1e-12);
   // Every change of curvature counts once, also between pieces of a Dubins path.
-  const DubinsPath loop = calc_dubins({{0, 0}, 0.5 * kPi}, {{2.5, 0}, -0.5 * kPi}, 1.767);
-  std::vector<PathPiece> pieces;
-  append_dubins({{0, 0}, 0.5 * kPi}, loop, PathKind::kTurn, 0.0, pieces);
-  const WayCost bends({0.0, 1.0, 0.1, 0.25}, footprint);
+  const controllers::DubinsPath loop =
+      controllers::calc_dubins({{0, 0}, 0.5 * kPi}, {{2.5, 0}, -0.5 * kPi}, 1.767);
+  std::vector<controllers::PathPiece> pieces;
+  controllers::append_dubins({{0, 0}, 0.5 * kPi}, loop, PathKind::kTurn, 0.0, pieces);
+  const controllers::WayCost bends({0.0, 1.0, 0.1, 0.25}, footprint);
   EXPECT_NEAR(bends.of(pieces), loop.length_m() + 0.2, 1e-9);
   EXPECT_NEAR(bends.of({{0, 0}, 0.5 * kPi}, loop), loop.length_m() + 0.2, 1e-9);
   RandomStream random(3, "a", "b");
   for (int n = 0; n < 200; ++n) {
-    const PathPiece piece{draw_pose(random),
-                          random.uniform(0.1, 6.0),
-                          random.uniform(-0.6, 0.6),
-                          PathKind::kTurn,
-                          -1,
-                          0.0};
+    const controllers::PathPiece piece{draw_pose(random),
+                                       random.uniform(0.1, 6.0),
+                                       random.uniform(-0.6, 0.6),
+                                       PathKind::kTurn,
+                                       -1,
+                                       0.0};
     EXPECT_GE(cost.of(piece), piece.length_m);
     EXPECT_LE(cost.of(piece), cost.most_of(piece.length_m) + 1e-12);
   }
@@ -135,16 +138,16 @@ TEST(WayCost, IsTheIntegralOfLackingClearance) {
 
 TEST(Shorten, KeepsEndsAndNeverCostsMore) {
   const OccupancyGrid grid = make_block({.row_length_m = 8.0, .has_walls = false}).occupancy;
-  const DistanceField field(grid);
-  const Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
-  const WayCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
+  const controllers::DistanceField field(grid);
+  const controllers::Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
+  const controllers::WayCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
   // A detour over a pose far out in the headland.
-  const std::vector<Pose2> poses = {
+  const std::vector<controllers::Pose2> poses = {
       {{1.25, 8.0}, 0.5 * kPi}, {{2.5, 15.0}, 0.0}, {{3.75, 8.0}, -0.5 * kPi}};
-  const auto way = join_poses(poses, 1.767);
-  const auto shorter = shorten_by_cost(way, 1.767, footprint, cost, 0.1);
+  const auto way = controllers::join_poses(poses, 1.767);
+  const auto shorter = controllers::shorten_by_cost(way, 1.767, footprint, cost, 0.1);
   EXPECT_LT(cost.of(shorter), 0.9 * cost.of(way));
-  EXPECT_TRUE(is_free(shorter, footprint, 0.1));
+  EXPECT_TRUE(controllers::is_free(shorter, footprint, 0.1));
   EXPECT_NEAR((shorter.front().start.p - poses[0].p).norm(), 0.0, 1e-9);
   EXPECT_NEAR((shorter.back().end().p - poses[2].p).norm(), 0.0, 1e-6);
   EXPECT_NEAR(wrap_angle(shorter.back().end().yaw_rad - poses[2].yaw_rad), 0.0, 1e-6);
@@ -152,31 +155,31 @@ TEST(Shorten, KeepsEndsAndNeverCostsMore) {
 
 TEST(CarPlanners, SameSeedSameTreeWhateverRunsBetween) {
   const RowMap map = make_block({.row_length_m = 8.0, .has_walls = false});
-  const DistanceField field(map.occupancy);
-  const Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
-  const WayCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
-  CarProblem problem{1.767, {-4, 4}, {9, 18}, &footprint, &cost, 0.1, 3.0, 400};
-  CarSampling sampling;
+  const controllers::DistanceField field(map.occupancy);
+  const controllers::Footprint footprint(field, make_four_wheel_description().footprint_B, 0.05);
+  const controllers::WayCost cost({0.5, 0.3, 0.2, 0.25}, footprint);
+  controllers::CarProblem problem{1.767, {-4, 4}, {9, 18}, &footprint, &cost, 0.1, 3.0, 400};
+  controllers::CarSampling sampling;
   sampling.from = {{1.25, 8.0}, 0.5 * kPi};
   sampling.to = {{3.75, 8.0}, -0.5 * kPi};
   sampling.footprint = &footprint;
   sampling.best_cost = [] { return 1e9; };
-  const auto positions = [](const CarTree& tree) {
+  const auto positions = [](const controllers::CarTree& tree) {
     std::vector<Vec> points;
     for (const auto& edge : tree.edges) points.push_back(edge.second.p);
     return points;
   };
-  for (const auto run : {run_rrt_star, run_rrt}) {
-    const CarTree first = run(problem, sampling, RandomStream(1, "a", "b"));
+  for (const auto run : {controllers::run_rrt_star, controllers::run_rrt}) {
+    const controllers::CarTree first = run(problem, sampling, RandomStream(1, "a", "b"));
     EXPECT_FALSE(first.way.empty());
-    const CarTree other = run(problem, sampling, RandomStream(2, "a", "b"));
-    run_rrt(problem, sampling, RandomStream(3, "a", "b"));
-    run_rrt_star(problem, sampling, RandomStream(4, "a", "b"));
-    const CarTree again = run(problem, sampling, RandomStream(1, "a", "b"));
+    const controllers::CarTree other = run(problem, sampling, RandomStream(2, "a", "b"));
+    controllers::run_rrt(problem, sampling, RandomStream(3, "a", "b"));
+    controllers::run_rrt_star(problem, sampling, RandomStream(4, "a", "b"));
+    const controllers::CarTree again = run(problem, sampling, RandomStream(1, "a", "b"));
     EXPECT_EQ(positions(first), positions(again));
     EXPECT_EQ(first.iterations, again.iterations);
     EXPECT_NE(positions(first), positions(other));
-    EXPECT_TRUE(is_free(join_poses(first.way, 1.767), footprint, 0.1));
+    EXPECT_TRUE(controllers::is_free(controllers::join_poses(first.way, 1.767), footprint, 0.1));
     EXPECT_NEAR((first.way.front().p - sampling.from.p).norm(), 0.0, 1e-12);
     EXPECT_NEAR((first.way.back().p - sampling.to.p).norm(), 0.0, 1e-6);
   }

@@ -6,7 +6,7 @@
 
 #include "tests/controllers/planning/search/hand_grids.h"
 
-namespace vinerow::goal_distance_test {
+namespace vinerow::controllers::goal_distance_test {
 namespace {
 
 using hand_grids::fill;
@@ -81,4 +81,4 @@ TEST(GoalDistance, WhatIsCutOffIsInfinitelyFar) {
 }
 
 }  // namespace
-}  // namespace vinerow::goal_distance_test
+}  // namespace vinerow::controllers::goal_distance_test

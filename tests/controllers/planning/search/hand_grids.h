@@ -74,11 +74,12 @@ struct Vineyard {
 
   bool drives_up(int alley) const { return alley % 2 == 0; }
   /// Where an alley is entered and left, heading along it.
-  Pose2 entry(int alley) const {
-    return drives_up(alley) ? Pose2{{0.0, alley_y(alley)}, 0.0}
-                            : Pose2{{length_m, alley_y(alley)}, 3.14159265358979323846};
+  controllers::Pose2 entry(int alley) const {
+    return drives_up(alley)
+               ? controllers::Pose2{{0.0, alley_y(alley)}, 0.0}
+               : controllers::Pose2{{length_m, alley_y(alley)}, 3.14159265358979323846};
   }
-  Pose2 exit(int alley) const {
+  controllers::Pose2 exit(int alley) const {
     return {{drives_up(alley) ? length_m : 0.0, alley_y(alley)}, entry(alley).yaw_rad};
   }
 };
@@ -92,7 +93,7 @@ inline std::vector<Eigen::Vector2d> rover_outline_B() {
 /// True where the centre of an occupied cell lies inside the outline, or the outline leaves the
 /// grid. @param outline_B  convex, counter-clockwise
 inline bool touches(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& outline_B,
-                    const Pose2& pose) {
+                    const controllers::Pose2& pose) {
   std::vector<Eigen::Vector2d> outline_W;
   Eigen::Vector2d low = pose.p, high = pose.p;
   for (const Eigen::Vector2d& p : outline_B) {
@@ -122,8 +123,8 @@ inline bool touches(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d
 }
 
 inline bool path_touches(const OccupancyGrid& grid, const std::vector<Eigen::Vector2d>& outline_B,
-                         const std::vector<PathPiece>& pieces, double step_m = 0.02) {
-  for (const PathPiece& piece : pieces) {
+                         const std::vector<controllers::PathPiece>& pieces, double step_m = 0.02) {
+  for (const controllers::PathPiece& piece : pieces) {
     const int parts = std::max(1, static_cast<int>(std::ceil(piece.length_m / step_m)));
     for (int i = 0; i <= parts; ++i) {
       if (touches(grid, outline_B, piece.at(piece.length_m * i / parts))) return true;
@@ -132,9 +133,9 @@ inline bool path_touches(const OccupancyGrid& grid, const std::vector<Eigen::Vec
   return false;
 }
 
-inline double length_m(const std::vector<PathPiece>& pieces) {
+inline double length_m(const std::vector<controllers::PathPiece>& pieces) {
   double sum = 0.0;
-  for (const PathPiece& piece : pieces) sum += piece.length_m;
+  for (const controllers::PathPiece& piece : pieces) sum += piece.length_m;
   return sum;
 }
 

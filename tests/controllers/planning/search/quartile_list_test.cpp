@@ -10,7 +10,7 @@
 
 #include "controllers/planning/search/pose_cells.h"
 
-namespace vinerow::quartile_list_test {
+namespace vinerow::controllers::quartile_list_test {
 namespace {
 
 /// The same rule with sorting: nodes of the lowest quartile that has an open one.
@@ -125,4 +125,4 @@ TEST(PoseCells, CellsAreOfTheSizeAskedAndHeadingsWrap) {
 }
 
 }  // namespace
-}  // namespace vinerow::quartile_list_test
+}  // namespace vinerow::controllers::quartile_list_test

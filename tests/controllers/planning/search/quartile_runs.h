@@ -23,39 +23,42 @@ struct Site {
   explicit Site(OccupancyGrid g, double margin_m = kMargin_m)
       : grid(std::move(g)), field(grid), footprint(field, rover_outline_B(), margin_m) {}
   OccupancyGrid grid;
-  DistanceField field;
-  Footprint footprint;
+  controllers::DistanceField field;
+  controllers::Footprint footprint;
 };
 
 struct Found {
-  SearchReport report;
-  Result<std::vector<PathPiece>> pieces = Failure{};
+  controllers::SearchReport report;
+  Result<std::vector<controllers::PathPiece>> pieces = Failure{};
 };
 
-inline Found find(const Site& site, const Pose2& from, const Pose2& to,
-                  const RrtQuartileParams& params, std::uint64_t seed = 1, int problem = 1) {
+inline Found find(const Site& site, const controllers::Pose2& from, const controllers::Pose2& to,
+                  const controllers::RrtQuartileParams& params, std::uint64_t seed = 1,
+                  int problem = 1) {
   PartContext context;
   context.vehicle = "rover";
   context.part = "rover.planner";
   context.seed = seed;
-  RrtQuartile search(params, context);
+  controllers::RrtQuartile search(params, context);
   Found run;
   run.pieces = search.find(from, to, site.footprint, problem, run.report);
   return run;
 }
 
-inline RrtQuartileParams make_params(double curvature_per_m = kFourWheel_per_m) {
-  RrtQuartileParams params;
+inline controllers::RrtQuartileParams make_params(double curvature_per_m = kFourWheel_per_m) {
+  controllers::RrtQuartileParams params;
   params.tree.curvature_per_m = curvature_per_m;
   return params;
 }
 
 /// Starts and ends exactly, hangs together, turns no tighter than allowed, touches nothing.
-inline void expect_drivable(const Site& site, const Pose2& from, const Pose2& to,
-                            const std::vector<PathPiece>& pieces, double curvature_per_m) {
+inline void expect_drivable(const Site& site, const controllers::Pose2& from,
+                            const controllers::Pose2& to,
+                            const std::vector<controllers::PathPiece>& pieces,
+                            double curvature_per_m) {
   ASSERT_FALSE(pieces.empty());
-  Pose2 at = from;
-  for (const PathPiece& piece : pieces) {
+  controllers::Pose2 at = from;
+  for (const controllers::PathPiece& piece : pieces) {
     EXPECT_LT((piece.start.p - at.p).norm(), 1e-9);
     EXPECT_NEAR(wrap_angle(piece.start.yaw_rad - at.yaw_rad), 0.0, 1e-9);
     EXPECT_GT(piece.length_m, 0.0);

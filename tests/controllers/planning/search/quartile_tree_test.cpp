@@ -7,7 +7,7 @@
 
 #include "tests/controllers/planning/search/quartile_runs.h"
 
-namespace vinerow::quartile_tree_test {
+namespace vinerow::controllers::quartile_tree_test {
 namespace {
 
 using hand_grids::rover_outline_B;
@@ -154,4 +154,4 @@ TEST(QuartileTree, TheTreesStrokesStartAtTheStartAndTouchNothing) {
 }
 
 }  // namespace
-}  // namespace vinerow::quartile_tree_test
+}  // namespace vinerow::controllers::quartile_tree_test

@@ -7,7 +7,7 @@
 
 #include "tests/controllers/planning/search/quartile_runs.h"
 
-namespace vinerow::rrt_quartile_test {
+namespace vinerow::controllers::rrt_quartile_test {
 namespace {
 
 using hand_grids::length_m;
@@ -143,4 +143,4 @@ TEST(RrtQuartile, SaysWhyThereIsNoWay) {
 }
 
 }  // namespace
-}  // namespace vinerow::rrt_quartile_test
+}  // namespace vinerow::controllers::rrt_quartile_test

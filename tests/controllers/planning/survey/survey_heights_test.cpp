@@ -12,12 +12,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-GroundHeight ground_of(double (*height_m)(double)) {
+controllers::GroundHeight ground_of(double (*height_m)(double)) {
   return [height_m](const Vector2d& p) { return std::optional<double>(height_m(p.x())); };
 }
 
 struct Ramps {
-  std::optional<GroundProfile> profile;
+  std::optional<controllers::GroundProfile> profile;
   std::vector<double> wanted_m;
   std::vector<int> points;
 
@@ -32,12 +32,12 @@ struct Ramps {
   }
 };
 
-Ramps make_ramps(const GroundHeight& ground, const std::vector<Vector2d>& line, double above_m,
-                 double error_m = 2.0, double slope = 0.12) {
+Ramps make_ramps(const controllers::GroundHeight& ground, const std::vector<Vector2d>& line,
+                 double above_m, double error_m = 2.0, double slope = 0.12) {
   Ramps ramps;
-  ramps.profile = std::move(GroundProfile::make(line, ground)).value();
-  ramps.wanted_m = make_wanted_heights(*ramps.profile, above_m, slope);
-  ramps.points = split_ramps(*ramps.profile, ramps.wanted_m, line.size(), error_m);
+  ramps.profile = std::move(controllers::GroundProfile::make(line, ground)).value();
+  ramps.wanted_m = controllers::make_wanted_heights(*ramps.profile, above_m, slope);
+  ramps.points = controllers::split_ramps(*ramps.profile, ramps.wanted_m, line.size(), error_m);
   return ramps;
 }
 
@@ -70,7 +70,7 @@ TEST(SurveyHeights, TakesTheFewestPoints) {
   for (int trial = 0; trial < 6; ++trial) {
     const double a = 3.0 + 5.0 * random.uniform(), b = 15.0 + 30.0 * random.uniform();
     const double c = 6.0 * random.uniform(), d = 6.28 * random.uniform();
-    const GroundHeight ground = [=](const Vector2d& p) {
+    const controllers::GroundHeight ground = [=](const Vector2d& p) {
       return std::optional<double>(a * std::sin(p.x() / b + d) + c * std::sin(p.x() / 11.0));
     };
     const Ramps ramps = make_ramps(ground, {{0, 0}, {240, 0}}, 60.0, 2.0, 10.0);
@@ -116,27 +116,28 @@ TEST(SurveyHeights, FlyAboveWhatIsSteeperThanTheyMayClimb) {
 
 TEST(SurveyHeights, BeginAtTheStartAndClimbAtTheSlope) {
   const auto profile =
-      GroundProfile::make({{0, 0}, {1000, 0}}, ground_of([](double) { return 0.0; })).value();
-  std::vector<double> wanted_m = make_wanted_heights(profile, 60.0, 0.12);
-  EXPECT_NEAR(begin_heights_at(profile, 0.0, 0.12, wanted_m), 500.0, 1.0);
+      controllers::GroundProfile::make({{0, 0}, {1000, 0}}, ground_of([](double) { return 0.0; }))
+          .value();
+  std::vector<double> wanted_m = controllers::make_wanted_heights(profile, 60.0, 0.12);
+  EXPECT_NEAR(controllers::begin_heights_at(profile, 0.0, 0.12, wanted_m), 500.0, 1.0);
   EXPECT_NEAR(wanted_m[profile.at_point(0)], 0.0, 1e-9);
   EXPECT_NEAR(wanted_m[200], 30.0, 0.1);
   EXPECT_NEAR(wanted_m.back(), 60.0, 1e-9);
-  wanted_m = make_wanted_heights(profile, 60.0, 0.12);
-  EXPECT_NEAR(begin_heights_at(profile, 72.0, 0.12, wanted_m), 100.0, 1.0);
-  wanted_m = make_wanted_heights(profile, 60.0, 0.01);
-  EXPECT_TRUE(std::isinf(begin_heights_at(profile, 0.0, 0.01, wanted_m)));
+  wanted_m = controllers::make_wanted_heights(profile, 60.0, 0.12);
+  EXPECT_NEAR(controllers::begin_heights_at(profile, 72.0, 0.12, wanted_m), 100.0, 1.0);
+  wanted_m = controllers::make_wanted_heights(profile, 60.0, 0.01);
+  EXPECT_TRUE(std::isinf(controllers::begin_heights_at(profile, 0.0, 0.01, wanted_m)));
 }
 
 TEST(SurveyHeights, BeyondTheTerrainItsEdgeGoesOn) {
-  const GroundHeight ground = [](const Vector2d& p) {
+  const controllers::GroundHeight ground = [](const Vector2d& p) {
     return p.x() > 100.0 && p.x() < 200.0 ? std::optional(p.x()) : std::nullopt;
   };
-  const auto profile = GroundProfile::make({{0, 0}, {300, 0}}, ground).value();
+  const auto profile = controllers::GroundProfile::make({{0, 0}, {300, 0}}, ground).value();
   EXPECT_NEAR(profile.samples().front().ground_m, 101.0, 1e-9);
   EXPECT_NEAR(profile.samples().back().ground_m, 199.0, 1e-9);
   EXPECT_EQ(profile.beyond_terrain(), 301 - 99);
-  const auto none = GroundProfile::make({{0, 0}, {50, 0}}, ground);
+  const auto none = controllers::GroundProfile::make({{0, 0}, {50, 0}}, ground);
   ASSERT_FALSE(none.ok());
   EXPECT_EQ(none.reason(), "there is no ground below any of it");
 }

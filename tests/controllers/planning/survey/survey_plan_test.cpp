@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-GroundHeight flat() {
+controllers::GroundHeight flat() {
   return [](const Vector2d&) { return std::optional<double>(0.0); };
 }
 
@@ -24,13 +24,13 @@ double hills_m(const Vector2d& p) {
   return 0.045 * p.y() + 4.0 * std::sin(p.x() / 35.0 + p.y() / 150.0) +
          1.5 * std::sin(p.x() / 16.0);
 }
-GroundHeight hills() {
+controllers::GroundHeight hills() {
   return [](const Vector2d& p) { return std::optional<double>(hills_m(p)); };
 }
 
 /// The paper's request (section 2), on the grid of its reference: 10 lanes of 260 m, 45 m apart.
-SurveyRequest make_request() {
-  SurveyRequest request;
+controllers::SurveyRequest make_request() {
+  controllers::SurveyRequest request;
   request.polygon_W = {{0, 0}, {260, 0}, {260, 405}, {0, 405}};
   request.side_overlap = 0.66;
   request.bank_rad = rad_from_deg(35.0);
@@ -43,8 +43,9 @@ Pose start_at(double x, double y, double z, double yaw_rad = 0.0) {
   return {quaternion_from_rpy({0, 0, yaw_rad}), {x, y, z}};
 }
 
-std::string fault_of(const SurveyRequest& request, const GroundHeight& ground = flat()) {
-  const auto plan = plan_survey(request, start_at(-200, -100, 150), ground);
+std::string fault_of(const controllers::SurveyRequest& request,
+                     const controllers::GroundHeight& ground = flat()) {
+  const auto plan = controllers::plan_survey(request, start_at(-200, -100, 150), ground);
   return plan ? "none" : plan.reason();
 }
 
@@ -54,7 +55,7 @@ double height_of_path(const PlannedPath& path, std::size_t i, double share) {
 
 /// A multirotor over a slope of 20 %: what a customer asks for on a field of 0.24 ha.
 TEST(SurveyPlan, RotorcraftKeepsItsHeightOverASlopeAndFliesNoLaps) {
-  SurveyRequest request;
+  controllers::SurveyRequest request;
   request.polygon_W = {{0, 0}, {60, 0}, {60, 40}, {0, 40}};
   request.camera.focal_length_mm = 10.26;
   request.camera.sensor_width_mm = 13.2;
@@ -66,8 +67,10 @@ TEST(SurveyPlan, RotorcraftKeepsItsHeightOverASlopeAndFliesNoLaps) {
   request.max_slope = 0.3;
   request.lane_yaw_rad = 0.0;
   request.rotorcraft = true;
-  const GroundHeight slope = [](const Vector2d& p) { return std::optional<double>(0.2 * p.x()); };
-  const auto plan = plan_survey(request, start_at(-20, -10, -4.0), slope);
+  const controllers::GroundHeight slope = [](const Vector2d& p) {
+    return std::optional<double>(0.2 * p.x());
+  };
+  const auto plan = controllers::plan_survey(request, start_at(-20, -10, -4.0), slope);
   ASSERT_TRUE(plan.ok()) << plan.reason();
   const auto& points = plan->path.points;
   // Straight up from the start to 60 m above it.
@@ -76,26 +79,27 @@ TEST(SurveyPlan, RotorcraftKeepsItsHeightOverASlopeAndFliesNoLaps) {
   EXPECT_EQ(plan->numbers.at("turn_radius_m"), 0.0);
   EXPECT_EQ(plan->numbers.at("run_out_m"), 6.25);  // 5^2 / (2 x 2)
   EXPECT_EQ(plan->numbers.at("climb_way_m"), 0.0);
-  for (const SurveyShot& shot : plan->shots) EXPECT_NEAR(shot.height_m, 60.0, 1.0);
+  for (const controllers::SurveyShot& shot : plan->shots) EXPECT_NEAR(shot.height_m, 60.0, 1.0);
   EXPECT_NEAR(plan->numbers.at("gsd_max_mm"), plan->numbers.at("gsd_mm"),
               plan->numbers.at("gsd_mm") / 60.0);
   // Lanes, their run-outs, the steps between them, there and back: nothing else. Lanes begin half a
   // picture before the field and end half a picture behind it, in whole picture distances.
   double lanes_m = 0.0;
-  for (const SurveyLane& lane : plan->lanes) lanes_m += lane.high_m() - lane.low_m() + 2.0 * 6.25;
+  for (const controllers::SurveyLane& lane : plan->lanes)
+    lanes_m += lane.high_m() - lane.low_m() + 2.0 * 6.25;
   const double across_m = plan->lanes.back().across_m - plan->lanes.front().across_m;
   const double length_m = plan->numbers.at("length_m");
   const double home_m = std::hypot(110.0, 90.0);
   EXPECT_GT(length_m, lanes_m + across_m);
   EXPECT_LT(length_m, 1.03 * (lanes_m + across_m) + 2.0 * home_m);
   request.rotorcraft = false;
-  const auto winged = plan_survey(request, start_at(-20, -10, -4.0), slope);
+  const auto winged = controllers::plan_survey(request, start_at(-20, -10, -4.0), slope);
   ASSERT_TRUE(winged.ok()) << winged.reason();
   EXPECT_GT(winged->numbers.at("length_m"), length_m);
 }
 
 TEST(SurveyPlan, FliesTheSnakeOfThePaper) {
-  const auto plan = plan_survey(make_request(), start_at(-200, -100, 150), flat());
+  const auto plan = controllers::plan_survey(make_request(), start_at(-200, -100, 150), flat());
   ASSERT_TRUE(plan.ok()) << plan.reason();
   const auto& numbers = plan->numbers;
   EXPECT_EQ(numbers.at("lanes"), 10);
@@ -127,11 +131,12 @@ TEST(SurveyPlan, FliesTheSnakeOfThePaper) {
 }
 
 TEST(SurveyPlan, TwentyCornersBecomeAboutFiftyWaypointsOverHills) {
-  SurveyRequest request = make_request();
+  controllers::SurveyRequest request = make_request();
   // Waypoints at the lanes' ends only, as the paper counts: 20 of them.
   request.end_margin = 0.0;
   request.run_out_m = 0.0;
-  const auto plan = plan_survey(request, start_at(-60, 0, 150 + hills_m({-60, 0})), hills());
+  const auto plan =
+      controllers::plan_survey(request, start_at(-60, 0, 150 + hills_m({-60, 0})), hills());
   ASSERT_TRUE(plan.ok()) << plan.reason();
   EXPECT_EQ(plan->numbers.at("corners"), 20);
   int waypoints = 0;  // of lanes and turns
@@ -154,10 +159,10 @@ TEST(SurveyPlan, TwentyCornersBecomeAboutFiftyWaypointsOverHills) {
 }
 
 TEST(SurveyPlan, KeepsTheRampErrorAndTheSlope) {
-  SurveyRequest request = make_request();
+  controllers::SurveyRequest request = make_request();
   request.lane_yaw_rad.reset();
   const auto plan =
-      plan_survey(request, start_at(-200, -100, 150 + hills_m({-200, -100})), hills());
+      controllers::plan_survey(request, start_at(-200, -100, 150 + hills_m({-200, -100})), hills());
   ASSERT_TRUE(plan.ok()) << plan.reason();
   const PlannedPath& path = plan->path;
   double least_m = 1e9, most_m = -1e9;
@@ -180,16 +185,16 @@ TEST(SurveyPlan, KeepsTheRampErrorAndTheSlope) {
 }
 
 TEST(SurveyPlan, SeesEveryPlaceAsOftenAsTheOverlapSays) {
-  for (const Polygon2& polygon :
-       {Polygon2{{0, 0}, {260, 0}, {260, 405}, {0, 405}},
-        Polygon2{{0, 0}, {300, 60}, {420, 300}, {180, 260}, {60, 420}},  // not convex
-        Polygon2{
+  for (const controllers::Polygon2& polygon :
+       {controllers::Polygon2{{0, 0}, {260, 0}, {260, 405}, {0, 405}},
+        controllers::Polygon2{{0, 0}, {300, 60}, {420, 300}, {180, 260}, {60, 420}},  // not convex
+        controllers::Polygon2{
             {0, 0}, {500, 0}, {500, 300}, {400, 300}, {400, 90}, {90, 90}, {90, 300}, {0, 300}}}) {
-    SurveyRequest request = make_request();
+    controllers::SurveyRequest request = make_request();
     request.polygon_W = polygon;
     request.lane_yaw_rad.reset();
     request.height_m = 130.0;
-    const auto plan = plan_survey(request, start_at(-200, -100, 130), flat());
+    const auto plan = controllers::plan_survey(request, start_at(-200, -100, 130), flat());
     ASSERT_TRUE(plan.ok()) << plan.reason();
     EXPECT_EQ(plan->numbers.at("covered_share"), 1.0);
     // A lane alone shows every place 1 / (1 - q) times; the lanes on both sides do.
@@ -197,7 +202,7 @@ TEST(SurveyPlan, SeesEveryPlaceAsOftenAsTheOverlapSays) {
     // Independent of the forecast: the shots' spacing along each lane.
     const double step_m = plan->numbers.at("photo_distance_m");
     for (std::size_t i = 0; i + 1 < plan->shots.size(); ++i) {
-      const SurveyShot &a = plan->shots[i], &b = plan->shots[i + 1];
+      const controllers::SurveyShot &a = plan->shots[i], &b = plan->shots[i + 1];
       const double gap_m = (b.p_W - a.p_W).head<2>().norm();
       if (a.lane == b.lane && gap_m < 80.0) {
         EXPECT_NEAR(gap_m, step_m, 1e-6);
@@ -207,9 +212,9 @@ TEST(SurveyPlan, SeesEveryPlaceAsOftenAsTheOverlapSays) {
 }
 
 TEST(SurveyPlan, TurnsOnlyAsTheAircraftCan) {
-  SurveyRequest request = make_request();
+  controllers::SurveyRequest request = make_request();
   request.side_overlap = 0.80;  // 26.7 m
-  const auto plan = plan_survey(request, start_at(-200, -100, 150), flat());
+  const auto plan = controllers::plan_survey(request, start_at(-200, -100, 150), flat());
   ASSERT_TRUE(plan.ok()) << plan.reason();
   EXPECT_EQ(plan->numbers.at("wide_turns"), 0);
   EXPECT_GT(plan->numbers.at("skipping_turns"), 10);
@@ -229,14 +234,14 @@ TEST(SurveyPlan, TurnsOnlyAsTheAircraftCan) {
     EXPECT_GE((corners[i] - last_turn).norm(), 2.0 * radius_m - 1e-6);
     last_turn = corners[i];
   }
-  request.order = SurveyRequest::Order::kSnake;
-  const auto snake = plan_survey(request, start_at(-200, -100, 150), flat());
+  request.order = controllers::SurveyRequest::Order::kSnake;
+  const auto snake = controllers::plan_survey(request, start_at(-200, -100, 150), flat());
   EXPECT_GT(snake->numbers.at("wide_turns"), 10);
   EXPECT_GT(snake->path.length_m, plan->path.length_m);
 }
 
 TEST(SurveyPlan, RefusesWhatTheCameraCannotDoWithTheNumbersThatWouldWork) {
-  SurveyRequest request = make_request();
+  controllers::SurveyRequest request = make_request();
   request.height_m = request.camera.height_for_gsd_m(0.041);
   EXPECT_EQ(
       fault_of(request),
@@ -261,7 +266,7 @@ TEST(SurveyPlan, RefusesWhatTheCameraCannotDoWithTheNumbersThatWouldWork) {
 }
 
 TEST(SurveyPlan, ATailWindCounts) {
-  SurveyRequest request = make_request();
+  controllers::SurveyRequest request = make_request();
   request.wind_W = {3.5, 0.0};
   EXPECT_NE(fault_of(request).find("15.5 m/s over ground (wind from behind)"), std::string::npos);
   EXPECT_NE(fault_of(request).find("at most 11.5 m/s through this wind"), std::string::npos);
@@ -269,7 +274,7 @@ TEST(SurveyPlan, ATailWindCounts) {
   EXPECT_EQ(fault_of(request), "none");
   request.speed_mps = 12.0;
   request.wind_W = {0.0, 3.5};  // from the side: slower over ground
-  const auto plan = plan_survey(request, start_at(-200, -100, 150), flat());
+  const auto plan = controllers::plan_survey(request, start_at(-200, -100, 150), flat());
   ASSERT_TRUE(plan.ok());
   EXPECT_NEAR(plan->numbers.at("ground_speed_max_mps"), std::sqrt(144.0 - 12.25), 1e-9);
   // Turns are planned for the wind from behind.
@@ -283,26 +288,26 @@ TEST(SurveyPlan, ATailWindCounts) {
 }
 
 TEST(SurveyPlan, RefusesPolygonsThatCrossThemselvesOrLeaveTheTerrain) {
-  SurveyRequest request = make_request();
+  controllers::SurveyRequest request = make_request();
   request.polygon_W = {{0, 0}, {100, 100}, {100, 0}, {0, 100}};
   EXPECT_NE(fault_of(request).find("the polygon cannot be surveyed: its edge from point 1"),
             std::string::npos);
   request = make_request();
-  const GroundHeight small = [](const Vector2d& p) {
+  const controllers::GroundHeight small = [](const Vector2d& p) {
     return p.y() <= 400.0 ? std::optional<double>(0.0) : std::nullopt;
   };
   // (260, 405) towards (130, 202.5): 5 m down is 5.94 m along.
   EXPECT_EQ(fault_of(request, small),
             "point 3 of the polygon at (260.0, 405.0) lies outside the terrain, which begins 6.0 m "
             "from there towards the polygon's middle");
-  const GroundHeight holed = [](const Vector2d& p) {
+  const controllers::GroundHeight holed = [](const Vector2d& p) {
     return (p - Vector2d(100, 100)).norm() > 9.0 ? std::optional<double>(0.0) : std::nullopt;
   };
   EXPECT_NE(fault_of(request, holed).find("the polygon has no terrain at (9"), std::string::npos);
 }
 
 TEST(SurveyPlan, CountsLanesAndPicturesBeforeItPlansThem) {
-  SurveyRequest request = make_request();
+  controllers::SurveyRequest request = make_request();
   request.polygon_W = {{0, 0}, {30e3, 0}, {30e3, 40e3}, {0, 40e3}};
   const std::string fault = fault_of(request);
   EXPECT_EQ(fault.find("30000 m x 40000 m at "), 0u) << fault;
@@ -312,7 +317,7 @@ TEST(SurveyPlan, CountsLanesAndPicturesBeforeItPlansThem) {
 }
 
 TEST(SurveyPlan, ClimbsInLapsWhereTheFirstLaneIsNear) {
-  const auto plan = plan_survey(make_request(), start_at(-150, -60, 0.3, 0.5), flat());
+  const auto plan = controllers::plan_survey(make_request(), start_at(-150, -60, 0.3, 0.5), flat());
   ASSERT_TRUE(plan.ok()) << plan.reason();
   const PlannedPath& path = plan->path;
   // 150 m at 12 % are 1250 m of way.
@@ -334,12 +339,16 @@ TEST(SurveyPlan, ClimbsInLapsWhereTheFirstLaneIsNear) {
     }
   }
   // Into a hillside of 16 % that is not possible, away from it is.
-  const GroundHeight slope = [](const Vector2d& p) { return std::optional<double>(0.16 * p.y()); };
-  const auto uphill = plan_survey(make_request(), start_at(130, -150, -23.0, 0.5 * kPi), slope);
+  const controllers::GroundHeight slope = [](const Vector2d& p) {
+    return std::optional<double>(0.16 * p.y());
+  };
+  const auto uphill =
+      controllers::plan_survey(make_request(), start_at(130, -150, -23.0, 0.5 * kPi), slope);
   ASSERT_FALSE(uphill.ok());
   EXPECT_NE(uphill.reason().find("at 12 % meets the ground at ("), std::string::npos)
       << uphill.reason();
-  EXPECT_TRUE(plan_survey(make_request(), start_at(130, -150, -23.0, -0.5 * kPi), slope).ok());
+  EXPECT_TRUE(
+      controllers::plan_survey(make_request(), start_at(130, -150, -23.0, -0.5 * kPi), slope).ok());
 }
 
 /// Tangents of two turns that follow each other fit between their corners: also on the way to the
@@ -348,10 +357,11 @@ TEST(SurveyPlan, EveryCornerCanBeFlown) {
   for (int place = 0; place < 24; ++place) {
     const double angle = 2.0 * kPi * place / 24.0, away_m = place % 3 == 0 ? 120.0 : 420.0;
     const double height_m = place % 2 == 0 ? 150.0 : 0.0;
-    const auto plan = plan_survey(make_request(),
-                                  start_at(130.0 + away_m * std::cos(angle),
-                                           200.0 + away_m * std::sin(angle), height_m, angle),
-                                  flat());
+    const auto plan =
+        controllers::plan_survey(make_request(),
+                                 start_at(130.0 + away_m * std::cos(angle),
+                                          200.0 + away_m * std::sin(angle), height_m, angle),
+                                 flat());
     ASSERT_TRUE(plan.ok()) << plan.reason();
     const double radius_m = plan->numbers.at("turn_radius_m");
     std::vector<Vector2d> corners;
@@ -381,9 +391,9 @@ TEST(SurveyPlan, EveryCornerCanBeFlown) {
 
 TEST(SurveyPlan, GivesTheSameBitsTwice) {
   const auto plan = [] {
-    return plan_survey(make_request(), start_at(-200, -100, 20), hills()).value();
+    return controllers::plan_survey(make_request(), start_at(-200, -100, 20), hills()).value();
   };
-  const SurveyPlan a = plan(), b = plan();
+  const controllers::SurveyPlan a = plan(), b = plan();
   ASSERT_EQ(a.path.points.size(), b.path.points.size());
   for (std::size_t i = 0; i < a.path.points.size(); ++i) {
     EXPECT_EQ(a.path.points[i].p_W, b.path.points[i].p_W);

@@ -42,7 +42,8 @@ Outcome run(const Values& values, const VehicleDescription& vehicle = plane(),
   context.map = &map;
   Outcome outcome;
   try {
-    const auto planner = make_survey(make_parameters(survey_spec(), values), context);
+    const auto planner =
+        controllers::make_survey(make_parameters(controllers::survey_spec(), values), context);
     const auto path = planner->plan({Eigen::Quaterniond::Identity(), {-300, -100, 150}});
     if (path) {
       outcome.path = *path;

@@ -18,16 +18,16 @@ namespace {
 using Eigen::Vector2d;
 
 /// Lanes of 260 m, 45 m apart, along x: the paper's grid.
-SurveyPlan plan_for(const Vector2d& wind_W) {
-  SurveyRequest request;
+controllers::SurveyPlan plan_for(const Vector2d& wind_W) {
+  controllers::SurveyRequest request;
   request.polygon_W = {{0, 0}, {260, 0}, {260, 315}, {0, 315}};
   request.bank_rad = rad_from_deg(35.0);
   request.stall_speed_mps = 8.4;
   request.lane_yaw_rad = 0.0;
   request.wind_W = wind_W;
   const Pose start{Eigen::Quaterniond::Identity(), {-300, -100, 150}};
-  Result<SurveyPlan> plan =
-      plan_survey(request, start, [](const Vector2d&) { return std::optional<double>(0.0); });
+  Result<controllers::SurveyPlan> plan = controllers::plan_survey(
+      request, start, [](const Vector2d&) { return std::optional<double>(0.0); });
   EXPECT_TRUE(plan.ok()) << plan.reason();
   return std::move(plan).value();
 }
@@ -47,7 +47,7 @@ struct Flight {
   }
 };
 
-Flight fly(const SurveyPlan& plan, const Vector2d& wind_W) {
+Flight fly(const controllers::SurveyPlan& plan, const Vector2d& wind_W) {
   Flight flight;
   const auto& points = plan.path.points;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -88,8 +88,8 @@ TEST(SurveyInWind, LanesAreEnteredAsInStillAirWhereTheWindIsTold) {
   EXPECT_LT(still.worst_m(), 1.0);
   RecordProperty("still_m", std::to_string(still.worst_m()));
   for (const double to_deg : {0.0, 90.0, 135.0, 270.0}) {
-    const Vector2d wind_W = 3.0 * direction(rad_from_deg(to_deg));
-    const SurveyPlan plan = plan_for(wind_W);
+    const Vector2d wind_W = 3.0 * controllers::direction(rad_from_deg(to_deg));
+    const controllers::SurveyPlan plan = plan_for(wind_W);
     EXPECT_EQ(plan.numbers.at("skipping_turns"), 7.0) << to_deg;
     const Flight flight = fly(plan, wind_W);
     EXPECT_FALSE(flight.has_warning) << to_deg;
@@ -104,12 +104,12 @@ TEST(SurveyInWind, LanesAreEnteredAsInStillAirWhereTheWindIsTold) {
 TEST(SurveyInWind, TwoRadiiHoldAUTurnWithItsDrift) {
   for (const double speed_mps : {10.0, 12.0, 15.0}) {
     for (const double bank_deg : {25.0, 35.0, 45.0}) {
-      TurnLimits limits;
+      controllers::TurnLimits limits;
       limits.bank_rad = rad_from_deg(bank_deg);
       limits.bank_rate_radps = rad_from_deg(60.0);
-      HeadingGenerator generator(limits);
+      controllers::HeadingGenerator generator(limits);
       for (const double wind_mps : {0.0, 1.0, 3.0, 5.0}) {
-        SurveyRequest request;
+        controllers::SurveyRequest request;
         request.speed_mps = speed_mps;
         request.bank_rad = limits.bank_rad;
         request.wind_W = {0.0, wind_mps};
@@ -117,9 +117,9 @@ TEST(SurveyInWind, TwoRadiiHoldAUTurnWithItsDrift) {
         // both, turning right.
         const double crab_rad = std::asin(wind_mps / speed_mps);
         generator.start(kPi + crab_rad);
-        const PredictedTurn turn =
-            predict_turn(generator, {0.0, 0.0}, -crab_rad, 0.0, request.wind_W, speed_mps);
-        EXPECT_LE(turn.at_rest.y(), 2.0 * calc_turn_radius_m(request) + 0.3)
+        const controllers::PredictedTurn turn = controllers::predict_turn(
+            generator, {0.0, 0.0}, -crab_rad, 0.0, request.wind_W, speed_mps);
+        EXPECT_LE(turn.at_rest.y(), 2.0 * controllers::calc_turn_radius_m(request) + 0.3)
             << speed_mps << " " << bank_deg << " " << wind_mps;
       }
     }

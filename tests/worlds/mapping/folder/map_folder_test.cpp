@@ -20,7 +20,7 @@
 #include "tests/worlds/mapping/cloud_map_fixture.h"
 #include "worlds/mapping/folder/map_json.h"
 
-namespace vinerow::worlds::map_folder_test {
+namespace vinerow::mapping::map_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -234,14 +234,14 @@ TEST_F(MapFolder, SchemasTakeWhatIsWrittenAndRefuseWhatIsBroken) {
 TEST_F(MapFolder, GeoJsonHasRowsEndsAlleysAndBoundaryWhereTheyAre) {
   const CloudMap& map = test::map_of_world("vineyard");
   save_map(map, folder_ / "map");
-  const io::LocalFrame frame(map.origin);
+  const LocalFrame frame(map.origin);
   const auto features = io::read_geojson(folder_ / "map/rows.geojson");
   std::map<std::string, std::vector<io::GeoFeature>> by_type;
   for (const auto& feature : features) {
     EXPECT_TRUE(feature.has_altitude);
     by_type[feature.property("type")].push_back(feature);
   }
-  const auto place = [&](const io::Geodetic& p) { return frame.to_local(p); };
+  const auto place = [&](const Geodetic& p) { return frame.to_local(p); };
   ASSERT_EQ(by_type["row"].size(), map.map.rows.size());
   ASSERT_EQ(by_type["row_end"].size(), 2 * map.map.rows.size());
   ASSERT_EQ(by_type["mid_row_line"].size(), map.map.alleys.size());
@@ -270,11 +270,11 @@ TEST_F(MapFolder, TerrainLiesWhereGeodesySays) {
   // By the reader of elevation models, which knows nothing of how the file was made.
   const io::ElevationRaster raster = io::read_elevation(folder_ / "map/terrain.tif");
   const io::ElevationLookup lookup(raster);
-  const io::LocalFrame frame(map.origin);
+  const LocalFrame frame(map.origin);
   for (const auto& [i, j] : {std::pair(0, 0), {7, 11}, {terrain.columns - 1, terrain.rows - 1}}) {
     const double x = terrain.corner_W.x() + i * terrain.cell_m;
     const double y = terrain.corner_W.y() + j * terrain.cell_m;
-    const io::Geodetic place = frame.to_geodetic({x, y, terrain.height_m(x, y)});
+    const Geodetic place = frame.to_geodetic({x, y, terrain.height_m(x, y)});
     const std::optional<double> read = lookup.height_m(place.latitude_rad, place.longitude_rad);
     ASSERT_TRUE(read);
     EXPECT_NEAR(*read, place.altitude_m, 2e-3);
@@ -436,4 +436,4 @@ TEST_F(MapFolder, RefusesToWriteWhatIsNotSound) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::map_folder_test
+}  // namespace vinerow::mapping::map_folder_test

@@ -15,7 +15,7 @@
 #include "tests/support/folder_test.h"
 #include "tests/worlds/mapping/cloud_map_fixture.h"
 
-namespace vinerow::worlds::map_gis_test {
+namespace vinerow::mapping::map_gis_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,11 +99,11 @@ TEST_F(MapGis, RastersAreGroundSurfaceAndWhatStandsBetween) {
   const Eigen::Vector2d pole =
       map.map.rows[0].line_W.front().head<2>() + Eigen::Vector2d(5.03, 5.04);
   save_gis(map, cloud_over(map, pole), folder_);
-  const io::LocalFrame frame(map.origin);
+  const LocalFrame frame(map.origin);
   const io::ElevationLookup dtm(io::read_elevation(folder_ / "gis/dtm.tif", ""));
   const io::ElevationLookup dsm(io::read_elevation(folder_ / "gis/dsm.tif", ""));
   const auto at = [&](const io::ElevationLookup& raster, double x, double y) {
-    const io::Geodetic place = frame.to_geodetic({x, y, map.map.terrain->height_m(x, y)});
+    const Geodetic place = frame.to_geodetic({x, y, map.map.terrain->height_m(x, y)});
     const auto height_m = raster.height_m(place.latitude_rad, place.longitude_rad);
     EXPECT_TRUE(height_m.has_value()) << x << " " << y;
     return height_m.value_or(-1e9) - place.altitude_m;
@@ -167,4 +167,4 @@ TEST(RowsCsv, HasALineForEachRow) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::map_gis_test
+}  // namespace vinerow::mapping::map_gis_test

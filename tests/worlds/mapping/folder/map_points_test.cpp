@@ -9,7 +9,7 @@
 #include "tests/support/folder_test.h"
 #include "tests/worlds/mapping/cloud_map_fixture.h"
 
-namespace vinerow::worlds::map_points_test {
+namespace vinerow::mapping::map_points_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ TEST_F(MapPointsFiles, BrokenOnesAreRefusedInASentence) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::map_points_test
+}  // namespace vinerow::mapping::map_points_test

@@ -14,7 +14,7 @@
 #include "tests/worlds/mapping/map_fixture.h"
 #include "worlds/mapping/from_truth/chain_errors.h"
 
-namespace vinerow::worlds::row_mesh_map_test {
+namespace vinerow::mapping::row_mesh_map_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -413,4 +413,4 @@ TEST(RowMeshMap, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::row_mesh_map_test
+}  // namespace vinerow::mapping::row_mesh_map_test

@@ -10,7 +10,7 @@
 #include "tests/worlds/world_fixture.h"
 #include "worlds/mapping/from_truth/map_parameters.h"
 
-namespace vinerow::worlds::world_map_test {
+namespace vinerow::mapping::world_map_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -202,4 +202,4 @@ TEST(WorldMap, ReliefKeepsTheSteepnessOfParcelFUnlessGiven) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::world_map_test
+}  // namespace vinerow::mapping::world_map_test

@@ -7,7 +7,7 @@
 #include "tests/worlds/mapping/grid_search.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::worlds::obstacles_test {
+namespace vinerow::mapping::obstacles_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -131,4 +131,4 @@ TEST(Obstacles, WrongOnesAreNamed) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::obstacles_test
+}  // namespace vinerow::mapping::obstacles_test

@@ -8,7 +8,7 @@
 #include "tests/worlds/mapping/grid_search.h"
 #include "worlds/mapping/grid/rasterise.h"
 
-namespace vinerow::worlds::occupancy_test {
+namespace vinerow::mapping::occupancy_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -184,4 +184,4 @@ TEST(Occupancy, TooManyCellsAndNoBoundaryAreRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::occupancy_test
+}  // namespace vinerow::mapping::occupancy_test

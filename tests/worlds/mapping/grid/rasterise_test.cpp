@@ -9,7 +9,7 @@
 #include "tests/worlds/mapping/grid_search.h"
 #include "worlds/mapping/grid/virtual_walls.h"
 
-namespace vinerow::worlds::rasterise_test {
+namespace vinerow::mapping::rasterise_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -126,4 +126,4 @@ TEST(Rasterise, NoWayLeadsAcrossASegment) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::rasterise_test
+}  // namespace vinerow::mapping::rasterise_test

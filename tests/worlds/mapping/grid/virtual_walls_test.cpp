@@ -6,7 +6,7 @@
 #include "engine/math/angles.h"
 #include "tests/worlds/mapping/grid_search.h"
 
-namespace vinerow::worlds::virtual_walls_test {
+namespace vinerow::mapping::virtual_walls_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -179,4 +179,4 @@ TEST(TurningAreas, TakeTheBoundarysCornersWithThem) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::virtual_walls_test
+}  // namespace vinerow::mapping::virtual_walls_test

@@ -12,7 +12,7 @@
 #include "engine/core/random.h"
 #include "engine/math/angles.h"
 
-namespace vinerow::worlds::enclosing_polygon_test {
+namespace vinerow::mapping::enclosing_polygon_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -446,4 +446,4 @@ TEST(EnclosingPolygon, RefusesWhatHasNoPolygon) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::enclosing_polygon_test
+}  // namespace vinerow::mapping::enclosing_polygon_test

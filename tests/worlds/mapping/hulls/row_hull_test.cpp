@@ -11,7 +11,7 @@
 #include "worlds/mapping/hulls/row_sections.h"
 #include "worlds/mapping/hulls/section_directions.h"
 
-namespace vinerow::worlds::row_hull_test {
+namespace vinerow::mapping::row_hull_test {
 namespace {
 
 using test::Sampling;
@@ -469,4 +469,4 @@ TEST(RowHull, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::row_hull_test
+}  // namespace vinerow::mapping::row_hull_test

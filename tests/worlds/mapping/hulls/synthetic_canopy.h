@@ -101,20 +101,20 @@ inline SectionAt ellipse(double half_width_m, double half_height_m, double middl
 }
 
 struct VineRow {
-  worlds::RowCanopy canopy;
+  mapping::RowCanopy canopy;
   double volume_m3 = 0.0;  ///< of the mesh that was sampled
 };
 
 /// The canopy of a simulated row: vines that differ, lumps, rounded ends, sides seen with 0.4 of
 /// the density and no underside.
 inline VineRow vine_row(int row, double length_m, Sampling sampling) {
-  const worlds::RowCurve line({Eigen::Vector2d(0, 0), Eigen::Vector2d(length_m, 0)});
+  const mapping::RowCurve line({Eigen::Vector2d(0, 0), Eigen::Vector2d(length_m, 0)});
   const worlds::CanopyParams params;
   RandomStream shape_random(8, "", std::to_string(row)), random(7, "", std::to_string(row));
   const worlds::CanopyShape shape(params, length_m, static_cast<int>(length_m / 0.9), shape_random);
   const TriangleMesh mesh = worlds::make_canopy_hull(
       line, [](double, double) { return 0.0; }, {{0.0, length_m, &shape}}, params);
-  VineRow result{{row, line, {}}, worlds::mesh_volume_m3(mesh)};
+  VineRow result{{row, line, {}}, mapping::mesh_volume_m3(mesh)};
   sampling.side_share = 0.4;
   sampling.underside = false;
   sample(mesh, sampling, random, result.canopy.points);

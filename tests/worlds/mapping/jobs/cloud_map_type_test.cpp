@@ -12,7 +12,7 @@
 #include "worlds/mapping/folder/map_frame.h"
 #include "worlds/mapping/grid/occupancy.h"
 
-namespace vinerow::worlds::cloud_map_type_test {
+namespace vinerow::mapping::cloud_map_type_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -50,7 +50,7 @@ class CloudMapType : public ::testing::Test {
 
 /// The same place seen from another origin, by geodesy alone.
 GeoOrigin origin_beside(const GeoOrigin& origin, const Vector3d& way) {
-  const io::Geodetic place = io::LocalFrame(origin).to_geodetic(way);
+  const Geodetic place = LocalFrame(origin).to_geodetic(way);
   return {place.latitude_rad, place.longitude_rad, place.altitude_m};
 }
 
@@ -103,7 +103,7 @@ TEST_F(CloudMapType, MovesAMapOfAnotherOriginToWhereItIs) {
   const GeoOrigin stone = origin_beside(truth().origin, {-700.0, 560.0, 85.0});
   move_map(stone, moved);
   // Every point by geodesy.
-  const io::LocalFrame from(truth().origin), to(stone);
+  const LocalFrame from(truth().origin), to(stone);
   const auto there = [&](const Vector3d& p) { return to.to_local(from.to_geodetic(p)); };
   for (std::size_t k = 0; k < moved.map.rows.size(); ++k) {
     for (std::size_t i = 0; i < moved.map.rows[k].line_W.size(); ++i) {
@@ -262,4 +262,4 @@ TEST_F(CloudMapType, RefusesAFolderThatIsNoMap) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::cloud_map_type_test
+}  // namespace vinerow::mapping::cloud_map_type_test

@@ -47,7 +47,7 @@ class FlownSurvey : public ::testing::Test {
         run_vinerow("run " + scenario + " --quiet --out " + (folder_.path() / "run").string());
     if (flown.status != 0) throw std::runtime_error(flown.output);
     scenario_ = scenario;
-    world_ = build_world(io::load_scenario(scenario, test::all_parts()), test::all_parts());
+    world_ = build_world(scenario::load_scenario(scenario, test::all_parts()), test::all_parts());
     scene_ = std::make_unique<physics::WorldScene>(*world_);
   }
   JobContext context(const std::string& name) const {
@@ -58,8 +58,8 @@ class FlownSurvey : public ::testing::Test {
   }
   std::shared_ptr<const PictureSet> flown_pictures() const {
     auto pictures = std::make_shared<PictureSet>();
-    const io::Scenario scenario = io::load_scenario(scenario_, test::all_parts());
-    for (const io::NamedPart& sensor : scenario.vehicles.at(0).sensors) {
+    const scenario::Scenario scenario = scenario::load_scenario(scenario_, test::all_parts());
+    for (const scenario::NamedPart& sensor : scenario.vehicles.at(0).sensors) {
       if (sensor.name == "camera") pictures->camera = read_survey_camera(sensor.part.parameters);
     }
     const record::LogReader log(folder_.path() / "run" / "log.mcap");
@@ -133,9 +133,9 @@ TEST_F(FlownSurvey, JobsMakeTheBytesThatTheCommandsMake) {
                         ->run(test::pictures_input(flown_pictures()));
   ASSERT_TRUE(made) << made.reason();
   EXPECT_TRUE(read_text(made->product.file) == read_text(cloud));
-  const worlds::CloudTruth own =
-      worlds::read_cloud_truth(worlds::truth_file_of(made->product.file));
-  const worlds::CloudTruth theirs = worlds::read_cloud_truth(worlds::truth_file_of(cloud));
+  const mapping::CloudTruth own =
+      mapping::read_cloud_truth(mapping::truth_file_of(made->product.file));
+  const mapping::CloudTruth theirs = mapping::read_cloud_truth(mapping::truth_file_of(cloud));
   EXPECT_EQ(own.volume_m3, theirs.volume_m3);
   EXPECT_EQ(own.sampling.density_per_m2, theirs.sampling.density_per_m2);
   EXPECT_EQ(made->numbers.at("points"), static_cast<double>(theirs.sampling.points));
@@ -187,18 +187,18 @@ TEST(CloudMapJob, GivesTheMapThatItsFolderHoldsForVehicles) {
                                   {{"cloud", test::make_cloud(folder.path() / "cloud")}});
   ASSERT_TRUE(made) << made.reason();
   EXPECT_EQ(made->product.file, folder.path() / "map");
-  const auto points = worlds::load_map_points(made->product.file);
+  const auto points = mapping::load_map_points(made->product.file);
   ASSERT_TRUE(points);
-  const worlds::ParcelCloud cloud =
-      worlds::read_classified_cloud(*points, folder.path() / "cloud" / "cloud.las");
-  const worlds::CloudMapReport report = worlds::load_map(made->product.file).report;
-  EXPECT_EQ(std::count(cloud.classes.begin(), cloud.classes.end(), worlds::PointClass::kCanopy),
+  const mapping::ParcelCloud cloud =
+      mapping::read_classified_cloud(*points, folder.path() / "cloud" / "cloud.las");
+  const mapping::CloudMapReport report = mapping::load_map(made->product.file).report;
+  EXPECT_EQ(std::count(cloud.classes.begin(), cloud.classes.end(), mapping::PointClass::kCanopy),
             report.canopy_points);
   EXPECT_EQ(std::ssize(cloud.classes), report.points);
   ParameterSet of_folder = test::map_parameters("cloud_map");
   of_folder.set("folder", made->product.file.string());
   const auto told =
-      worlds::make_map_of_folder(of_folder, test::surveyed_world("vineyard").context());
+      mapping::make_map_of_folder(of_folder, test::surveyed_world("vineyard").context());
   const RowMap& map = *made->product.map;
   ASSERT_EQ(map.rows.size(), told->rows.size());
   for (std::size_t r = 0; r < map.rows.size(); ++r) {
@@ -251,7 +251,7 @@ TEST(PhotogrammetryJob, MissingRowsLackTheirCanopyAndNothingElseChanges) {
   std::vector<const io::CloudPoint*> expected;
   std::size_t canopy_of[4] = {0, 0, 0, 0};
   for (const io::CloudPoint& point : all) {
-    const bool canopy = point.classification == static_cast<int>(worlds::PointClass::kCanopy);
+    const bool canopy = point.classification == static_cast<int>(mapping::PointClass::kCanopy);
     const std::size_t row = row_of(point.position);
     if (canopy) ++canopy_of[row];
     if (!canopy || (row != 0 && row != 2)) expected.push_back(&point);

@@ -8,7 +8,7 @@
 
 #include "tests/worlds/mapping/photogrammetry/cloud_scene.h"
 
-namespace vinerow::worlds::canopy_volume_test {
+namespace vinerow::mapping::canopy_volume_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -121,4 +121,4 @@ TEST(CanopyByRow, GivesEachPieceToTheNearestRow) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::canopy_volume_test
+}  // namespace vinerow::mapping::canopy_volume_test

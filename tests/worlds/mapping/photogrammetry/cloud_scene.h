@@ -74,15 +74,15 @@ inline SurveyCamera square_camera() {
 
 /// All points of a cloud.
 struct Collected {
-  std::vector<worlds::SampledPoint> points;
-  worlds::CloudSink sink() {
-    return [this](std::span<const worlds::SampledPoint> more) {
+  std::vector<mapping::SampledPoint> points;
+  mapping::CloudSink sink() {
+    return [this](std::span<const mapping::SampledPoint> more) {
       points.insert(points.end(), more.begin(), more.end());
     };
   }
   bool operator==(const Collected& other) const {
     return std::equal(points.begin(), points.end(), other.points.begin(), other.points.end(),
-                      [](const worlds::SampledPoint& a, const worlds::SampledPoint& b) {
+                      [](const mapping::SampledPoint& a, const mapping::SampledPoint& b) {
                         return a.p_W == b.p_W && a.rgb == b.rgb && a.truth == b.truth;
                       });
   }

@@ -11,7 +11,7 @@
 #include "tests/worlds/mapping/photogrammetry/cloud_scene.h"
 #include "tests/worlds/world_fixture.h"
 
-namespace vinerow::worlds::cloud_truth_test {
+namespace vinerow::mapping::cloud_truth_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -175,4 +175,4 @@ TEST(TruthFileName, StandsBesideTheCloud) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::cloud_truth_test
+}  // namespace vinerow::mapping::cloud_truth_test

@@ -10,7 +10,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow::worlds::georeference_test {
+namespace vinerow::mapping::georeference_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -185,4 +185,4 @@ TEST(Georeference, DirectTakesWhatTheVehicleTold) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::georeference_test
+}  // namespace vinerow::mapping::georeference_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace vinerow::worlds::map_comparison_test {
+namespace vinerow::mapping::map_comparison_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -147,4 +147,4 @@ TEST(MapComparison, ARowHalfASpacingAwayIsAnother) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::map_comparison_test
+}  // namespace vinerow::mapping::map_comparison_test

@@ -8,7 +8,7 @@
 #include "engine/math/polygon.h"
 #include "tests/worlds/mapping/photogrammetry/cloud_scene.h"
 
-namespace vinerow::worlds::photogrammetry_test {
+namespace vinerow::mapping::photogrammetry_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -315,4 +315,4 @@ TEST(SurveyArea, RefusesWhatIsNoArea) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::photogrammetry_test
+}  // namespace vinerow::mapping::photogrammetry_test

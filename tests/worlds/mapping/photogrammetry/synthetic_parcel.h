@@ -54,14 +54,14 @@ struct SyntheticParcel {
 };
 
 struct SyntheticCloud {
-  worlds::ParcelCloud cloud;
+  mapping::ParcelCloud cloud;
   int missing_vines = 0;
 };
 
 inline SyntheticCloud make_synthetic_cloud(const SyntheticParcel& parcel) {
   RandomStream random(parcel.seed, "", "synthetic_parcel");
   SyntheticCloud made;
-  worlds::ParcelCloud& cloud = made.cloud;
+  mapping::ParcelCloud& cloud = made.cloud;
   cloud.origin_W = {std::round(parcel.middle_W.x()), std::round(parcel.middle_W.y()),
                     std::round(parcel.middle_W.z())};
   const auto add = [&](const Eigen::Vector2d& p, double height_m) {

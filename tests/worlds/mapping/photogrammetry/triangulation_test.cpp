@@ -5,7 +5,7 @@
 #include "engine/core/random.h"
 #include "tests/worlds/mapping/photogrammetry/cloud_scene.h"
 
-namespace vinerow::worlds::triangulation_test {
+namespace vinerow::mapping::triangulation_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -118,4 +118,4 @@ TEST(Triangulation, DrawnErrorsHaveItsCovariance) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::triangulation_test
+}  // namespace vinerow::mapping::triangulation_test

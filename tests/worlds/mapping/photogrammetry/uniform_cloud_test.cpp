@@ -6,7 +6,7 @@
 #include "engine/core/error.h"
 #include "tests/worlds/mapping/photogrammetry/cloud_scene.h"
 
-namespace vinerow::worlds::uniform_cloud_test {
+namespace vinerow::mapping::uniform_cloud_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -156,4 +156,4 @@ TEST(UniformCloud, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::uniform_cloud_test
+}  // namespace vinerow::mapping::uniform_cloud_test

@@ -12,7 +12,7 @@
 #include "tests/worlds/mapping/photogrammetry/synthetic_parcel.h"
 #include "worlds/mapping/grid/virtual_walls.h"
 
-namespace vinerow::worlds::make_cloud_map_test {
+namespace vinerow::mapping::make_cloud_map_test {
 namespace {
 
 using test::SyntheticParcel;
@@ -446,4 +446,4 @@ TEST(MakeCloudMap, RefusesOptionsThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::make_cloud_map_test
+}  // namespace vinerow::mapping::make_cloud_map_test

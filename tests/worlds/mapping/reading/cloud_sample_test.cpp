@@ -7,7 +7,7 @@
 
 #include "worlds/mapping/reading/repeated_places.h"
 
-namespace vinerow::worlds::cloud_sample_test {
+namespace vinerow::mapping::cloud_sample_test {
 namespace {
 
 TEST(CloudSample, KeepsAllOfFew) {
@@ -104,4 +104,4 @@ TEST(RepeatedPlaces, TenMillionPointsInOneSpotTakeNoMemory) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::cloud_sample_test
+}  // namespace vinerow::mapping::cloud_sample_test

@@ -15,14 +15,14 @@
 #include "tests/support/data.h"
 #include "tests/support/folder_test.h"
 
-namespace vinerow::worlds::read_cloud_test {
+namespace vinerow::mapping::read_cloud_test {
 namespace {
 
 /// 60 m by 40 m of ground around (45, 9.5), 120 to 123 m high, as latitude, longitude and height.
-std::vector<io::Geodetic> geodetic_parcel(std::size_t count) {
-  const io::LocalFrame local({rad_from_deg(45.0), rad_from_deg(9.5), 121.5});
+std::vector<Geodetic> geodetic_parcel(std::size_t count) {
+  const LocalFrame local({rad_from_deg(45.0), rad_from_deg(9.5), 121.5});
   RandomStream random(7, "", "parcel");
-  std::vector<io::Geodetic> places;
+  std::vector<Geodetic> places;
   for (std::size_t k = 0; k < count; ++k) {
     places.push_back(local.to_geodetic(
         {random.uniform(-30, 30), random.uniform(-20, 20), random.uniform(-1.5, 1.5)}));
@@ -75,9 +75,9 @@ class ReadCloud : public test::FolderTest {
 };
 
 TEST_F(ReadCloud, GeoreferencedPointsComeToAnOriginInTheirMiddle) {
-  const std::vector<io::Geodetic> places = geodetic_parcel(500);
+  const std::vector<Geodetic> places = geodetic_parcel(500);
   std::vector<Eigen::Vector3d> utm;
-  for (const io::Geodetic& place : places) {
+  for (const Geodetic& place : places) {
     const Eigen::Vector2d en = io::utm32(place.latitude_rad, place.longitude_rad);
     utm.emplace_back(en.x(), en.y(), place.altitude_m);
   }
@@ -102,7 +102,7 @@ TEST_F(ReadCloud, GeoreferencedPointsComeToAnOriginInTheirMiddle) {
   EXPECT_EQ(cloud.origin_W, Eigen::Vector3d(cloud.origin_W.array().round()));
   EXPECT_LT(cloud.origin_W.norm(), 3.0);
 
-  const io::LocalFrame local(report_.origin);
+  const LocalFrame local(report_.origin);
   ASSERT_EQ(cloud.points.size(), places.size());
   EXPECT_EQ(report_.points, places.size());
   EXPECT_TRUE(cloud.colours.empty());
@@ -115,7 +115,7 @@ TEST_F(ReadCloud, GeoreferencedPointsComeToAnOriginInTheirMiddle) {
 
 TEST_F(ReadCloud, TheOriginGivenIsTheOrigin) {
   std::string text;
-  for (const io::Geodetic& place : geodetic_parcel(50)) {
+  for (const Geodetic& place : geodetic_parcel(50)) {
     std::ostringstream line;
     line.precision(12);
     line << deg_from_rad(place.longitude_rad) << " " << deg_from_rad(place.latitude_rad) << " "
@@ -128,8 +128,8 @@ TEST_F(ReadCloud, TheOriginGivenIsTheOrigin) {
   const ParcelCloud cloud = read_parcel_cloud(write("a.xyz", text), options, report_);
   EXPECT_EQ(report_.origin.latitude_rad, options.origin->latitude_rad);
   EXPECT_EQ(report_.origin.altitude_m, 100.0);
-  const io::LocalFrame local(*options.origin);
-  const std::vector<io::Geodetic> places = geodetic_parcel(50);
+  const LocalFrame local(*options.origin);
+  const std::vector<Geodetic> places = geodetic_parcel(50);
   for (std::size_t k = 0; k < places.size(); ++k) {
     EXPECT_LT((cloud.point_W(k) - local.to_local(places[k])).norm(), 1e-4);
   }
@@ -348,7 +348,7 @@ TEST_F(ReadCloud, OneLineIsRefused) {
 
 TEST_F(ReadCloud, DegreesAreRefusedOrUnderstood) {
   std::vector<Eigen::Vector3d> degrees;
-  for (const io::Geodetic& place : geodetic_parcel(500)) {
+  for (const Geodetic& place : geodetic_parcel(500)) {
     degrees.emplace_back(deg_from_rad(place.longitude_rad), deg_from_rad(place.latitude_rad),
                          place.altitude_m);
   }
@@ -417,4 +417,4 @@ TEST_F(ReadCloud, HugeNumbersAreRefused) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::read_cloud_test
+}  // namespace vinerow::mapping::read_cloud_test

@@ -11,7 +11,7 @@
 #include "worlds/mapping/rows/row_points.h"
 #include "worlds/mapping/rows/row_tracking.h"
 
-namespace vinerow::worlds::row_detection_test {
+namespace vinerow::mapping::row_detection_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -386,4 +386,4 @@ TEST(RowPoints, TallWeedsBesideARowAreNotItsCanopy) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::row_detection_test
+}  // namespace vinerow::mapping::row_detection_test

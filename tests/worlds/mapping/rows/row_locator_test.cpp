@@ -8,7 +8,7 @@
 
 #include "engine/core/random.h"
 
-namespace vinerow::worlds::row_locator_test {
+namespace vinerow::mapping::row_locator_test {
 namespace {
 
 std::vector<RowCurve> arcs() {
@@ -87,4 +87,4 @@ TEST(RowLocator, GoesOnBehindTheEndsForAMetre) {
 }
 
 }  // namespace
-}  // namespace vinerow::worlds::row_locator_test
+}  // namespace vinerow::mapping::row_locator_test

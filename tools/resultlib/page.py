@@ -1,4 +1,4 @@
-"""Writes docs/papers/results.md of the table and the numbers, and compares such a page with other numbers."""
+"""Writes docs/papers/results.md from the table and the numbers, and compares such a page with other numbers."""
 
 import math
 import re
@@ -15,7 +15,7 @@ NOT_RUN = "not run"
 
 @dataclass
 class Piece:
-    """Text of the page; of a number also the expression and how far another may be off."""
+    """Text of the page; for a number also the expression and the allowed difference."""
 
     text: str
     number: float | None = None
@@ -36,9 +36,9 @@ def asset_number(file: str, key: str, index: int = 0) -> float:
 
 
 class Page:
-    """@param values_of  (run, path) -> what each seed gave
-    @param tolerance  share by which a number may differ in a comparison, beside its last digit
-    @param skips      (run) -> whether its numbers are left out: any number will do in their place"""
+    """@param values_of  (run, path) -> one value for each seed
+    @param tolerance  allowed relative difference in a comparison, besides the last digit
+    @param skips      (run) -> whether its numbers are skipped: any number is accepted"""
 
     def __init__(self, table: Table, values_of: Callable[[Run, str], list], tolerance: float,
                  skips: Callable[[Run], bool] = lambda run: False):
@@ -50,7 +50,7 @@ class Page:
         return "".join(piece.text for piece in self.pieces)
 
     def add(self, text: str, where: str = "") -> None:
-        """Adds a text with its numbers put in."""
+        """Adds a text with its numbers inserted."""
         at = 0
         for found in NUMBER.finditer(text):
             self.pieces.append(Piece(text[at:found.start()]))
@@ -59,7 +59,7 @@ class Page:
         self.pieces.append(Piece(text[at:]))
 
     def add_rough(self, value: float, form: str, where: str) -> None:
-        """A number that another machine or a part of the runs shares only roughly."""
+        """A number that may differ on another machine or with a part of the runs."""
         self.pieces.append(Piece(format(value, form), value, math.inf, where))
 
     def compared(self) -> int:
@@ -89,7 +89,7 @@ class Page:
         self.pieces.append(Piece(text, float(text), margin, f"{where}: {expression}"))
 
     def differences(self, page: str) -> list[str]:
-        """What of another page is not as in this one: texts to the letter, numbers within their margin."""
+        """Differences of another page from this one: texts exactly, numbers within their margin."""
         differences, at = [], 0
         for piece in self.pieces:
             line = page.count("\n", 0, at) + 1
@@ -116,7 +116,7 @@ class Page:
 
 
 def command_of(run: Run) -> str:
-    """How to make a run by hand."""
+    """Command that reproduces a run."""
     sets = "".join(f" --set '{text}'" for text in run.shown)
     seeds = f", seeds 1 to {run.seeds}" if run.seeds > 1 else ""
     if run.kind == "scenario":
@@ -144,29 +144,29 @@ def write_entry(page: Page, entry: Entry) -> None:
     page.add(f"\n{entry.why.strip()}\n\n", where)
     commands = dict.fromkeys(command_of(page.table.runs[name]) for name in entry.runs())
     if commands:
-        page.add("Made by " + ("" if len(commands) == 1 else "\n- ") + "\n- ".join(commands) + "\n\n")
+        page.add(("Command: " if len(commands) == 1 else "Commands:\n- ") + "\n- ".join(commands) + "\n\n")
 
 
 def write_page(page: Page, runs: int, cpu_s: float) -> None:
     table = page.table
-    page.add("# The three papers' tables and figures, and what comes out here\n\n"
-             "Every table and every figure of papers A, B and C, and what their texts claim in numbers: what is printed, "
-             "what this program gives, the scenario\nthat gives it, and why they differ. This page is made by one command; "
-             "the numbers in its tables are never typed:\n\n"
-             "    tools/results            # builds, runs what is not kept under runs/results, writes this page\n"
+    page.add("# Reproduction of the three papers' results\n\n"
+             "All tables and figures of papers A, B and C, and the numbers in their texts: what is printed, what comes out "
+             "here,\nthe command that produces it, and why they differ. One command writes this page; the numbers in its "
+             "tables are never\ntyped:\n\n"
+             "    tools/results            # builds, runs what is not cached under runs/results, writes this page\n"
              "    tools/results --check    # compares the page with fresh numbers\n"
-             "    tools/results --quick    # the same of what takes seconds\n\n")
-    page.add("What is run and how the numbers are worked out stands in `tools/results.toml`. All of it is ")
+             "    tools/results --quick    # the same for the runs that take seconds\n\n")
+    page.add("`tools/results.toml` defines the runs and how each number is computed. In total: ")
     page.add_rough(runs, ".0f", "runs")
     page.add(" runs, ")
     page.add_rough(cpu_s / 60.0, ".0f", "minutes")
-    page.add(" minutes of one core.\n\n"
-             "The figures themselves were not available to this work, only the texts: a plot is compared with the sentences "
-             "about it. "
-             "Where a paper misprints an equation,\nthe corrected one is used; the pages linked below list them. "
-             "*Reproduced* is what could have failed and comes out as printed or, where no number is printed, "
-             "as the text says. *Taken over* is\nwhat is an input here, or was set so that it comes out. *In part* is what agrees in "
-             "some of its numbers or sentences only.\n\n")
+    page.add(" minutes on one core.\n\n"
+             "Only the texts of the papers were available, not their figures: a plot is compared with the sentences about "
+             "it. If a\npaper misprints an equation, the corrected one is used; the pages linked below list the "
+             "corrections.\n\n"
+             "- *Reproduced*: could have failed, and agrees with the printed numbers or, without any, with the text.\n"
+             "- *In part*: agrees in some of its numbers or sentences only.\n"
+             "- *Taken over*: an input here, or chosen such that it agrees.\n\n")
     verdicts = [verdict for verdict in VERDICTS if any(e.verdict == verdict for e in table.entries)]
     page.add("| entries | " + " | ".join(verdicts) + " |\n" + "|---" * (len(verdicts) + 1) + "|\n")
     for letter in table.papers:
